@@ -1,0 +1,136 @@
+//! `SimulationConfig`: everything that defines a simulation, composed from the parameters of its parts.
+//!
+//! All values are SI and per metre of drum depth. Defaults live in the Python package only: here every field has to
+//! be given, and unknown fields are refused.
+
+use serde::{Deserialize, Serialize};
+
+use crate::contact::linear::LinearParameters;
+use crate::drum::DrumParameters;
+use crate::drum::rotation::RotationSchedule;
+use crate::error::{Error, require_finite, require_non_negative, require_positive};
+
+/// A complete simulation, as it crosses the border from Python in JSON.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SimulationConfig {
+    /// Rim, baffles and straight walls.
+    pub drum: DrumParameters,
+    /// Angular velocity over time.
+    pub rotation: RotationSchedule,
+    /// The bundles.
+    pub load: LoadParameters,
+    /// The contact laws.
+    pub contact: ContactParameters,
+    /// Gravity [m/s²], (x, y).
+    pub gravity: [f64; 2],
+    /// Time step, recording, guards.
+    pub run: RunParameters,
+}
+
+/// The load: equal discs. (A given initial state may hold discs of any size.)
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LoadParameters {
+    /// Number of bundles.
+    pub count: usize,
+    /// Diameter d [m].
+    pub diameter: f64,
+    /// Density ρ [kg/m³]; a bundle's mass is ρ π d²/4 per metre of depth.
+    pub density: f64,
+    /// Every bundle starts with this speed [m/s] in a random direction; 0 starts at rest.
+    pub start_speed: f64,
+    /// Bundles do not spin, as if their moment of inertia were infinite.
+    pub spin_locked: bool,
+}
+
+/// One law for two bundles, one for a bundle and the drum.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ContactParameters {
+    /// Bundle against bundle.
+    pub bundle: LinearParameters,
+    /// Bundle against rim, baffle or wall.
+    pub drum: LinearParameters,
+}
+
+/// How to run: time step, recording intervals, guards.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RunParameters {
+    /// Time step [s]; none takes the shortest collision time / 50.
+    pub time_step: Option<f64>,
+    /// Interval between samples of the series [s].
+    pub sample_every: f64,
+    /// Interval between frames [s].
+    pub frame_every: f64,
+    /// Margin of the neighbour list [m]; none takes the measured best. It never changes a result.
+    pub skin: Option<f64>,
+    /// Greatest overlap allowed, as a fraction of the smaller radius.
+    pub overlap_limit: f64,
+}
+
+impl SimulationConfig {
+    /// Reads a configuration from JSON and checks it.
+    ///
+    /// # Errors
+    /// `Error::Config` naming the key, the value and the limit.
+    pub fn from_json(text: &str) -> Result<Self, Error> {
+        let config: Self = serde_json::from_str(text)
+            .map_err(|error| Error::config("config", format!("'{error}'"), "valid JSON with every field"))?;
+        config.validate()?;
+        Ok(config)
+    }
+
+    /// The configuration as JSON; reading it back gives the same bits.
+    pub fn to_json(&self) -> String {
+        serde_json::to_string(self).expect("a tree of plain structs always serializes")
+    }
+
+    /// Checks every field against its limits, and the fields against each other.
+    pub fn validate(&self) -> Result<(), Error> {
+        self.drum.validate()?;
+        self.rotation.validate()?;
+        self.load.validate(self.drum.radius)?;
+        self.contact.bundle.validate("contact.bundle")?;
+        self.contact.drum.validate("contact.drum")?;
+        for component in self.gravity {
+            require_finite("gravity", component)?;
+        }
+        self.run.validate()
+    }
+}
+
+impl LoadParameters {
+    fn validate(&self, drum_radius: Option<f64>) -> Result<(), Error> {
+        require_positive("load.diameter", self.diameter)?;
+        require_positive("load.density", self.density)?;
+        require_non_negative("load.start_speed", self.start_speed)?;
+        match drum_radius {
+            Some(radius) if self.diameter >= 2.0 * radius => Err(Error::config(
+                "load.diameter",
+                self.diameter,
+                format!("smaller than the drum's diameter {}", 2.0 * radius),
+            )),
+            _ => Ok(()),
+        }
+    }
+}
+
+impl RunParameters {
+    fn validate(&self) -> Result<(), Error> {
+        if let Some(time_step) = self.time_step {
+            require_positive("run.time_step", time_step)?;
+        }
+        require_positive("run.sample_every", self.sample_every)?;
+        require_positive("run.frame_every", self.frame_every)?;
+        if let Some(skin) = self.skin {
+            require_non_negative("run.skin", skin)?;
+        }
+        if self.overlap_limit > 0.0 && self.overlap_limit < 1.0 {
+            Ok(())
+        } else {
+            Err(Error::config("run.overlap_limit", self.overlap_limit, "between 0 and 1"))
+        }
+    }
+}

@@ -1,0 +1,3 @@
+//! drumrs: loads tumbling in a rotating drum, simulated as discs with soft contacts.
+pub mod error;
+pub mod vector;
