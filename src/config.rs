@@ -101,8 +101,14 @@ impl SimulationConfig {
     }
 }
 
+/// Ids are 32 bits wide, and so are slots, of which a bundle has a few.
+const MOST_BUNDLES: usize = 100_000_000;
+
 impl LoadParameters {
     fn validate(&self, drum_radius: Option<f64>) -> Result<(), Error> {
+        if self.count == 0 || self.count > MOST_BUNDLES {
+            return Err(Error::config("load.count", self.count, format!("between 1 and {MOST_BUNDLES}")));
+        }
         require_positive("load.diameter", self.diameter)?;
         require_positive("load.density", self.density)?;
         require_non_negative("load.start_speed", self.start_speed)?;

@@ -31,6 +31,9 @@ pub struct Rotation {
 }
 
 impl Rotation {
+    /// No rotation.
+    pub const IDENTITY: Self = Self { cos: 1.0, sin: 0.0 };
+
     /// The rotation by `angle` [rad], with bits that are the same on every platform.
     pub fn new(angle: f64) -> Self {
         let (sin, cos) = libm::sincos(angle);

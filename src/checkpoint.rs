@@ -1,0 +1,161 @@
+//! Checkpoints: a versioned, digested snapshot of configuration and state, from which a run goes on bit for bit.
+//!
+//! Layout: magic (8 bytes), version (u32, little endian), SHA-256 of the rest (32 bytes), the rest in postcard.
+
+use std::fs::{self, File};
+use std::io::Write;
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+use sha2::{Digest, Sha256};
+
+use crate::PHYSICS_VERSION;
+use crate::config::SimulationConfig;
+use crate::contact::laws::Laws;
+use crate::contact::table::{Contact, ContactTable, SlotRows};
+use crate::error::Error;
+use crate::particles::Particles;
+use crate::simulation::Simulation;
+use crate::state::{State, TouchingContacts};
+
+const MAGIC: &[u8; 8] = b"DRUMRS\r\n";
+const VERSION: u32 = 1;
+const HEADER: usize = MAGIC.len() + 4 + 32;
+
+#[derive(Serialize, Deserialize)]
+struct Snapshot {
+    physics_version: u32,
+    config: String,
+    seed: u64,
+    state: State,
+    contacts: TouchingContacts,
+}
+
+fn refuse(reason: impl Into<String>) -> Error {
+    Error::Checkpoint { reason: reason.into() }
+}
+
+impl Simulation {
+    /// This simulation as bytes.
+    ///
+    /// # Errors
+    /// The error that stopped the simulation, if one did: there is nothing good to keep.
+    pub fn to_checkpoint(&self) -> Result<Vec<u8>, Error> {
+        if let Some(failure) = self.failure() {
+            return Err(failure.clone());
+        }
+        let snapshot = Snapshot {
+            physics_version: PHYSICS_VERSION,
+            config: self.config().to_json(),
+            seed: self.seed(),
+            state: self.state().clone(),
+            contacts: TouchingContacts {
+                pairs: self.contacts().pairs.touching().collect(),
+                walls: self.contacts().walls.touching().collect(),
+            },
+        };
+        let body = postcard::to_stdvec(&snapshot).map_err(|error| refuse(error.to_string()))?;
+        let mut bytes = Vec::with_capacity(HEADER + body.len());
+        bytes.extend_from_slice(MAGIC);
+        bytes.extend_from_slice(&VERSION.to_le_bytes());
+        bytes.extend_from_slice(&Sha256::digest(&body));
+        bytes.extend_from_slice(&body);
+        Ok(bytes)
+    }
+
+    /// The simulation that these bytes hold.
+    ///
+    /// # Errors
+    /// `Error::Checkpoint` saying why they cannot be used.
+    pub fn from_checkpoint(bytes: &[u8], threads: usize) -> Result<Self, Error> {
+        let snapshot = read(bytes)?;
+        let config =
+            SimulationConfig::from_json(&snapshot.config).map_err(|error| refuse(error.to_string()))?;
+        let contacts = snapshot.contacts;
+        Self::resume(config, snapshot.seed, threads, snapshot.state, move |laws, particles| {
+            restore(&contacts, laws, particles)
+        })
+    }
+
+    /// Writes a checkpoint under a temporary name and renames it, so that `path` always holds a whole one.
+    ///
+    /// # Errors
+    /// `Error::System` naming the path.
+    pub fn save(&self, path: &Path) -> Result<(), Error> {
+        let bytes = self.to_checkpoint()?;
+        write_whole(path, &bytes).map_err(|error| Error::System {
+            action: format!("writing {}", path.display()),
+            reason: error.to_string(),
+        })
+    }
+
+    /// Reads the checkpoint at `path`.
+    ///
+    /// # Errors
+    /// `Error::System` where the file cannot be read, `Error::Checkpoint` where it cannot be used.
+    pub fn load(path: &Path, threads: usize) -> Result<Self, Error> {
+        let bytes = fs::read(path).map_err(|error| Error::System {
+            action: format!("reading {}", path.display()),
+            reason: error.to_string(),
+        })?;
+        Self::from_checkpoint(&bytes, threads)
+    }
+}
+
+fn write_whole(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
+    let mut name = path.file_name().unwrap_or_default().to_owned();
+    name.push(format!(".{}.partial", std::process::id()));
+    let partial = path.with_file_name(name);
+    let written = File::create(&partial).and_then(|mut file| {
+        file.write_all(bytes)?;
+        file.sync_all()
+    });
+    let renamed = written.and_then(|()| fs::rename(&partial, path));
+    if renamed.is_err() {
+        // The first error is the one to tell; a leftover is harmless.
+        let _ = fs::remove_file(&partial);
+    }
+    renamed
+}
+
+fn read(bytes: &[u8]) -> Result<Snapshot, Error> {
+    if bytes.len() < HEADER || !bytes.starts_with(MAGIC) {
+        return Err(refuse("it is not a drumrs checkpoint, or cut short"));
+    }
+    let (version, rest) = bytes[MAGIC.len()..].split_at(4);
+    let (digest, body) = rest.split_at(32);
+    if version != VERSION.to_le_bytes() {
+        let found = version.iter().rev().fold(0_u32, |sum, &byte| (sum << 8) | u32::from(byte));
+        return Err(refuse(format!("it has format version {found}, this drumrs reads version {VERSION}")));
+    }
+    if digest != Sha256::digest(body).as_slice() {
+        return Err(refuse("its content does not match its digest: it is damaged or cut short"));
+    }
+    let snapshot: Snapshot =
+        postcard::from_bytes(body).map_err(|error| refuse(format!("its content is malformed: {error}")))?;
+    if snapshot.physics_version != PHYSICS_VERSION {
+        return Err(refuse(format!(
+            "it was made by physics version {}, this drumrs has version {PHYSICS_VERSION}",
+            snapshot.physics_version
+        )));
+    }
+    Ok(snapshot)
+}
+
+fn restore(contacts: &TouchingContacts, laws: &Laws, particles: &Particles) -> Result<ContactTable, Error> {
+    particles.validate().map_err(|error| refuse(error.to_string()))?;
+    let count = particles.len();
+    let known = |contact: &Contact| (contact.particle as usize) < count;
+    let pairs_known = contacts.pairs.iter().all(|c| known(c) && (c.other as usize) < count);
+    if !pairs_known || !contacts.walls.iter().all(known) {
+        return Err(refuse("a contact names a bundle that is not there"));
+    }
+    if particles.materials.iter().any(|&material| usize::from(material) >= laws.materials()) {
+        return Err(refuse("a bundle is of a material that is not there"));
+    }
+    let body = |id: u32| (particles.materials[id as usize], particles.masses[id as usize]);
+    Ok(ContactTable {
+        pairs: SlotRows::from_contacts(count, &contacts.pairs, |i, j| laws.pair_slot(body(i), body(j))),
+        walls: SlotRows::from_contacts(count, &contacts.walls, |i, _| laws.wall_slot(body(i))),
+    })
+}

@@ -1,0 +1,55 @@
+//! The slots that one task evaluates: shared keys and laws, histories of its own.
+
+use crate::contact::History;
+use crate::contact::laws::SlotLaw;
+use crate::contact::table::SlotRows;
+use crate::threads::CHUNK;
+
+/// One kind of slots of whole chunks of particles.
+#[derive(Debug)]
+pub struct SlotSlice<'a> {
+    /// First slots of the particles from the first chunk on.
+    starts: &'a [u32],
+    /// The particles that own the slots.
+    pub owner: &'a [u32],
+    /// The other sides.
+    pub other: &'a [u32],
+    /// Laws and dampings.
+    pub laws: &'a [SlotLaw],
+    /// What survives the step.
+    pub histories: &'a mut [History],
+}
+
+impl<'a> From<&'a mut SlotRows> for SlotSlice<'a> {
+    fn from(rows: &'a mut SlotRows) -> Self {
+        Self {
+            starts: &rows.starts,
+            owner: &rows.owner,
+            other: &rows.other,
+            laws: &rows.laws,
+            histories: &mut rows.histories,
+        }
+    }
+}
+
+impl SlotSlice<'_> {
+    /// Cuts after the slots of the first `chunks` chunks of particles.
+    pub fn split(self, chunks: usize) -> (Self, Self) {
+        let particles = (chunks * CHUNK).min(self.starts.len() - 1);
+        let at = (self.starts[particles] - self.starts[0]) as usize;
+        let (owner, more_owner) = self.owner.split_at(at);
+        let (other, more_other) = self.other.split_at(at);
+        let (laws, more_laws) = self.laws.split_at(at);
+        let (histories, more_histories) = self.histories.split_at_mut(at);
+        (
+            Self { starts: &self.starts[..=particles], owner, other, laws, histories },
+            Self {
+                starts: &self.starts[particles..],
+                owner: more_owner,
+                other: more_other,
+                laws: more_laws,
+                histories: more_histories,
+            },
+        )
+    }
+}

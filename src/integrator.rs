@@ -1,0 +1,262 @@
+//! Kick, drift, kick: velocity Verlet for centers and spins.
+//!
+//! Between the kicks a particle moves with its half-step velocity; contacts are told that displacement. The velocity at
+//! the end of the step, which the dashpots need before the force is known, is foretold with the last acceleration.
+
+use crate::particles::Particles;
+use crate::threads::{CHUNK, Chunked, Threads, chunk_count};
+use crate::vector::{Vec2, perpendicular};
+
+/// What contacts need of a particle in one step; one cache line.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[repr(C, align(64))]
+pub struct Motion {
+    /// Center at the end of the step [m].
+    pub position: Vec2,
+    /// How it got there [m].
+    pub displacement: Vec2,
+    /// Velocity foretold for the end of the step [m/s].
+    pub velocity: Vec2,
+    /// Angle turned during the step [rad].
+    pub turn: f64,
+    /// Radius [m].
+    pub radius: f64,
+}
+
+/// Sums over particles at the end of the drift.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DriftSums {
+    /// Σ m x [kg].
+    pub mass_moment: Vec2,
+    /// Longest way of a particle in this step as seen from the drum [m].
+    pub longest_way: f64,
+}
+
+/// Force and moment on a particle.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Load {
+    /// Force of all contacts [N/m].
+    pub force: Vec2,
+    /// Their moment about the center [N m/m].
+    pub moment: f64,
+}
+
+/// Scratch of the integrator; nothing in it outlives a step but what follows from the particles' constants.
+#[derive(Debug, Clone)]
+pub struct Integrator {
+    /// What the contacts are told, by particle.
+    pub motions: Vec<Motion>,
+    /// 1/m [m/kg], by particle.
+    inverse_masses: Vec<f64>,
+    /// 1/I, 0 where the spin is locked.
+    inverse_inertias: Vec<f64>,
+    /// Per chunk: Σ m x and the square of the longest way.
+    chunks: Vec<(Vec2, f64)>,
+    time_step: f64,
+    gravity: Vec2,
+}
+
+impl Integrator {
+    /// For these particles at rest in time: the motions say where they are and how fast, with no displacement.
+    pub fn new(particles: &Particles, time_step: f64, gravity: Vec2) -> Self {
+        let still = |i: usize| Motion {
+            position: particles.positions[i],
+            displacement: Vec2::zeros(),
+            velocity: particles.velocities[i],
+            turn: 0.0,
+            radius: particles.radii[i],
+        };
+        let inverse = |value: &f64| if *value > 0.0 { 1.0 / value } else { 0.0 };
+        Self {
+            motions: (0..particles.len()).map(still).collect(),
+            inverse_masses: particles.masses.iter().map(inverse).collect(),
+            inverse_inertias: particles.inertias.iter().map(inverse).collect(),
+            chunks: vec![(Vec2::zeros(), 0.0); chunk_count(particles.len())],
+            time_step,
+            gravity,
+        }
+    }
+
+    /// Half a kick, then the drift, while the drum turns by `turn` [rad].
+    pub fn drift(&mut self, particles: &mut Particles, turn: f64, threads: &Threads) -> DriftSums {
+        let count = particles.len();
+        let (time_step, half_step) = (self.time_step, 0.5 * self.time_step);
+        let work = Drift {
+            positions: &mut particles.positions,
+            velocities: &mut particles.velocities,
+            angles: &mut particles.angles,
+            spins: &mut particles.angular_velocities,
+            accelerations: &particles.accelerations,
+            spin_rates: &particles.angular_accelerations,
+            masses: &particles.masses,
+            motions: &mut self.motions,
+            sums: &mut self.chunks,
+        };
+        threads.for_each_chunk(count, work, &|chunk: Drift| chunk.run(time_step, half_step, turn));
+        let start = (Vec2::zeros(), 0.0_f64);
+        let (mass_moment, longest_squared) =
+            self.chunks.iter().fold(start, |sum, chunk| (sum.0 + chunk.0, sum.1.max(chunk.1)));
+        DriftSums { mass_moment, longest_way: longest_squared.sqrt() }
+    }
+
+    /// Accelerations from the loads and gravity, then the second half of the kick.
+    pub fn kick(&self, particles: &mut Particles, loads: &[Load], threads: &Threads) {
+        let count = particles.len();
+        let (half_step, gravity) = (0.5 * self.time_step, self.gravity);
+        let work = Kick {
+            velocities: &mut particles.velocities,
+            spins: &mut particles.angular_velocities,
+            accelerations: &mut particles.accelerations,
+            spin_rates: &mut particles.angular_accelerations,
+            loads,
+            inverse_masses: &self.inverse_masses,
+            inverse_inertias: &self.inverse_inertias,
+        };
+        threads.for_each_chunk(count, work, &|chunk: Kick| chunk.run(half_step, gravity));
+    }
+
+    /// Accelerations from the loads and gravity alone: the start of a simulation, before the first kick.
+    pub fn accelerate(&self, particles: &mut Particles, loads: &[Load]) {
+        for (i, load) in loads.iter().enumerate() {
+            particles.accelerations[i] = load.force * self.inverse_masses[i] + self.gravity;
+            particles.angular_accelerations[i] = load.moment * self.inverse_inertias[i];
+        }
+    }
+}
+
+struct Drift<'a> {
+    positions: &'a mut [Vec2],
+    velocities: &'a mut [Vec2],
+    angles: &'a mut [f64],
+    spins: &'a mut [f64],
+    accelerations: &'a [Vec2],
+    spin_rates: &'a [f64],
+    masses: &'a [f64],
+    motions: &'a mut [Motion],
+    sums: &'a mut [(Vec2, f64)],
+}
+
+impl Drift<'_> {
+    fn run(self, time_step: f64, half_step: f64, turn: f64) {
+        let mut mass_moment = Vec2::zeros();
+        let mut longest_squared = 0.0_f64;
+        let n = self.motions.len();
+        // Slices of one known length let the compiler drop the bounds checks.
+        let (positions, velocities) = (&mut self.positions[..n], &mut self.velocities[..n]);
+        let (angles, spins) = (&mut self.angles[..n], &mut self.spins[..n]);
+        let (accelerations, spin_rates) = (&self.accelerations[..n], &self.spin_rates[..n]);
+        let masses = &self.masses[..n];
+        for (i, motion) in self.motions.iter_mut().enumerate() {
+            let kick = accelerations[i] * half_step;
+            let velocity = velocities[i] + kick;
+            let displacement = velocity * time_step;
+            let way = displacement - perpendicular(positions[i]) * turn;
+            let position = positions[i] + displacement;
+            let twist = spin_rates[i] * half_step;
+            let spin = spins[i] + twist;
+            let own_turn = spin * time_step;
+            velocities[i] = velocity;
+            positions[i] = position;
+            spins[i] = spin;
+            angles[i] += own_turn;
+            motion.position = position;
+            motion.displacement = displacement;
+            motion.velocity = velocity + kick;
+            motion.turn = own_turn;
+            mass_moment += position * masses[i];
+            longest_squared = longest_squared.max(way.x * way.x + way.y * way.y);
+        }
+        if let Some(sums) = self.sums.first_mut() {
+            *sums = (mass_moment, longest_squared);
+        }
+    }
+}
+
+impl Chunked for Drift<'_> {
+    fn chunks(&self) -> usize {
+        self.sums.len()
+    }
+
+    fn split(self, chunks: usize) -> (Self, Self) {
+        let at = chunks * CHUNK;
+        let (positions, positions_rest) = self.positions.split_at_mut(at);
+        let (velocities, velocities_rest) = self.velocities.split_at_mut(at);
+        let (angles, angles_rest) = self.angles.split_at_mut(at);
+        let (spins, spins_rest) = self.spins.split_at_mut(at);
+        let (accelerations, accelerations_rest) = self.accelerations.split_at(at);
+        let (spin_rates, spin_rates_rest) = self.spin_rates.split_at(at);
+        let (masses, masses_rest) = self.masses.split_at(at);
+        let (motions, motions_rest) = self.motions.split_at_mut(at);
+        let (sums, sums_rest) = self.sums.split_at_mut(chunks);
+        (
+            Self { positions, velocities, angles, spins, accelerations, spin_rates, masses, motions, sums },
+            Self {
+                positions: positions_rest,
+                velocities: velocities_rest,
+                angles: angles_rest,
+                spins: spins_rest,
+                accelerations: accelerations_rest,
+                spin_rates: spin_rates_rest,
+                masses: masses_rest,
+                motions: motions_rest,
+                sums: sums_rest,
+            },
+        )
+    }
+}
+
+struct Kick<'a> {
+    velocities: &'a mut [Vec2],
+    spins: &'a mut [f64],
+    accelerations: &'a mut [Vec2],
+    spin_rates: &'a mut [f64],
+    loads: &'a [Load],
+    inverse_masses: &'a [f64],
+    inverse_inertias: &'a [f64],
+}
+
+impl Kick<'_> {
+    fn run(self, half_step: f64, gravity: Vec2) {
+        let n = self.loads.len();
+        let (velocities, spins) = (&mut self.velocities[..n], &mut self.spins[..n]);
+        let (accelerations, spin_rates) = (&mut self.accelerations[..n], &mut self.spin_rates[..n]);
+        let (inverse_masses, inverse_inertias) = (&self.inverse_masses[..n], &self.inverse_inertias[..n]);
+        for (i, load) in self.loads.iter().enumerate() {
+            let acceleration = load.force * inverse_masses[i] + gravity;
+            let spin_rate = load.moment * inverse_inertias[i];
+            velocities[i] += acceleration * half_step;
+            spins[i] += spin_rate * half_step;
+            accelerations[i] = acceleration;
+            spin_rates[i] = spin_rate;
+        }
+    }
+}
+
+impl Chunked for Kick<'_> {
+    fn chunks(&self) -> usize {
+        chunk_count(self.loads.len())
+    }
+
+    fn split(self, chunks: usize) -> (Self, Self) {
+        let at = chunks * CHUNK;
+        let (velocities, velocities_rest) = self.velocities.split_at_mut(at);
+        let (spins, spins_rest) = self.spins.split_at_mut(at);
+        let (accelerations, accelerations_rest) = self.accelerations.split_at_mut(at);
+        let (spin_rates, spin_rates_rest) = self.spin_rates.split_at_mut(at);
+        let (loads, loads_rest) = self.loads.split_at(at);
+        let (inverse_masses, inverse_masses_rest) = self.inverse_masses.split_at(at);
+        let (inverse_inertias, inverse_inertias_rest) = self.inverse_inertias.split_at(at);
+        (
+            Self { velocities, spins, accelerations, spin_rates, loads, inverse_masses, inverse_inertias },
+            Self {
+                velocities: velocities_rest,
+                spins: spins_rest,
+                accelerations: accelerations_rest,
+                spin_rates: spin_rates_rest,
+                loads: loads_rest,
+                inverse_masses: inverse_masses_rest,
+                inverse_inertias: inverse_inertias_rest,
+            },
+        )
+    }
+}

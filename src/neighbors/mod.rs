@@ -1,0 +1,190 @@
+//! The Verlet list: which bodies may touch before anyone has moved half the margin (the skin) as seen from the drum.
+//!
+//! Distances do not change under rotation, so displacements in the drum's frame serve particle–particle and
+//! particle–drum neighbourhoods alike. When the list is rebuilt never changes a result.
+
+mod cells;
+
+use cells::CellGrid;
+
+use crate::contact::laws::Laws;
+use crate::contact::table::ContactTable;
+use crate::drum::{Drum, RIM};
+use crate::particles::Particles;
+use crate::threads::{CHUNK, Chunked, Threads, chunk_count};
+use crate::vector::{Rotation, Vec2};
+
+/// Decides when to rebuild, and rebuilds.
+#[derive(Debug, Clone)]
+pub struct VerletList {
+    skin: f64,
+    /// Positions at the last build, in the drum's frame.
+    anchors: Vec<Vec2>,
+    /// Greatest distance from the axis at the last build [m].
+    farthest: f64,
+    /// How far anyone may still move before the displacements have to be looked at [m].
+    budget: f64,
+    grid: CellGrid,
+    found: Vec<Candidates>,
+    spare: ContactTable,
+}
+
+/// What one chunk of particles may meet: row by row, ascending.
+#[derive(Debug, Clone, Default)]
+struct Candidates {
+    pairs: Vec<u32>,
+    pair_ends: Vec<u32>,
+    walls: Vec<u32>,
+    wall_ends: Vec<u32>,
+}
+
+/// The parts of a simulation that a list is made from.
+#[derive(Debug, Clone, Copy)]
+pub struct Surroundings<'a> {
+    /// The bundles.
+    pub particles: &'a Particles,
+    /// Rim and outlines.
+    pub drum: &'a Drum,
+    /// The laws of new slots.
+    pub laws: &'a Laws,
+    /// The drum's rotation.
+    pub rotation: Rotation,
+}
+
+impl VerletList {
+    /// A list with the margin `skin` [m] that asks to be built at once.
+    pub fn new(skin: f64, count: usize) -> Self {
+        Self {
+            skin,
+            anchors: Vec::new(),
+            farthest: 0.0,
+            budget: -1.0,
+            grid: CellGrid::default(),
+            found: vec![Candidates::default(); chunk_count(count)],
+            spare: ContactTable::empty(count),
+        }
+    }
+
+    /// Takes note of a step in which nobody moved farther than `longest_way` as seen from the drum, to first order in
+    /// the drum's `turn`. Returns whether displacements have to be looked at.
+    pub fn advance(&mut self, longest_way: f64, turn: f64) -> bool {
+        // The way is measured along the tangent; the arc departs from it by at most |x| turn² / 2.
+        let arc = 0.5 * turn * turn * (self.farthest + self.skin);
+        self.budget -= longest_way + arc;
+        // Written so that a way that is not a number asks, too.
+        !(self.budget > 0.0)
+    }
+
+    /// Whether the list still holds for sure: nobody has moved half the skin, or close to it.
+    pub fn still_holds(&mut self, positions: &[Vec2], rotation: Rotation) -> bool {
+        let half = 0.5 * self.skin;
+        let moved = positions.iter().zip(&self.anchors).fold(0.0_f64, |most, (&position, &anchor)| {
+            most.max((rotation.apply_inverse(position) - anchor).norm_squared())
+        });
+        self.budget = half * ROUND_OFF_MARGIN - moved.sqrt();
+        // A list about to expire is not worth another look at every particle soon after.
+        self.anchors.len() == positions.len() && self.budget > 0.1 * half
+    }
+
+    /// Builds the list anew; `table` keeps every contact that has a history.
+    pub fn rebuild(&mut self, around: Surroundings, table: &mut ContactTable, threads: &Threads) {
+        let particles = around.particles;
+        self.anchors.clear();
+        self.anchors
+            .extend(particles.positions.iter().map(|&position| around.rotation.apply_inverse(position)));
+        self.farthest = particles.positions.iter().fold(0.0_f64, |most, p| most.max(p.norm()));
+        self.budget = 0.5 * self.skin * ROUND_OFF_MARGIN;
+        self.grid.fill(&particles.positions, 2.0 * particles.largest_radius() + self.skin);
+        let search = Search { chunks: &mut self.found, first: 0 };
+        let (grid, anchors, skin) = (&self.grid, &self.anchors, self.skin);
+        threads
+            .for_each_chunk(particles.len(), search, &|chunk: Search| chunk.run(around, grid, anchors, skin));
+        self.merge(around, table);
+    }
+
+    fn merge(&mut self, around: Surroundings, table: &mut ContactTable) {
+        let particles = around.particles;
+        let body = |id: usize| (particles.materials[id], particles.masses[id]);
+        std::mem::swap(table, &mut self.spare);
+        table.clear();
+        for (chunk, found) in self.found.iter().enumerate() {
+            let (mut pair_start, mut wall_start) = (0, 0);
+            for (row, (&pair_end, &wall_end)) in found.pair_ends.iter().zip(&found.wall_ends).enumerate() {
+                let own = body(chunk * CHUNK + row);
+                let pairs = &found.pairs[pair_start..pair_end as usize];
+                let walls = &found.walls[wall_start..wall_end as usize];
+                table
+                    .pairs
+                    .merge_row(&self.spare.pairs, pairs, |j| around.laws.pair_slot(own, body(j as usize)));
+                table.walls.merge_row(&self.spare.walls, walls, |_| around.laws.wall_slot(own));
+                (pair_start, wall_start) = (pair_end as usize, wall_end as usize);
+            }
+        }
+    }
+}
+
+/// Displacements are compared with slightly less than half the skin, which covers the round-off of the rotation.
+const ROUND_OFF_MARGIN: f64 = 1.0 - 1e-6;
+
+struct Search<'a> {
+    chunks: &'a mut [Candidates],
+    /// The chunk that `chunks[0]` is.
+    first: usize,
+}
+
+impl Search<'_> {
+    fn run(self, around: Surroundings, grid: &CellGrid, anchors: &[Vec2], skin: f64) {
+        let Some(found) = self.chunks.first_mut() else { return };
+        found.clear();
+        let start = self.first * CHUNK;
+        for i in start..(start + CHUNK).min(anchors.len()) {
+            found.add_pairs(i, around.particles, grid, skin);
+            found.add_walls(around.drum, anchors[i], around.particles.radii[i] + skin);
+        }
+    }
+}
+
+impl Chunked for Search<'_> {
+    fn chunks(&self) -> usize {
+        self.chunks.len()
+    }
+
+    fn split(self, chunks: usize) -> (Self, Self) {
+        let (left, right) = self.chunks.split_at_mut(chunks);
+        (Self { chunks: left, first: self.first }, Self { chunks: right, first: self.first + chunks })
+    }
+}
+
+impl Candidates {
+    fn clear(&mut self) {
+        self.pairs.clear();
+        self.pair_ends.clear();
+        self.walls.clear();
+        self.wall_ends.clear();
+    }
+
+    /// Adds the particles of higher id within reach of particle `i`.
+    fn add_pairs(&mut self, i: usize, particles: &Particles, grid: &CellGrid, skin: f64) {
+        let position = particles.positions[i];
+        let own_reach = particles.radii[i] + skin;
+        let start = self.pairs.len();
+        grid.for_each_near(position, |members| {
+            let higher = members.iter().filter(|&&j| j as usize > i);
+            self.pairs.extend(higher.filter(|&&j| {
+                let reach = own_reach + particles.radii[j as usize];
+                (particles.positions[j as usize] - position).norm_squared() < reach * reach
+            }));
+        });
+        self.pairs[start..].sort_unstable();
+        self.pair_ends.push(self.pairs.len() as u32);
+    }
+
+    /// Adds the drum's features within `reach` of `center` (in the drum's frame).
+    fn add_walls(&mut self, drum: &Drum, center: Vec2, reach: f64) {
+        if drum.radius().is_some_and(|radius| center.norm() + reach > radius) {
+            self.walls.push(RIM);
+        }
+        drum.features_near(center, reach, &mut self.walls);
+        self.wall_ends.push(self.walls.len() as u32);
+    }
+}

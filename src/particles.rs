@@ -1,0 +1,165 @@
+//! The bundles: structure of arrays, one entry a particle, in id order.
+
+use std::f64::consts::PI;
+
+use serde::{Deserialize, Serialize};
+
+use crate::error::Error;
+use crate::vector::Vec2;
+
+/// Equal-length vectors of everything that a particle is.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct Particles {
+    /// Centers [m].
+    pub positions: Vec<Vec2>,
+    /// Velocities [m/s] at the time of the positions.
+    pub velocities: Vec<Vec2>,
+    /// Angles [rad]; they only serve pictures.
+    pub angles: Vec<f64>,
+    /// Angular velocities [rad/s].
+    pub angular_velocities: Vec<f64>,
+    /// Accelerations of the last force evaluation [m/s²], gravity included.
+    pub accelerations: Vec<Vec2>,
+    /// Angular accelerations of the last force evaluation [rad/s²].
+    pub angular_accelerations: Vec<f64>,
+    /// Radii [m].
+    pub radii: Vec<f64>,
+    /// Masses [kg/m].
+    pub masses: Vec<f64>,
+    /// Moments of inertia I = m r²/2 [kg m]; 0 marks a spin that is locked.
+    pub inertias: Vec<f64>,
+    /// Index of the material each particle is made of.
+    pub materials: Vec<u16>,
+}
+
+impl Particles {
+    /// Discs at rest at `positions`, of the given radii and of one density [kg/m³].
+    pub fn at_rest(positions: Vec<Vec2>, radii: Vec<f64>, density: f64, spin_locked: bool) -> Self {
+        let count = positions.len();
+        let masses: Vec<f64> = radii.iter().map(|radius| density * PI * radius * radius).collect();
+        let inertia =
+            |(mass, radius): (&f64, &f64)| if spin_locked { 0.0 } else { 0.5 * mass * radius * radius };
+        Self {
+            velocities: vec![Vec2::zeros(); count],
+            angles: vec![0.0; count],
+            angular_velocities: vec![0.0; count],
+            accelerations: vec![Vec2::zeros(); count],
+            angular_accelerations: vec![0.0; count],
+            inertias: masses.iter().zip(&radii).map(inertia).collect(),
+            materials: vec![0; count],
+            positions,
+            radii,
+            masses,
+        }
+    }
+
+    /// Number of particles.
+    pub fn len(&self) -> usize {
+        self.positions.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.positions.is_empty()
+    }
+
+    /// Mass of all particles [kg/m].
+    pub fn total_mass(&self) -> f64 {
+        self.masses.iter().sum()
+    }
+
+    /// The largest radius [m], 0 without particles.
+    pub fn largest_radius(&self) -> f64 {
+        self.radii.iter().copied().fold(0.0, f64::max)
+    }
+
+    /// The first particle whose state is not finite.
+    pub fn first_non_finite(&self) -> Option<usize> {
+        (0..self.len()).find(|&i| {
+            let numbers = [
+                self.positions[i].x,
+                self.positions[i].y,
+                self.velocities[i].x,
+                self.velocities[i].y,
+                self.angles[i],
+                self.angular_velocities[i],
+            ];
+            numbers.iter().any(|number| !number.is_finite())
+        })
+    }
+
+    /// Kinetic energies (of translation, of rotation) [J/m] in the form ½ m v₋·v₊ over the velocities half a step
+    /// before and after: with it, the work of a leapfrog step is exactly the trapezoid of the forces. The half-step
+    /// velocities are v ∓ a h with h half the time step, so v₋·v₊ = v² − (a h)².
+    pub fn kinetic_energies(&self, half_step: f64) -> (f64, f64) {
+        let mut translation = 0.0;
+        let mut rotation = 0.0;
+        for i in 0..self.len() {
+            let kick = self.accelerations[i] * half_step;
+            let twist = self.angular_accelerations[i] * half_step;
+            let speed = self.angular_velocities[i];
+            translation += 0.5 * self.masses[i] * (self.velocities[i].norm_squared() - kick.norm_squared());
+            rotation += 0.5 * self.inertias[i] * (speed * speed - twist * twist);
+        }
+        (translation, rotation)
+    }
+
+    /// Σ m (x × v) + I ω about the drum's axis [kg m/s].
+    pub fn angular_momentum(&self) -> f64 {
+        (0..self.len()).fold(0.0, |sum, i| {
+            let moment = crate::vector::cross(self.positions[i], self.velocities[i]);
+            sum + self.masses[i] * moment + self.inertias[i] * self.angular_velocities[i]
+        })
+    }
+
+    /// Checks that all vectors have one length and hold usable numbers, as after reading them from outside.
+    pub fn validate(&self) -> Result<(), Error> {
+        let count = self.len();
+        let lengths = [
+            ("velocities", self.velocities.len()),
+            ("angles", self.angles.len()),
+            ("angular_velocities", self.angular_velocities.len()),
+            ("accelerations", self.accelerations.len()),
+            ("angular_accelerations", self.angular_accelerations.len()),
+            ("radii", self.radii.len()),
+            ("masses", self.masses.len()),
+            ("inertias", self.inertias.len()),
+            ("materials", self.materials.len()),
+        ];
+        for (name, length) in lengths {
+            if length != count {
+                let found = format!("of length {length}");
+                return Err(Error::config(format!("state.{name}"), found, format!("of length {count}")));
+            }
+        }
+        if let Some(i) = self.first_non_finite() {
+            return Err(Error::config(format!("state of bundle {i}"), "not finite", "finite"));
+        }
+        match self.radii.iter().position(|&radius| !(radius.is_finite() && radius > 0.0)) {
+            Some(i) => {
+                Err(Error::config(format!("state.radii[{i}]"), self.radii[i], "a positive finite number"))
+            }
+            None => Ok(()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_bundle_of_table_1_has_its_mass_and_the_inertia_of_a_disc() {
+        let particles = Particles::at_rest(vec![Vec2::zeros()], vec![0.011875], 1000.0, false);
+        assert!((particles.masses[0] - 0.4430).abs() < 1e-4);
+        assert_eq!(particles.inertias[0], 0.5 * particles.masses[0] * 0.011875 * 0.011875);
+    }
+
+    #[test]
+    fn bad_states_are_named() {
+        let mut particles = Particles::at_rest(vec![Vec2::zeros(); 2], vec![0.1, -0.1], 1.0, false);
+        assert!(particles.validate().unwrap_err().to_string().starts_with("state.radii[1] is -0.1"));
+        particles.radii.pop();
+        assert!(particles.validate().unwrap_err().to_string().starts_with("state.radii is of length 1"));
+    }
+}

@@ -1,0 +1,24 @@
+//! From core errors to the exceptions of `drumrs.errors`.
+
+use pyo3::exceptions::PyOSError;
+use pyo3::prelude::*;
+
+use crate::error::Error;
+
+/// The Python exception for a core error. The classes live in Python, so that they pickle by name.
+pub fn to_python(py: Python<'_>, error: &Error) -> PyErr {
+    let class = match error {
+        Error::Config { .. } | Error::Packing { .. } => "ConfigError",
+        Error::NonFinite { .. } | Error::Overlap { .. } | Error::Escaped { .. } => "UnstableError",
+        Error::Checkpoint { .. } => "CheckpointError",
+        Error::System { .. } => return PyOSError::new_err(error.to_string()),
+    };
+    let instance = py
+        .import("drumrs.errors")
+        .and_then(|errors| errors.getattr(class))
+        .and_then(|class| class.call1((error.to_string(),)));
+    match instance {
+        Ok(instance) => PyErr::from_value(instance),
+        Err(failed) => failed,
+    }
+}

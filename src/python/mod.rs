@@ -1,0 +1,47 @@
+//! The module `drumrs._core`: one class, and a description of this build.
+
+mod arrays;
+mod error;
+mod simulation;
+
+/// The compiled core of drumrs. Use the package `drumrs` instead.
+#[pyo3::pymodule]
+mod _core {
+    use pyo3::prelude::*;
+    use pyo3::types::PyDict;
+
+    #[pymodule_export]
+    use super::simulation::Simulation;
+
+    /// What this build is: version, profile, physics version, target, features of the CPU it runs on.
+    #[pyfunction]
+    fn info(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
+        let info = PyDict::new(py);
+        info.set_item("version", env!("CARGO_PKG_VERSION"))?;
+        info.set_item("build_profile", if cfg!(debug_assertions) { "debug" } else { "release" })?;
+        info.set_item("physics_version", crate::PHYSICS_VERSION)?;
+        info.set_item("target", format!("{}-{}", std::env::consts::ARCH, std::env::consts::OS))?;
+        info.set_item("cpu_features", super::cpu_features())?;
+        info.set_item("cpu_count", std::thread::available_parallelism().map_or(1, usize::from))?;
+        Ok(info)
+    }
+}
+
+/// Those features of this CPU that numeric code may care about.
+#[cfg(target_arch = "x86_64")]
+fn cpu_features() -> Vec<&'static str> {
+    let features = [
+        ("sse4.2", std::arch::is_x86_feature_detected!("sse4.2")),
+        ("avx", std::arch::is_x86_feature_detected!("avx")),
+        ("avx2", std::arch::is_x86_feature_detected!("avx2")),
+        ("fma", std::arch::is_x86_feature_detected!("fma")),
+        ("avx512f", std::arch::is_x86_feature_detected!("avx512f")),
+    ];
+    features.iter().filter(|(_, present)| *present).map(|(name, _)| *name).collect()
+}
+
+/// Other CPUs have their features fixed by the target.
+#[cfg(not(target_arch = "x86_64"))]
+fn cpu_features() -> Vec<&'static str> {
+    Vec::new()
+}

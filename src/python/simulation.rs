@@ -1,0 +1,272 @@
+//! `drumrs._core.Simulation`: the one class.
+//!
+//! The simulation sits behind a lock that is only ever waited for with the interpreter released, so that other Python
+//! threads may look at it, or stop it, between two slices of a run.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+use numpy::{IntoPyArray, PyArray1, PyArray2};
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyDict};
+
+use super::arrays;
+use super::error::to_python;
+use crate::config::SimulationConfig;
+use crate::error::Error;
+use crate::recorder::{Column, columns};
+use crate::simulation::Simulation as Core;
+use crate::summary::summarize;
+
+/// How long a run keeps the interpreter waiting for signals at most, but for one step.
+const SLICE: Duration = Duration::from_millis(30);
+
+/// A drum with its load; see `drumrs.Simulation`.
+#[pyclass(frozen, module = "drumrs._core")]
+pub struct Simulation {
+    core: Mutex<Core>,
+    stop: AtomicBool,
+}
+
+impl Simulation {
+    fn around(core: Core) -> Self {
+        Self { core: Mutex::new(core), stop: AtomicBool::new(false) }
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Core> {
+        self.core.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Runs `look` on the core with the interpreter released.
+    fn with<T: Send>(&self, py: Python<'_>, look: impl FnOnce(&mut Core) -> T + Send) -> T {
+        py.detach(|| look(&mut self.lock()))
+    }
+
+    /// Does steps until `left` are done or a slice of time is over; returns how many it did.
+    fn slice(&self, py: Python<'_>, left: u64, pace: &mut Pace) -> Result<u64, Error> {
+        let steps = pace.steps.min(left);
+        let (outcome, elapsed) = self.with(py, |core| {
+            let start = now();
+            (core.run(steps), start.elapsed())
+        });
+        pace.adapt(elapsed);
+        outcome.map(|()| steps)
+    }
+}
+
+/// Steps that fit into a slice, learnt while running.
+struct Pace {
+    steps: u64,
+}
+
+impl Pace {
+    fn adapt(&mut self, elapsed: Duration) {
+        let factor = (SLICE.as_secs_f64() / elapsed.as_secs_f64().max(1e-6)).clamp(0.25, 2.0);
+        self.steps = ((self.steps as f64 * factor) as u64).max(1);
+    }
+}
+
+#[allow(clippy::disallowed_methods)] // The clock only sets how long the interpreter is released.
+fn now() -> Instant {
+    Instant::now()
+}
+
+#[pymethods]
+impl Simulation {
+    #[new]
+    #[pyo3(signature = (config, seed, threads = 1, state = None))]
+    fn new(
+        py: Python<'_>,
+        config: &str,
+        seed: u64,
+        threads: usize,
+        state: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Self> {
+        let build = || {
+            let config = SimulationConfig::from_json(config)?;
+            match state.map(arrays::initial_state).transpose()? {
+                Some(initial) => py.detach(|| Core::with_state(config, seed, threads, initial)),
+                None => py.detach(|| Core::new(config, seed, threads)),
+            }
+        };
+        build().map(Self::around).map_err(|error| to_python(py, &error))
+    }
+
+    #[staticmethod]
+    #[pyo3(signature = (data, threads = 1))]
+    fn from_checkpoint(py: Python<'_>, data: &[u8], threads: usize) -> PyResult<Self> {
+        let core = py.detach(|| Core::from_checkpoint(data, threads));
+        core.map(Self::around).map_err(|error| to_python(py, &error))
+    }
+
+    fn checkpoint<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        let bytes = self.with(py, |core| core.to_checkpoint()).map_err(|error| to_python(py, &error))?;
+        Ok(PyBytes::new(py, &bytes))
+    }
+
+    #[pyo3(signature = (steps, progress = None))]
+    fn run(&self, py: Python<'_>, steps: u64, progress: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
+        self.stop.store(false, Ordering::Relaxed);
+        let mut pace = Pace { steps: 64 };
+        let mut done = 0;
+        while done < steps && !self.stop.load(Ordering::Relaxed) {
+            done += self.slice(py, steps - done, &mut pace).map_err(|error| to_python(py, &error))?;
+            py.check_signals()?;
+            if let Some(progress) = progress {
+                progress.call1((self.step(py),))?;
+            }
+        }
+        Ok(())
+    }
+
+    fn stop(&self) {
+        self.stop.store(true, Ordering::Relaxed);
+    }
+
+    #[getter]
+    fn config(&self, py: Python<'_>) -> String {
+        self.with(py, |core| core.config().to_json())
+    }
+
+    #[getter]
+    fn seed(&self, py: Python<'_>) -> u64 {
+        self.with(py, |core| core.seed())
+    }
+
+    #[getter]
+    fn step(&self, py: Python<'_>) -> u64 {
+        self.with(py, |core| core.state().step)
+    }
+
+    #[getter]
+    fn time(&self, py: Python<'_>) -> f64 {
+        self.with(py, |core| core.time())
+    }
+
+    #[getter]
+    fn time_step(&self, py: Python<'_>) -> f64 {
+        self.with(py, |core| core.time_step())
+    }
+
+    #[getter]
+    fn count(&self, py: Python<'_>) -> usize {
+        self.with(py, |core| core.state().particles.len())
+    }
+
+    #[getter]
+    fn threads(&self, py: Python<'_>) -> usize {
+        self.with(py, |core| core.threads())
+    }
+
+    #[getter]
+    fn mass(&self, py: Python<'_>) -> f64 {
+        self.with(py, |core| core.mass())
+    }
+
+    #[getter]
+    fn drum_angle(&self, py: Python<'_>) -> f64 {
+        self.with(py, |core| core.drum_angle())
+    }
+
+    #[getter]
+    fn drum_angular_velocity(&self, py: Python<'_>) -> f64 {
+        self.with(py, |core| core.config().rotation.angular_velocity(core.time()))
+    }
+
+    #[getter]
+    fn positions<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
+        arrays::vectors(py, &self.with(py, |core| core.state().particles.positions.clone()))
+    }
+
+    #[getter]
+    fn velocities<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
+        arrays::vectors(py, &self.with(py, |core| core.state().particles.velocities.clone()))
+    }
+
+    #[getter]
+    fn angles<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        self.with(py, |core| core.state().particles.angles.clone()).into_pyarray(py)
+    }
+
+    #[getter]
+    fn angular_velocities<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        self.with(py, |core| core.state().particles.angular_velocities.clone()).into_pyarray(py)
+    }
+
+    #[getter]
+    fn radii<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        self.with(py, |core| core.state().particles.radii.clone()).into_pyarray(py)
+    }
+
+    #[getter]
+    fn masses<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        self.with(py, |core| core.state().particles.masses.clone()).into_pyarray(py)
+    }
+
+    #[getter]
+    fn sample_count(&self, py: Python<'_>) -> usize {
+        self.with(py, |core| core.state().series.len())
+    }
+
+    #[getter]
+    fn frame_count(&self, py: Python<'_>) -> usize {
+        self.with(py, |core| core.state().frames.len())
+    }
+
+    #[getter]
+    fn collision_times<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let (bundle, drum) = self.with(py, |core| core.collision_times());
+        let times = PyDict::new(py);
+        times.set_item("bundle", bundle)?;
+        times.set_item("drum", drum)?;
+        Ok(times)
+    }
+
+    fn outlines<'py>(&self, py: Python<'py>) -> Vec<Bound<'py, PyArray2<f64>>> {
+        let outlines: Vec<_> = self.with(py, |core| core.drum().outlines().map(<[_]>::to_vec).collect());
+        outlines.iter().map(|outline| arrays::vectors(py, outline)).collect()
+    }
+
+    fn series<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let table = self.with(py, |core| {
+            let names = columns(core.drum().baffle_count(), core.drum().wall_count());
+            let column = |(index, (name, ..)): (usize, Column)| (name, core.state().series.column(index));
+            names.into_iter().enumerate().map(column).collect::<Vec<_>>()
+        });
+        let series = PyDict::new(py);
+        for (name, values) in table {
+            series.set_item(name, values.into_pyarray(py))?;
+        }
+        Ok(series)
+    }
+
+    fn frames<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let (frames, count) =
+            self.with(py, |core| (core.state().frames.clone(), core.state().particles.len()));
+        let table = PyDict::new(py);
+        table.set_item("time", frames.times.into_pyarray(py))?;
+        table.set_item("drum_angle", frames.drum_angles.into_pyarray(py))?;
+        table.set_item("positions", arrays::frame_positions(py, frames.positions, count))?;
+        table.set_item("angles", arrays::frames(py, frames.angles, count))?;
+        table.set_item("speeds", arrays::frames(py, frames.speeds, count))?;
+        Ok(table)
+    }
+
+    fn summary<'py>(&self, py: Python<'py>, start: f64, end: f64) -> PyResult<Bound<'py, PyDict>> {
+        let statistics = self
+            .with(py, |core| summarize(&core.state().series, core.mass(), start, end))
+            .map_err(|error| to_python(py, &error))?;
+        let summary = PyDict::new(py);
+        for (name, value) in statistics {
+            summary.set_item(name, value)?;
+        }
+        Ok(summary)
+    }
+
+    #[staticmethod]
+    #[pyo3(signature = (baffles = 0, walls = 0))]
+    fn quantities(baffles: usize, walls: usize) -> Vec<Column> {
+        columns(baffles, walls)
+    }
+}

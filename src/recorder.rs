@@ -1,0 +1,263 @@
+//! What is recorded: the table of quantities, the series of samples, the frames.
+//!
+//! Flows are recorded as energies since the start, so that the mean power over any window of samples is exact.
+
+use serde::{Deserialize, Serialize};
+
+use crate::energy::{EnergyLedger, StoredEnergy};
+use crate::vector::Vec2;
+
+/// Everything that a sample may look at.
+#[derive(Debug)]
+pub struct Snapshot<'a> {
+    /// Time [s].
+    pub time: f64,
+    /// The drum's angle [rad].
+    pub angle: f64,
+    /// Its angular velocity [rad/s].
+    pub angular_velocity: f64,
+    /// The accounts.
+    pub ledger: &'a EnergyLedger,
+    /// What is stored now.
+    pub stored: StoredEnergy,
+    /// Angular momentum of the load about the axis [kg m/s].
+    pub angular_momentum: f64,
+    /// Third power, integrated [J/m].
+    pub balance_work: f64,
+    /// Mass of the load [kg/m].
+    pub mass: f64,
+    /// Contacts between bundles, and of bundles with the drum.
+    pub contacts: (usize, usize),
+    /// Number of bundles.
+    pub count: usize,
+    /// Time since the last sample [s]; 0 at the first.
+    pub interval: f64,
+    /// What the last sample had seen.
+    pub earlier: &'a Earlier,
+}
+
+/// Integrals at the last sample, from which means over the interval follow.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct Earlier {
+    drum_work: f64,
+    mass_moment: [f64; 2],
+    impulses: Vec<[f64; 2]>,
+}
+
+/// One recorded quantity.
+#[derive(Debug, Clone, Copy)]
+pub struct Quantity {
+    /// Column name.
+    pub name: &'static str,
+    /// Unit, per metre of drum depth where it is extensive.
+    pub unit: &'static str,
+    /// What it means.
+    pub meaning: &'static str,
+    value: fn(&Snapshot) -> f64,
+}
+
+macro_rules! quantities {
+    ($($name:literal, $unit:literal, $meaning:literal, $value:expr;)*) => {
+        /// The quantities that every simulation records; those of rim, baffles and walls follow them.
+        pub const QUANTITIES: &[Quantity] =
+            &[$(Quantity { name: $name, unit: $unit, meaning: $meaning, value: $value }),*];
+    };
+}
+
+quantities! {
+    "time", "s", "time of the sample", |s| s.time;
+    "drum_angle", "rad", "angle of the drum", |s| s.angle;
+    "drum_angular_velocity", "rad/s", "angular velocity of the drum", |s| s.angular_velocity;
+    "drum_power", "W/m", "mean power of the drum on the load since the last sample", |s| s.drum_power();
+    "specific_power", "W/kg", "drum power over the mass of the load", |s| s.drum_power() / s.mass;
+    "work_drum", "J/m", "work of the drum on the load since t = 0", |s| s.ledger.drum_work();
+    "balance_work", "J/m", "the same from the balance of moments, integral of angular velocity x (M g x + dL/dt)", |s| s.balance_work;
+    "work_normal", "J/m", "work into contacts along their normals since t = 0", |s| s.ledger.work_normal.value();
+    "work_tangential", "J/m", "work into contacts along their tangents since t = 0", |s| s.ledger.work_tangential.value();
+    "dissipated_normal", "J/m", "energy taken by dashpots since t = 0", |s| s.ledger.dissipated_normal.value();
+    "dissipated_sliding", "J/m", "energy taken by sliding since t = 0", |s| s.ledger.dissipated_sliding.value();
+    "numerical", "J/m", "contact work that springs, dashpots and sliding do not account for since t = 0", |s| s.ledger.numerical(&s.stored);
+    "kinetic_translation", "J/m", "kinetic energy of translation", |s| s.stored.kinetic_translation;
+    "kinetic_rotation", "J/m", "kinetic energy of rotation", |s| s.stored.kinetic_rotation;
+    "gravitational", "J/m", "potential energy, zero at the axis", |s| s.stored.gravitational;
+    "elastic_normal", "J/m", "energy of the normal springs", |s| s.stored.elastic_normal;
+    "elastic_tangential", "J/m", "energy of the tangential springs", |s| s.stored.elastic_tangential;
+    "residual", "J/m", "stored + dissipated - work of the drum - initial energy: round-off", |s| s.ledger.residual(&s.stored);
+    "energy_residual", "1", "the residual over the sum of all flows or the greatest stored energy", |s| s.ledger.relative_residual(&s.stored);
+    "center_of_mass_x", "m", "mean horizontal position of the center of mass since the last sample", |s| s.mean_center(0);
+    "center_of_mass_y", "m", "mean vertical position of the center of mass since the last sample", |s| s.mean_center(1);
+    "angular_momentum", "kg m/s", "angular momentum of the load about the axis, spin included", |s| s.angular_momentum;
+    "coordination", "1", "contacts per bundle, those with the drum included", |s| s.coordination();
+    "contact_count", "1", "number of contacts", |s| (s.contacts.0 + s.contacts.1) as f64;
+    "max_overlap_ratio", "1", "greatest overlap since the last sample over the smaller radius", |s| s.ledger.overlap_ratio;
+}
+
+impl Snapshot<'_> {
+    fn over_interval(&self, change: f64) -> f64 {
+        if self.interval > 0.0 { change / self.interval } else { 0.0 }
+    }
+
+    fn drum_power(&self) -> f64 {
+        self.over_interval(self.ledger.drum_work() - self.earlier.drum_work)
+    }
+
+    fn mean_center(&self, axis: usize) -> f64 {
+        let moment = self.ledger.mass_moment[axis].value() - self.earlier.mass_moment[axis];
+        if self.interval > 0.0 {
+            moment / self.interval / self.mass
+        } else {
+            self.ledger.mass_moment_now()[axis] / self.mass
+        }
+    }
+
+    fn coordination(&self) -> f64 {
+        (2 * self.contacts.0 + self.contacts.1) as f64 / self.count as f64
+    }
+
+    /// Mean force of the load on a surface since the last sample.
+    fn mean_force(&self, surface: usize, axis: usize) -> f64 {
+        let earlier = self.earlier.impulses.get(surface).map_or(0.0, |impulse| impulse[axis]);
+        self.over_interval(earlier - self.ledger.surfaces[surface].impulse[axis].value())
+    }
+}
+
+/// A column of the series: (name, unit, meaning).
+pub type Column = (String, String, String);
+
+/// The columns of a drum with so many baffles and walls.
+pub fn columns(baffles: usize, walls: usize) -> Vec<Column> {
+    let fixed = QUANTITIES.iter().map(|q| (q.name.into(), q.unit.into(), q.meaning.into()));
+    let parts = surface_names(baffles, walls).into_iter().flat_map(|part| {
+        let words = part.replace('_', " ");
+        [
+            (format!("work_{part}"), "J/m".into(), format!("work of the {words} on the load since t = 0")),
+            (
+                format!("force_{part}_x"),
+                "N/m".into(),
+                format!("mean horizontal force of the load on the {words} since the last sample"),
+            ),
+            (
+                format!("force_{part}_y"),
+                "N/m".into(),
+                format!("mean vertical force of the load on the {words} since the last sample"),
+            ),
+        ]
+    });
+    fixed.chain(parts).collect()
+}
+
+fn surface_names(baffles: usize, walls: usize) -> Vec<String> {
+    std::iter::once("rim".to_owned())
+        .chain((1..=baffles).map(|k| format!("baffle_{k}")))
+        .chain((1..=walls).map(|k| format!("wall_{k}")))
+        .collect()
+}
+
+/// Samples, one row each, and what the next row needs of the last.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct Series {
+    width: usize,
+    values: Vec<f64>,
+    earlier: Earlier,
+}
+
+impl Series {
+    /// An empty series of `width` columns.
+    pub fn new(width: usize) -> Self {
+        Self { width, ..Self::default() }
+    }
+
+    /// Number of rows.
+    pub fn len(&self) -> usize {
+        self.values.len().checked_div(self.width).unwrap_or(0)
+    }
+
+    /// Whether nothing has been recorded.
+    pub fn is_empty(&self) -> bool {
+        self.values.is_empty()
+    }
+
+    /// What the last sample had seen.
+    pub fn earlier(&self) -> &Earlier {
+        &self.earlier
+    }
+
+    /// Time of the last sample [s].
+    pub fn last_time(&self) -> Option<f64> {
+        self.len().checked_sub(1).map(|row| self.values[row * self.width])
+    }
+
+    /// Appends a row.
+    pub fn push(&mut self, snapshot: &Snapshot) {
+        self.values.extend(QUANTITIES.iter().map(|quantity| (quantity.value)(snapshot)));
+        for (surface, account) in snapshot.ledger.surfaces.iter().enumerate() {
+            let forces = [snapshot.mean_force(surface, 0), snapshot.mean_force(surface, 1)];
+            self.values.extend([account.work.value(), forces[0], forces[1]]);
+        }
+        let impulse = |account: &crate::energy::SurfaceAccount| account.impulse.map(|axis| axis.value());
+        self.earlier = Earlier {
+            drum_work: snapshot.ledger.drum_work(),
+            mass_moment: snapshot.ledger.mass_moment.map(|axis| axis.value()),
+            impulses: snapshot.ledger.surfaces.iter().map(impulse).collect(),
+        };
+    }
+
+    /// One column, a value for each row.
+    pub fn column(&self, index: usize) -> Vec<f64> {
+        self.values.iter().skip(index).step_by(self.width.max(1)).copied().collect()
+    }
+}
+
+/// Pictures of the load: single precision is plenty for them (15 nm in a drum of half a metre).
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct Frames {
+    /// Times [s].
+    pub times: Vec<f64>,
+    /// Angles of the drum [rad].
+    pub drum_angles: Vec<f64>,
+    /// Centers [m]: x, y of each particle, frame after frame.
+    pub positions: Vec<f32>,
+    /// Angles of the particles [rad], within ±π.
+    pub angles: Vec<f32>,
+    /// Speeds [m/s].
+    pub speeds: Vec<f32>,
+}
+
+impl Frames {
+    /// Appends a frame.
+    pub fn push(&mut self, time: f64, drum_angle: f64, particles: &crate::particles::Particles) {
+        self.times.push(time);
+        self.drum_angles.push(drum_angle);
+        self.positions.extend(particles.positions.iter().flat_map(|p| [p.x as f32, p.y as f32]));
+        self.angles.extend(particles.angles.iter().map(|angle| {
+            let turns = (angle / std::f64::consts::TAU).round();
+            (angle - turns * std::f64::consts::TAU) as f32
+        }));
+        self.speeds.extend(particles.velocities.iter().map(|v: &Vec2| v.norm() as f32));
+    }
+
+    /// Number of frames.
+    pub fn len(&self) -> usize {
+        self.times.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.times.is_empty()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_column_has_a_name_of_its_own_and_a_unit() {
+        let columns = columns(3, 1);
+        let mut names: Vec<_> = columns.iter().map(|column| &column.0).collect();
+        names.sort_unstable();
+        names.dedup();
+        assert_eq!(names.len(), QUANTITIES.len() + 3 * 5);
+        assert!(columns.iter().all(|(_, unit, meaning)| !unit.is_empty() && !meaning.is_empty()));
+    }
+}

@@ -1,0 +1,410 @@
+//! `Simulation`: configuration, state and scratch; it steps, guards and records.
+
+use crate::config::SimulationConfig;
+use crate::contact::laws::Laws;
+use crate::contact::table::ContactTable;
+use crate::drum::Drum;
+use crate::energy::{Balance, EnergyLedger, StoredEnergy};
+use crate::error::Error;
+use crate::forces::{ForcePass, Scene};
+use crate::integrator::Integrator;
+use crate::neighbors::{Surroundings, VerletList};
+use crate::packing::pack;
+use crate::particles::Particles;
+use crate::recorder::{Frames, Series, Snapshot, columns};
+use crate::start::{self, InitialState};
+use crate::state::State;
+use crate::threads::Threads;
+use crate::vector::{Rotation, Vec2, dot};
+
+/// A drum with its load, at some step.
+#[derive(Debug)]
+pub struct Simulation {
+    config: SimulationConfig,
+    seed: u64,
+    state: State,
+    table: ContactTable,
+    /// Follows from the configuration.
+    fixed: Fixed,
+    /// Scratch: nothing in it changes a result.
+    list: VerletList,
+    integrator: Integrator,
+    forces: ForcePass,
+    threads: Threads,
+    failure: Option<Error>,
+}
+
+/// What follows from the configuration and the particles' sizes.
+#[derive(Debug)]
+struct Fixed {
+    drum: Drum,
+    laws: Laws,
+    time_step: f64,
+    gravity: Vec2,
+    mass: f64,
+    sample_steps: u64,
+    frame_steps: u64,
+    /// The drum's speed where it is constant.
+    steady_speed: Option<f64>,
+}
+
+/// The instant at which forces are evaluated.
+#[derive(Debug, Clone, Copy)]
+struct Instant {
+    rotation: Rotation,
+    angular_velocity: f64,
+    turn: f64,
+}
+
+impl Simulation {
+    /// Packs the load at random into the turning drum.
+    ///
+    /// # Errors
+    /// `Error::Config` for a bad configuration, `Error::Packing` where the load does not fit.
+    pub fn new(config: SimulationConfig, seed: u64, threads: usize) -> Result<Self, Error> {
+        config.validate()?;
+        let threads = Threads::new(threads)?;
+        let drum = Drum::new(&config.drum)?;
+        let positions = pack(&drum, config.load.count, 0.5 * config.load.diameter, seed)?;
+        let particles = start::packed(&config, positions, seed);
+        Self::start(config, seed, threads, particles)
+    }
+
+    /// Starts from a given state, whose particles take the place of the configured load.
+    ///
+    /// # Errors
+    /// `Error::Config` naming the field of the state or the configuration.
+    pub fn with_state(
+        config: SimulationConfig,
+        seed: u64,
+        threads: usize,
+        initial: InitialState,
+    ) -> Result<Self, Error> {
+        config.validate()?;
+        let threads = Threads::new(threads)?;
+        let particles = initial.into_particles(&config)?;
+        Self::start(config, seed, threads, particles)
+    }
+
+    fn start(
+        config: SimulationConfig,
+        seed: u64,
+        threads: Threads,
+        particles: Particles,
+    ) -> Result<Self, Error> {
+        let table = ContactTable::empty(particles.len());
+        let fixed = Fixed::new(&config, &particles)?;
+        let state = State {
+            step: 0,
+            series: Series::new(columns(fixed.drum.baffle_count(), fixed.drum.wall_count()).len()),
+            frames: Frames::default(),
+            ledger: EnergyLedger::open(StoredEnergy::default(), Balance::default(), &[]),
+            particles,
+        };
+        let mut simulation = Self::assemble(config, seed, threads, (state, table), fixed);
+        simulation.open();
+        Ok(simulation)
+    }
+
+    /// Puts a simulation together around a state; the neighbour list will be built at the first step.
+    pub(crate) fn resume(
+        config: SimulationConfig,
+        seed: u64,
+        threads: usize,
+        state: State,
+        contacts: impl FnOnce(&Laws, &Particles) -> Result<ContactTable, Error>,
+    ) -> Result<Self, Error> {
+        config.validate()?;
+        let fixed = Fixed::new(&config, &state.particles)?;
+        let table = contacts(&fixed.laws, &state.particles)?;
+        Ok(Self::assemble(config, seed, Threads::new(threads)?, (state, table), fixed))
+    }
+
+    fn assemble(
+        config: SimulationConfig,
+        seed: u64,
+        threads: Threads,
+        (state, table): (State, ContactTable),
+        fixed: Fixed,
+    ) -> Self {
+        let count = state.particles.len();
+        let skin = config.run.skin.unwrap_or(DEFAULT_SKIN * state.particles.largest_radius());
+        Self {
+            list: VerletList::new(skin, count),
+            integrator: Integrator::new(&state.particles, fixed.time_step, fixed.gravity),
+            forces: ForcePass::new(count, fixed.drum.surface_count()),
+            config,
+            seed,
+            state,
+            table,
+            fixed,
+            threads,
+            failure: None,
+        }
+    }
+
+    /// First forces, first accelerations, opened accounts, first sample and frame.
+    fn open(&mut self) {
+        let instant = Instant {
+            rotation: Rotation::new(self.config.rotation.angle(0.0)),
+            angular_velocity: self.config.rotation.angular_velocity(0.0),
+            turn: 0.0,
+        };
+        self.rebuild(instant.rotation);
+        self.evaluate(instant);
+        self.integrator.accelerate(&mut self.state.particles, &self.forces.loads);
+        let mass_moment = start::mass_moment(&self.state.particles);
+        let balance = Balance {
+            angular_momentum: self.state.particles.angular_momentum(),
+            ..self.balance(mass_moment)
+        };
+        self.state.ledger = EnergyLedger::open(self.stored(), balance, &self.forces.surfaces);
+        self.state.ledger.overlap_ratio = self.forces.flows.overlap_ratio;
+        self.record();
+    }
+
+    /// Does `steps` steps.
+    ///
+    /// # Errors
+    /// `Error::NonFinite`, `Error::Overlap` or `Error::Escaped`; the simulation then stays as it is and answers every
+    /// further run with the same error.
+    pub fn run(&mut self, steps: u64) -> Result<(), Error> {
+        for _ in 0..steps {
+            if let Some(failure) = &self.failure {
+                return Err(failure.clone());
+            }
+            if let Err(failure) = self.step() {
+                self.failure = Some(failure);
+            }
+        }
+        self.failure.clone().map_or(Ok(()), Err)
+    }
+
+    fn step(&mut self) -> Result<(), Error> {
+        let (from, to) = (self.time(), self.time_at(self.state.step + 1));
+        let schedule = &self.config.rotation;
+        let (angle, angular_velocity) = (schedule.angle(to), schedule.angular_velocity(to));
+        let turn = schedule.angle_increment(from, to);
+        let sums = self.integrator.drift(&mut self.state.particles, turn, &self.threads);
+        self.state.step += 1;
+        if !(sums.mass_moment.x + sums.mass_moment.y).is_finite() {
+            let particle = self.state.particles.first_non_finite().unwrap_or(0);
+            return Err(Error::NonFinite { step: self.state.step, particle });
+        }
+        let look = self.list.advance(sums.longest_way, turn);
+        let rotation = if look || self.has_outlines() { Rotation::new(angle) } else { Rotation::IDENTITY };
+        if look && !self.list.still_holds(&self.state.particles.positions, rotation) {
+            self.rebuild(rotation);
+        }
+        self.evaluate(Instant { rotation, angular_velocity, turn });
+        self.integrator.kick(&mut self.state.particles, &self.forces.loads, &self.threads);
+        self.charge(sums.mass_moment, turn);
+        self.guard()?;
+        self.record();
+        Ok(())
+    }
+
+    /// Whether the drum has anything but a rim, for which its rotation matters.
+    fn has_outlines(&self) -> bool {
+        self.fixed.drum.surface_count() > 1
+    }
+
+    fn rebuild(&mut self, rotation: Rotation) {
+        let around = Surroundings {
+            particles: &self.state.particles,
+            drum: &self.fixed.drum,
+            laws: &self.fixed.laws,
+            rotation,
+        };
+        self.list.rebuild(around, &mut self.table, &self.threads);
+        self.forces.prepare(&self.table, &self.threads);
+    }
+
+    fn evaluate(&mut self, instant: Instant) {
+        let scene = Scene {
+            motions: &self.integrator.motions,
+            laws: &self.fixed.laws,
+            drum: &self.fixed.drum,
+            rotation: instant.rotation,
+            angular_velocity: instant.angular_velocity,
+            turn: instant.turn,
+            step_rate: 1.0 / self.fixed.time_step,
+        };
+        self.forces.evaluate(scene, &mut self.table, &self.threads);
+    }
+
+    fn charge(&mut self, mass_moment: Vec2, turn: f64) {
+        let steady = self.fixed.steady_speed.is_some();
+        let mut balance = self.balance(mass_moment);
+        if !steady {
+            balance.angular_momentum = self.state.particles.angular_momentum();
+        }
+        let ledger = &mut self.state.ledger;
+        ledger.charge(&self.forces.flows, &self.forces.surfaces, turn, self.fixed.time_step);
+        ledger.charge_balance(balance, turn, self.fixed.time_step, steady);
+    }
+
+    /// The balance of moments now, but for the angular momentum.
+    fn balance(&self, mass_moment: Vec2) -> Balance {
+        let gravity = self.fixed.gravity;
+        let mut outer_moment = mass_moment.x * gravity.y - mass_moment.y * gravity.x;
+        if self.config.load.spin_locked {
+            // What holds the spins takes the contacts' moments out of the load.
+            outer_moment -= self.forces.loads.iter().fold(0.0, |sum, load| sum + load.moment);
+        }
+        Balance { mass_moment, outer_moment, angular_momentum: 0.0 }
+    }
+
+    fn guard(&self) -> Result<(), Error> {
+        let limit = self.config.run.overlap_limit;
+        if self.forces.flows.overlap_ratio <= limit {
+            return Ok(());
+        }
+        let step = self.state.step;
+        let (particle, ratio) = start::deepest_overlap(&self.table, &self.state.particles);
+        if self.fixed.drum.radius().is_some_and(|rim| self.state.particles.positions[particle].norm() > rim) {
+            return Err(Error::Escaped { step, particle });
+        }
+        Err(Error::Overlap { step, particle, ratio, limit })
+    }
+
+    fn record(&mut self) {
+        let (step, time) = (self.state.step, self.time());
+        if step.is_multiple_of(self.fixed.sample_steps) {
+            self.sample(time);
+        }
+        if step.is_multiple_of(self.fixed.frame_steps) {
+            let angle = self.config.rotation.angle(time);
+            self.state.frames.push(time, angle, &self.state.particles);
+        }
+    }
+
+    fn sample(&mut self, time: f64) {
+        let stored = self.stored();
+        let angular_momentum = self.state.particles.angular_momentum();
+        let state = &mut self.state;
+        state.ledger.note(&stored);
+        let touching = |rows: &crate::contact::table::SlotRows| rows.touching().count();
+        let snapshot = Snapshot {
+            time,
+            angle: self.config.rotation.angle(time),
+            angular_velocity: self.config.rotation.angular_velocity(time),
+            ledger: &state.ledger,
+            stored,
+            angular_momentum,
+            balance_work: state.ledger.balance_work(angular_momentum, self.fixed.steady_speed),
+            mass: self.fixed.mass,
+            contacts: (touching(&self.table.pairs), touching(&self.table.walls)),
+            count: state.particles.len(),
+            interval: time - state.series.last_time().unwrap_or(time),
+            earlier: &state.series.earlier().clone(),
+        };
+        state.series.push(&snapshot);
+        state.ledger.overlap_ratio = 0.0;
+    }
+
+    /// Energy stored now.
+    pub fn stored(&self) -> StoredEnergy {
+        let particles = &self.state.particles;
+        let (kinetic_translation, kinetic_rotation) = particles.kinetic_energies(0.5 * self.fixed.time_step);
+        let (elastic_normal, elastic_tangential) = start::elastic_energies(&self.table, &self.fixed.laws);
+        let moment = start::mass_moment(particles);
+        StoredEnergy {
+            kinetic_translation,
+            kinetic_rotation,
+            gravitational: -dot(moment, self.fixed.gravity),
+            elastic_normal,
+            elastic_tangential,
+        }
+    }
+
+    fn time_at(&self, step: u64) -> f64 {
+        step as f64 * self.fixed.time_step
+    }
+
+    /// Time [s]: steps × time step.
+    pub fn time(&self) -> f64 {
+        self.time_at(self.state.step)
+    }
+
+    /// Length of a step [s].
+    pub fn time_step(&self) -> f64 {
+        self.fixed.time_step
+    }
+
+    /// The configuration.
+    pub fn config(&self) -> &SimulationConfig {
+        &self.config
+    }
+
+    /// The seed of the start.
+    pub fn seed(&self) -> u64 {
+        self.seed
+    }
+
+    /// Number of threads.
+    pub fn threads(&self) -> usize {
+        self.threads.count()
+    }
+
+    /// State: step, particles, ledger, series, frames.
+    pub fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// The contacts.
+    pub fn contacts(&self) -> &ContactTable {
+        &self.table
+    }
+
+    /// The drum.
+    pub fn drum(&self) -> &Drum {
+        &self.fixed.drum
+    }
+
+    /// Mass of the load [kg/m].
+    pub fn mass(&self) -> f64 {
+        self.fixed.mass
+    }
+
+    /// Angle of the drum [rad].
+    pub fn drum_angle(&self) -> f64 {
+        self.config.rotation.angle(self.time())
+    }
+
+    /// Forces and moments of the last step's contacts, by particle.
+    pub fn loads(&self) -> &[crate::integrator::Load] {
+        &self.forces.loads
+    }
+
+    /// Shortest collision times [s] of this load: (between bundles, with the drum).
+    pub fn collision_times(&self) -> (f64, f64) {
+        start::collision_times(&self.fixed.laws, &self.state.particles)
+    }
+
+    /// The error that stopped this simulation, if one did.
+    pub fn failure(&self) -> Option<&Error> {
+        self.failure.as_ref()
+    }
+}
+
+/// Margin of the neighbour list in radii of the largest bundle: the measured best over loads of 100 … 10 000.
+const DEFAULT_SKIN: f64 = 0.3;
+
+impl Fixed {
+    fn new(config: &SimulationConfig, particles: &Particles) -> Result<Self, Error> {
+        let laws = Laws::new(&config.contact.bundle, &config.contact.drum);
+        let time_step = start::time_step(config, &laws, particles)?;
+        let every = |interval: f64| ((interval / time_step).round() as u64).max(1);
+        Ok(Self {
+            drum: Drum::new(&config.drum)?,
+            laws,
+            time_step,
+            gravity: Vec2::new(config.gravity[0], config.gravity[1]),
+            mass: particles.total_mass(),
+            sample_steps: every(config.run.sample_every),
+            frame_steps: every(config.run.frame_every),
+            steady_speed: config.rotation.is_constant().then(|| config.rotation.angular_velocity(0.0)),
+        })
+    }
+}

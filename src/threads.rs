@@ -1,0 +1,89 @@
+//! Work over fixed chunks of particles, serial or on a simulation's own thread pool.
+//!
+//! A chunk always holds the same particles and is always worked through in the same order by one thread; sums are kept
+//! per chunk and added up in chunk order afterwards. That is why the number of threads never shows in a result.
+
+use crate::error::Error;
+
+/// Particles per chunk.
+pub const CHUNK: usize = 256;
+
+/// Number of chunks that `count` particles make.
+pub fn chunk_count(count: usize) -> usize {
+    count.div_ceil(CHUNK)
+}
+
+/// Slices that cover whole chunks and can be cut between two of them.
+pub trait Chunked: Sized + Send {
+    /// Number of chunks covered.
+    fn chunks(&self) -> usize;
+    /// Cuts after the first `chunks` chunks.
+    fn split(self, chunks: usize) -> (Self, Self);
+}
+
+/// The threads that one simulation may use.
+#[derive(Debug)]
+pub struct Threads {
+    pool: Option<rayon::ThreadPool>,
+}
+
+impl Threads {
+    /// A pool of `count` threads; one thread needs no pool.
+    ///
+    /// # Errors
+    /// `Error::Config` for no threads, `Error::System` where the system refuses them.
+    pub fn new(count: usize) -> Result<Self, Error> {
+        match count {
+            0 => Err(Error::config("threads", 0, "at least 1")),
+            1 => Ok(Self { pool: None }),
+            _ => rayon::ThreadPoolBuilder::new()
+                .num_threads(count)
+                .build()
+                .map(|pool| Self { pool: Some(pool) })
+                .map_err(|error| Error::System {
+                    action: format!("starting {count} threads"),
+                    reason: error.to_string(),
+                }),
+        }
+    }
+
+    /// Number of threads.
+    pub fn count(&self) -> usize {
+        self.pool.as_ref().map_or(1, rayon::ThreadPool::current_num_threads)
+    }
+
+    /// Whether work on `count` particles is worth handing over to other threads.
+    pub fn serve(&self, count: usize) -> bool {
+        self.pool.is_some() && count >= PARALLEL_THRESHOLD
+    }
+
+    /// Runs `kernel` on each chunk of `work`, on several threads where that pays for `count` particles.
+    pub fn for_each_chunk<W: Chunked>(&self, count: usize, work: W, kernel: &(impl Fn(W) + Sync)) {
+        match &self.pool {
+            Some(pool) if self.serve(count) => pool.install(|| fork(work, kernel)),
+            _ => in_turn(work, kernel),
+        }
+    }
+}
+
+/// Particles from which two threads beat one; below it the hand-over costs more than it saves.
+const PARALLEL_THRESHOLD: usize = 2048;
+
+fn fork<W: Chunked>(work: W, kernel: &(impl Fn(W) + Sync)) {
+    let chunks = work.chunks();
+    if chunks <= 1 {
+        kernel(work);
+    } else {
+        let (left, right) = work.split(chunks / 2);
+        rayon::join(|| fork(left, kernel), || fork(right, kernel));
+    }
+}
+
+fn in_turn<W: Chunked>(mut work: W, kernel: &impl Fn(W)) {
+    while work.chunks() > 1 {
+        let (first, rest) = work.split(1);
+        kernel(first);
+        work = rest;
+    }
+    kernel(work);
+}

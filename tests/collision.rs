@@ -1,0 +1,248 @@
+//! Single impacts: restitution with and without tension, its convergence, conservation, oblique impact.
+//!
+//! Formulas for discs (I = m r²/2). Sources: Schwager & Pöschel, Granular Matter 9 (2007) 465 (clipped restitution);
+//! Chung & Ooi, Granular Matter 13 (2011) 643 (the impact tests, here in their disc form).
+
+mod common;
+
+use common::*;
+use drumrs::contact::linear::Tension;
+use drumrs::simulation::Simulation;
+use drumrs::vector::cross;
+
+/// Head-on impact of two bundles; returns the ratio of the speeds after and before. `phase` in [0, 1) says where
+/// within a step they first touch.
+fn restitution(phase: f64, time_step: f64, damping_ratio: Option<f64>, tension: Tension) -> f64 {
+    let mut config = free_space();
+    config.run.time_step = Some(time_step);
+    config.contact.bundle.tension = tension;
+    if let Some(ratio) = damping_ratio {
+        let stiffness = config.contact.bundle.normal_stiffness;
+        config.contact.bundle.restitution = None;
+        config.contact.bundle.normal_damping = Some(2.0 * ratio * (stiffness * 0.5 * mass()).sqrt());
+    }
+    let speed = 1.0;
+    let gap = (3.0 + phase) * speed * time_step;
+    let half = RADIUS + 0.5 * gap;
+    let mut simulation =
+        start(&config, several(&[([-half, 0.0], [0.5, 0.0], 0.0), ([half, 0.0], [-0.5, 0.0], 0.0)]));
+    run_through_contact(&mut simulation, 100_000);
+    let velocities = &simulation.state().particles.velocities;
+    velocities[1].x - velocities[0].x
+}
+
+fn mean_restitution(time_step: f64, tension: Tension, ratio: Option<f64>) -> f64 {
+    let phases = 100;
+    (0..phases).map(|k| restitution(f64::from(k) / f64::from(phases), time_step, ratio, tension)).sum::<f64>()
+        / f64::from(phases)
+}
+
+#[test]
+fn restitution_at_table_1s_time_step_is_within_one_per_cent() {
+    let mean = mean_restitution(TIME_STEP, Tension::Allowed, None);
+    // A dashpot that saw the half-step velocity would give 0.092.
+    assert!((mean - 0.1).abs() < 0.001, "{mean}");
+}
+
+#[test]
+fn mean_restitution_converges_with_second_order() {
+    let error = |divisor: f64| mean_restitution(TIME_STEP / divisor, Tension::Allowed, None) - 0.1;
+    let errors = [error(0.5), error(1.0), error(2.0)];
+    for pair in errors.windows(2) {
+        let order = (pair[0] / pair[1]).abs().log2();
+        assert!(order > 1.7 && order < 2.4, "order {order} from errors {errors:?}");
+    }
+}
+
+#[test]
+fn clipped_restitution_meets_schwager_and_poschel() {
+    for (ratio, expected) in [(0.1, 0.7441), (0.3, 0.4510), (0.6, 0.2488), (0.8, 0.1798)] {
+        let mean = mean_restitution(0.25 * TIME_STEP, Tension::Clipped, Some(ratio));
+        assert!((mean - expected).abs() < 0.002, "damping ratio {ratio}: {mean}, expected {expected}");
+    }
+}
+
+#[test]
+fn prescribed_restitution_is_met_with_either_tension() {
+    for tension in [Tension::Allowed, Tension::Clipped] {
+        for restitution in [0.1, 0.5, 0.9] {
+            let mut config = free_space();
+            config.contact.bundle.tension = tension;
+            config.contact.bundle.restitution = Some(restitution);
+            config.run.time_step = None;
+            let mean = (0..40).map(|k| head_on(&config, f64::from(k) / 40.0)).sum::<f64>() / 40.0;
+            assert!((mean - restitution).abs() < 0.002, "{tension:?}: {mean}, expected {restitution}");
+        }
+    }
+}
+
+fn head_on(config: &drumrs::config::SimulationConfig, phase: f64) -> f64 {
+    let half = RADIUS + 0.5 * (3.0 + phase) * TIME_STEP;
+    let mut simulation =
+        start(config, several(&[([-half, 0.0], [0.5, 0.0], 0.0), ([half, 0.0], [-0.5, 0.0], 0.0)]));
+    run_through_contact(&mut simulation, 100_000);
+    let velocities = &simulation.state().particles.velocities;
+    velocities[1].x - velocities[0].x
+}
+
+#[test]
+fn elastic_impacts_give_the_speed_back() {
+    let mut config = free_space();
+    config.contact.bundle.restitution = Some(1.0);
+    config.run.time_step = Some(TIME_STEP / 4.0);
+    let mean = (0..50).map(|k| head_on(&config, f64::from(k) / 12.5)).sum::<f64>() / 50.0;
+    assert!((mean - 1.0).abs() < 1e-3, "{mean}");
+
+    let mut config = floor([0.0, 0.0]);
+    config.contact.drum.restitution = Some(1.0);
+    config.run.time_step = Some(TIME_STEP / 4.0);
+    let mut simulation = start(&config, single([0.0, RADIUS + 1e-6], [0.0, -1.0], 0.0));
+    run_through_contact(&mut simulation, 100_000);
+    assert!((simulation.state().particles.velocities[0].y - 1.0).abs() < 5e-3);
+}
+
+#[test]
+fn normal_dissipation_is_the_energy_that_restitution_takes() {
+    let mut total = 0.0;
+    for k in 0..50 {
+        let half = RADIUS + 0.5 * (3.0 + f64::from(k) / 50.0) * TIME_STEP;
+        let mut config = free_space();
+        config.run.sample_every = TIME_STEP;
+        let mut simulation =
+            start(&config, several(&[([-half, 0.0], [0.5, 0.0], 0.0), ([half, 0.0], [-0.5, 0.0], 0.0)]));
+        run_through_contact(&mut simulation, 1000);
+        simulation.run(2).unwrap();
+        assert!(last(&simulation, "energy_residual") < 1e-13);
+        assert_eq!(last(&simulation, "dissipated_sliding"), 0.0);
+        total += last(&simulation, "dissipated_normal") / 50.0;
+    }
+    let expected = 0.5 * (0.5 * mass()) * (1.0 - 0.01);
+    assert!((total / expected - 1.0).abs() < 0.01, "{total} of {expected}");
+}
+
+/// Momentum (x, y) and angular momentum.
+fn momenta(simulation: &Simulation) -> [f64; 3] {
+    let p = &simulation.state().particles;
+    let momentum =
+        (0..p.len()).fold(nalgebra::Vector2::zeros(), |sum, i| sum + p.velocities[i] * p.masses[i]);
+    let angular = (0..p.len()).fold(0.0, |sum, i| {
+        sum + p.masses[i] * cross(p.positions[i], p.velocities[i]) + p.inertias[i] * p.angular_velocities[i]
+    });
+    [momentum.x, momentum.y, angular]
+}
+
+#[test]
+fn pairs_conserve_momentum_and_angular_momentum() {
+    for radii in [vec![RADIUS, RADIUS], vec![RADIUS, 0.4 * RADIUS]] {
+        for spins in [[0.0, 0.0], [50.0, -20.0], [-300.0, 100.0]] {
+            let reach = radii[0] + radii[1];
+            let mut initial = several(&[
+                ([0.1, 0.1], [0.7, -0.2], spins[0]),
+                ([0.1 + 1.001 * reach, 0.1 + 0.3 * reach], [-0.6, 0.3], spins[1]),
+            ]);
+            initial.radii = Some(radii.clone());
+            let mut config = free_space();
+            config.run.time_step = Some(TIME_STEP / 4.0);
+            let mut simulation = start(&config, initial);
+            let before = momenta(&simulation);
+            run_through_contact(&mut simulation, 100_000);
+            let after = momenta(&simulation);
+            for (one, other) in before.iter().zip(after) {
+                assert!((one - other).abs() < 1e-13, "{before:?} {after:?}");
+            }
+        }
+    }
+}
+
+/// What an oblique impact on a wall leaves: (tangential velocity, spin, energy lost to sliding), averaged over phases.
+fn oblique(normal_speed: f64, tangential_speed: f64, tension: Tension) -> [f64; 3] {
+    let mut config = floor([0.0, 0.0]);
+    config.contact.drum.tension = tension;
+    config.contact.drum.restitution = None;
+    config.contact.drum.normal_damping = Some(7.74e3);
+    config.contact.drum.friction = 0.1;
+    config.run.time_step = Some(TIME_STEP / 4.0);
+    config.run.sample_every = TIME_STEP;
+    let phases = 20;
+    let mut mean = [0.0; 3];
+    for k in 0..phases {
+        let height = RADIUS + (3.0 + f64::from(k) / f64::from(phases)) * normal_speed * TIME_STEP;
+        let initial = single([0.0, height], [tangential_speed, -normal_speed], 0.0);
+        let mut simulation = start(&config, initial);
+        run_through_contact(&mut simulation, 100_000);
+        simulation.run(8).unwrap();
+        let p = &simulation.state().particles;
+        let seen = [p.velocities[0].x, p.angular_velocities[0], last(&simulation, "dissipated_sliding")];
+        for (sum, value) in mean.iter_mut().zip(seen) {
+            *sum += value / f64::from(phases);
+        }
+    }
+    mean
+}
+
+#[test]
+fn oblique_impact_in_gross_sliding() {
+    let ratio = 7.74e3 / (2.0 * (9.70e7 * mass()).sqrt());
+    let wild = (1.0 - ratio * ratio).sqrt();
+    let clipped = (-(ratio / wild) * (std::f64::consts::PI - 2.0 * ratio.asin())).exp();
+    let allowed = (-std::f64::consts::PI * ratio / wild).exp();
+    // With tension, friction acts on |F_n| in the pulling phase too.
+    for (tension, impulse) in
+        [(Tension::Clipped, 1.0 + clipped), (Tension::Allowed, 1.0 + 2.0 * clipped - allowed)]
+    {
+        let (friction, normal_speed, tangential_speed) = (0.1, 0.5, 5.0);
+        let [tangential, spin, loss] = oblique(normal_speed, tangential_speed, tension);
+        let change = friction * impulse * normal_speed;
+        assert!((tangential_speed - tangential - change).abs() < 0.01 * change, "{tension:?} {tangential}");
+        // The floor drags the disc's lower side back: it spins clockwise while moving to the right.
+        assert!((spin + 2.0 * change / RADIUS).abs() < 0.015 * 2.0 * change / RADIUS, "{tension:?} {spin}");
+        let expected = mass() * change * (tangential_speed - 1.5 * change);
+        assert!((loss / expected - 1.0).abs() < 0.015, "{tension:?} {loss} {expected}");
+    }
+}
+
+/// Rebound over 5 … 85°: below the sliding limit the disc must leave with less slip than it came, above it by the
+/// gross-sliding formula; the ledger closes everywhere.
+#[test]
+fn oblique_impact_over_all_angles() {
+    let mut config = floor([0.0, 0.0]);
+    config.contact.drum.friction = 0.3;
+    config.contact.drum.restitution = Some(0.9);
+    config.contact.drum.tension = Tension::Clipped;
+    config.run.time_step = Some(TIME_STEP / 4.0);
+    config.run.sample_every = TIME_STEP;
+    for degrees in (5..=85).step_by(5) {
+        let (sin, cos) = f64::from(degrees).to_radians().sin_cos();
+        let mut simulation = start(&config, single([0.0, RADIUS + 1e-6], [sin, -cos], 0.0));
+        run_through_contact(&mut simulation, 100_000);
+        simulation.run(8).unwrap();
+        let p = &simulation.state().particles;
+        assert!(last(&simulation, "energy_residual") < 1e-12);
+        let change = 0.3 * 1.9 * cos;
+        if sin >= 3.0 * change {
+            assert!(
+                (sin - p.velocities[0].x - change).abs() < 0.02 * change,
+                "{degrees}°: {}",
+                p.velocities[0].x
+            );
+        }
+        let slip = p.velocities[0].x + RADIUS * p.angular_velocities[0];
+        assert!(slip.abs() < sin, "{degrees}°: slip {slip}");
+    }
+}
+
+/// Equal normal and tangential periods at kₛ/kₙ = 1/3: in an elastic impact without sliding, the tangential spring is
+/// relaxed when the bodies part, so slip is exactly reversed.
+#[test]
+fn equal_periods_reverse_the_slip() {
+    let mut config = floor([0.0, 0.0]);
+    config.contact.drum.restitution = Some(1.0);
+    config.contact.drum.stiffness_ratio = 1.0 / 3.0;
+    config.contact.drum.friction = 100.0;
+    config.run.time_step = Some(TIME_STEP / 16.0);
+    let mut simulation = start(&config, single([0.0, RADIUS + 1e-7], [0.2, -1.0], 0.0));
+    run_through_contact(&mut simulation, 100_000);
+    let p = &simulation.state().particles;
+    let slip = p.velocities[0].x + RADIUS * p.angular_velocities[0];
+    assert!((slip + 0.2).abs() < 0.01, "{slip}");
+}

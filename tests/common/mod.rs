@@ -1,0 +1,162 @@
+//! Scenes shared by the tests: Table 1 of Park & Wassgren, and the small worlds in which single laws show.
+
+#![allow(dead_code)] // Each test binary uses its own part.
+
+use drumrs::config::{ContactParameters, LoadParameters, RunParameters, SimulationConfig};
+use drumrs::contact::linear::{LinearParameters, Tension};
+use drumrs::drum::DrumParameters;
+use drumrs::drum::baffle::{BaffleParameters, BaffleShape};
+use drumrs::drum::rotation::RotationSchedule;
+use drumrs::simulation::Simulation;
+use drumrs::start::InitialState;
+use drumrs::vector::Vec2;
+
+pub const DRUM_RADIUS: f64 = 0.2375;
+pub const RADIUS: f64 = 0.011_875;
+pub const SPEED: f64 = 54.0 * std::f64::consts::TAU / 60.0;
+pub const TIME_STEP: f64 = 3.7e-6;
+pub const GRAVITY: f64 = 9.81;
+
+/// Mass of a bundle of Table 1 [kg/m].
+pub fn mass() -> f64 {
+    1000.0 * std::f64::consts::PI * RADIUS * RADIUS
+}
+
+pub fn law(normal_stiffness: f64) -> LinearParameters {
+    LinearParameters {
+        normal_stiffness,
+        stiffness_ratio: 1.0,
+        restitution: Some(0.1),
+        normal_damping: None,
+        friction: 0.5,
+        tension: Tension::Allowed,
+    }
+}
+
+pub fn baffles(count: usize) -> BaffleParameters {
+    BaffleParameters {
+        count,
+        shape: BaffleShape::Triangle,
+        height: 0.05,
+        base: 0.06,
+        tip: 0.02,
+        points: None,
+        phase: 0.0,
+    }
+}
+
+/// Table 1 with `count` bundles and `baffle_count` baffles.
+pub fn baseline(count: usize, baffle_count: usize) -> SimulationConfig {
+    SimulationConfig {
+        drum: DrumParameters { radius: Some(DRUM_RADIUS), baffles: baffles(baffle_count), walls: Vec::new() },
+        rotation: RotationSchedule { knots: vec![[0.0, SPEED]] },
+        load: LoadParameters {
+            count,
+            diameter: 2.0 * RADIUS,
+            density: 1000.0,
+            start_speed: 0.0,
+            spin_locked: false,
+        },
+        contact: ContactParameters { bundle: law(9.25e7), drum: law(9.70e7) },
+        gravity: [0.0, -GRAVITY],
+        run: RunParameters {
+            time_step: Some(TIME_STEP),
+            sample_every: 0.001,
+            frame_every: 0.04,
+            skin: None,
+            overlap_limit: 0.5,
+        },
+    }
+}
+
+/// Bundles of Table 1 in free space without gravity: no drum, no walls.
+pub fn free_space() -> SimulationConfig {
+    let mut config = baseline(1, 0);
+    config.drum.radius = None;
+    config.rotation.knots = vec![[0.0, 0.0]];
+    config.gravity = [0.0, 0.0];
+    config
+}
+
+/// Free space above a straight floor along the x axis, with gravity `gravity`.
+pub fn floor(gravity: [f64; 2]) -> SimulationConfig {
+    let mut config = free_space();
+    config.drum.walls = vec![vec![[-100.0, 0.0], [100.0, 0.0]]];
+    config.gravity = gravity;
+    config
+}
+
+/// One bundle of a given state.
+pub fn single(position: [f64; 2], velocity: [f64; 2], spin: f64) -> InitialState {
+    several(&[(position, velocity, spin)])
+}
+
+/// Bundles given as (position, velocity, spin).
+pub fn several(bundles: &[([f64; 2], [f64; 2], f64)]) -> InitialState {
+    InitialState {
+        positions: bundles.iter().map(|bundle| bundle.0.into()).collect(),
+        velocities: Some(bundles.iter().map(|bundle| bundle.1.into()).collect()),
+        angular_velocities: Some(bundles.iter().map(|bundle| bundle.2).collect()),
+        ..InitialState::default()
+    }
+}
+
+pub fn start(config: &SimulationConfig, initial: InitialState) -> Simulation {
+    Simulation::with_state(config.clone(), 1, 1, initial).expect("a valid scene")
+}
+
+/// Runs for `seconds`.
+pub fn run(simulation: &mut Simulation, seconds: f64) {
+    let steps = (seconds / simulation.time_step()).ceil() as u64;
+    simulation.run(steps).expect("a stable run");
+}
+
+/// Runs until no contact is left after at least one was made; fails after `most` steps.
+pub fn run_through_contact(simulation: &mut Simulation, most: u64) {
+    let touching = |simulation: &Simulation| {
+        let contacts = simulation.contacts();
+        contacts.pairs.touching().count() + contacts.walls.touching().count()
+    };
+    let mut met = false;
+    for _ in 0..most {
+        simulation.run(1).expect("a stable run");
+        let now = touching(simulation) > 0;
+        if met && !now {
+            return;
+        }
+        met |= now;
+    }
+    panic!("no contact came and went within {most} steps");
+}
+
+/// Every bit of what a simulation shows: step, particles, series.
+pub fn bits(simulation: &Simulation) -> Vec<u64> {
+    let particles = &simulation.state().particles;
+    let vectors = |vectors: &[Vec2]| -> Vec<u64> {
+        vectors.iter().flat_map(|v| [v.x.to_bits(), v.y.to_bits()]).collect()
+    };
+    let numbers = |numbers: &[f64]| -> Vec<u64> { numbers.iter().map(|number| number.to_bits()).collect() };
+    let mut all = vec![simulation.state().step];
+    all.extend(vectors(&particles.positions));
+    all.extend(vectors(&particles.velocities));
+    all.extend(vectors(&particles.accelerations));
+    all.extend(numbers(&particles.angles));
+    all.extend(numbers(&particles.angular_velocities));
+    let columns = drumrs::recorder::columns(simulation.drum().baffle_count(), simulation.drum().wall_count());
+    for index in 0..columns.len() {
+        all.extend(numbers(&simulation.state().series.column(index)));
+    }
+    all
+}
+
+/// The last value of a recorded quantity.
+pub fn last(simulation: &Simulation, name: &str) -> f64 {
+    *column(simulation, name).last().expect("at least one sample")
+}
+
+/// All values of a recorded quantity.
+pub fn column(simulation: &Simulation, name: &str) -> Vec<f64> {
+    let columns = drumrs::recorder::columns(simulation.drum().baffle_count(), simulation.drum().wall_count());
+    let index = columns.iter().position(|column| column.0 == name).expect("a recorded quantity");
+    simulation.state().series.column(index)
+}
