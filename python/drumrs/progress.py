@@ -1,0 +1,138 @@
+"""Progress of runs: bars in a terminal or notebook, otherwise one line a minute on standard error."""
+
+import sys
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from types import TracebackType
+from typing import TYPE_CHECKING, Protocol, Self
+
+if TYPE_CHECKING:
+    from rich.progress import Progress
+
+_MINUTE = 60.0
+
+
+@dataclass(frozen=True)
+class Journey:
+    """A run to be reported: from where to where, and what a step is worth."""
+
+    label: str
+    first_step: int
+    last_step: int
+    time_step: float
+    count: int
+
+
+class Board(Protocol):
+    """Something that shows how far one or several runs are."""
+
+    def __enter__(self) -> Self: ...
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None: ...
+
+    def add(self, journey: Journey) -> Callable[[int], None]:
+        """Show another run; the function returned is to be called with its step number."""
+        ...
+
+
+def board(*, show: bool) -> Board:
+    """Choose how to show progress: bars where someone looks, lines in a log, nothing if not wanted."""
+    if not show:
+        return _Silence()
+    from rich.console import Console
+
+    notebook = Console().is_jupyter
+    if notebook or sys.stderr.isatty():
+        return _Bars(notebook=notebook)
+    return _Lines()
+
+
+class _Silence:
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        return None
+
+    def add(self, journey: Journey) -> Callable[[int], None]:
+        del journey
+        return lambda step: None
+
+
+class _Meter:
+    """Rate and time left of one run."""
+
+    def __init__(self, journey: Journey) -> None:
+        self.journey = journey
+        self.began = time.perf_counter()
+
+    def rate(self, step: int) -> float:
+        """Particle-steps per second so far."""
+        elapsed = max(time.perf_counter() - self.began, 1e-9)
+        return (step - self.journey.first_step) * self.journey.count / elapsed
+
+    def line(self, step: int) -> str:
+        """Say in one line how far the run is."""
+        journey = self.journey
+        done, end = step * journey.time_step, journey.last_step * journey.time_step
+        rate = self.rate(step)
+        left = (journey.last_step - step) * journey.count / rate if rate else float("inf")
+        share = step / max(journey.last_step, 1)
+        label = f"{journey.label}: " if journey.label else ""
+        return f"{label}{share:.0%}, {done:.2f} of {end:.2f} s, {rate / 1e6:.1f} M particle-steps/s, {left:.0f} s left"
+
+
+class _Lines(_Silence):
+    def add(self, journey: Journey) -> Callable[[int], None]:
+        meter = _Meter(journey)
+        due = meter.began + _MINUTE
+
+        def report(step: int) -> None:
+            nonlocal due
+            if time.perf_counter() >= due:
+                due += _MINUTE
+                sys.stderr.write(f"{meter.line(step)}\n")
+                sys.stderr.flush()
+
+        return report
+
+
+class _Bars:
+    def __init__(self, *, notebook: bool) -> None:
+        from rich.console import Console
+        from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
+
+        self._progress: Progress = Progress(
+            TextColumn("{task.description}"),
+            BarColumn(),
+            TaskProgressColumn(),
+            TextColumn("{task.fields[state]}"),
+            TimeRemainingColumn(),
+            TextColumn("left"),
+            console=None if notebook else Console(stderr=True),
+        )
+
+    def __enter__(self) -> Self:
+        self._progress.start()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._progress.stop()
+
+    def add(self, journey: Journey) -> Callable[[int], None]:
+        meter = _Meter(journey)
+        label = journey.label or "drum"
+        task = self._progress.add_task(
+            label, total=journey.last_step, completed=journey.first_step, state=""
+        )
+        end = journey.last_step * journey.time_step
+
+        def report(step: int) -> None:
+            now = step * journey.time_step
+            state = f"{now:.2f} of {end:.2f} s · {meter.rate(step) / 1e6:.1f} M particle-steps/s"
+            self._progress.update(task, completed=step, state=state)
+
+        return report
