@@ -53,6 +53,8 @@ def read_checkpoint(path: str | Path) -> tuple[Config, bytes]:
             f"the checkpoint {str(path)!r} is of version {found!r}, but must be of version {_VERSION.decode()!r}"
         )
     if hashlib.sha256(body).digest() != digest:
-        raise CheckpointError(f"the checkpoint {str(path)!r} is truncated or damaged: its digest does not match")
+        raise CheckpointError(
+            f"the checkpoint {str(path)!r} is truncated or damaged: its digest does not match"
+        )
     head, _, core = rest.partition(b"\n")
     return Config.model_validate(json.loads(head)), core

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from drumrs.files import write_whole
 
 if TYPE_CHECKING:
-    import polars
+    import polars as pl
 
 _UNITS = {
     "frame": "",
@@ -48,8 +48,8 @@ class Frames:
         Radii of the bundles [m], shape (n,).
     drum_radius
         Radius of the rim [m], or `None` for a scene without one.
-    outlines
-        Baffles (closed) and walls (open) in the drum's own frame [m], each of shape (k, 2).
+    baffles, walls
+        Closed baffles and open walls in the drum's own frame [m], each of shape (k, 2).
     """
 
     times: NDArray[np.float64]
@@ -59,7 +59,8 @@ class Frames:
     speeds: NDArray[np.float64]
     radii: NDArray[np.float64]
     drum_radius: float | None = None
-    outlines: tuple[NDArray[np.float64], ...] = ()
+    baffles: tuple[NDArray[np.float64], ...] = ()
+    walls: tuple[NDArray[np.float64], ...] = ()
 
     def __len__(self) -> int:
         """Return the number of frames."""
@@ -79,9 +80,9 @@ class Frames:
         near = self.drum_angles[max(index - 1, 0) : index + 2]
         return int(np.sign(near[-1] - near[0]))
 
-    def table(self) -> "polars.DataFrame":
+    def table(self) -> "pl.DataFrame":
         """Return a polars table with one row for each frame and bundle; `units` of the columns as in the docs."""
-        import polars
+        import polars as pl
 
         frames, count = self.speeds.shape
         columns = {
@@ -95,20 +96,24 @@ class Frames:
             "speed": self.speeds.ravel(),
             "radius": np.tile(self.radii, frames),
         }
-        return polars.DataFrame(columns)
+        return pl.DataFrame(columns)
 
     def save(self, path: str | Path) -> None:
         """Write the table as parquet, units and the drum's outline in its metadata."""
-        scene = {"drum_radius": self.drum_radius, "outlines": [line.tolist() for line in self.outlines]}
+        scene = {
+            "drum_radius": self.drum_radius,
+            "baffles": [line.tolist() for line in self.baffles],
+            "walls": [line.tolist() for line in self.walls],
+        }
         write_table(path, self.table(), {"units": json.dumps(_UNITS), "scene": json.dumps(scene)})
 
     @classmethod
     def load(cls, path: str | Path) -> "Frames":
         """Read what `save` wrote."""
-        import polars
+        import polars as pl
 
-        table = polars.read_parquet(path)
-        scene = json.loads(polars.read_parquet_metadata(path)["scene"])
+        table = pl.read_parquet(path)
+        scene = json.loads(pl.read_parquet_metadata(path)["scene"])
         count = table["bundle"].n_unique()
         columns: dict[str, Any] = {name: table[name].to_numpy().reshape(-1, count) for name in table.columns}
         return cls(
@@ -119,11 +124,12 @@ class Frames:
             speeds=columns["speed"],
             radii=columns["radius"][0].copy(),
             drum_radius=scene["drum_radius"],
-            outlines=tuple(np.array(line) for line in scene["outlines"]),
+            baffles=tuple(np.array(line) for line in scene["baffles"]),
+            walls=tuple(np.array(line) for line in scene["walls"]),
         )
 
 
-def write_table(path: str | Path, table: "polars.DataFrame", metadata: Mapping[str, str]) -> None:
+def write_table(path: str | Path, table: "pl.DataFrame", metadata: Mapping[str, str]) -> None:
     """Write a table as parquet, whole or not at all, with `metadata` on the file."""
     buffer = io.BytesIO()
     table.write_parquet(buffer, metadata=dict(metadata))

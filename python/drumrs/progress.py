@@ -4,11 +4,7 @@ import sys
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
-from types import TracebackType
-from typing import TYPE_CHECKING, Protocol, Self
-
-if TYPE_CHECKING:
-    from rich.progress import Progress
+from typing import Self
 
 _MINUTE = 60.0
 
@@ -24,42 +20,37 @@ class Journey:
     count: int
 
 
-class Board(Protocol):
-    """Something that shows how far one or several runs are."""
+class Board:
+    """Shows how far one or several runs are; this one, the base of the others, shows nothing."""
 
-    def __enter__(self) -> Self: ...
+    def __enter__(self) -> Self:
+        """Begin to show."""
+        return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None: ...
+    def __exit__(self, *_: object) -> None:
+        """Stop showing."""
 
     def add(self, journey: Journey) -> Callable[[int], None]:
         """Show another run; the function returned is to be called with its step number."""
-        ...
+        del journey
+        return _ignore
+
+
+def _ignore(step: int) -> None:
+    """Take a step number and say nothing."""
+    del step
 
 
 def board(*, show: bool) -> Board:
     """Choose how to show progress: bars where someone looks, lines in a log, nothing if not wanted."""
     if not show:
-        return _Silence()
+        return Board()
     from rich.console import Console
 
     notebook = Console().is_jupyter
     if notebook or sys.stderr.isatty():
         return _Bars(notebook=notebook)
     return _Lines()
-
-
-class _Silence:
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        return None
-
-    def add(self, journey: Journey) -> Callable[[int], None]:
-        del journey
-        return lambda step: None
 
 
 class _Meter:
@@ -85,7 +76,7 @@ class _Meter:
         return f"{label}{share:.0%}, {done:.2f} of {end:.2f} s, {rate / 1e6:.1f} M particle-steps/s, {left:.0f} s left"
 
 
-class _Lines(_Silence):
+class _Lines(Board):
     def add(self, journey: Journey) -> Callable[[int], None]:
         meter = _Meter(journey)
         due = meter.began + _MINUTE
@@ -100,7 +91,7 @@ class _Lines(_Silence):
         return report
 
 
-class _Bars:
+class _Bars(Board):
     def __init__(self, *, notebook: bool) -> None:
         from rich.console import Console
         from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
@@ -125,9 +116,7 @@ class _Bars:
     def add(self, journey: Journey) -> Callable[[int], None]:
         meter = _Meter(journey)
         label = journey.label or "drum"
-        task = self._progress.add_task(
-            label, total=journey.last_step, completed=journey.first_step, state=""
-        )
+        task = self._progress.add_task(label, total=journey.last_step, completed=journey.first_step, state="")
         end = journey.last_step * journey.time_step
 
         def report(step: int) -> None:

@@ -14,7 +14,7 @@ from drumrs.frames import Frames, write_table
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    import polars
+    import polars as pl
 
 
 @dataclass(frozen=True)
@@ -142,7 +142,7 @@ class Result:
 
     config: Config
     summary: Summary
-    series: "polars.DataFrame"
+    series: "pl.DataFrame"
     frames: Frames
     units: "Mapping[str, str]"
 
@@ -176,10 +176,15 @@ class Result:
         from drumrs import figures
 
         start, end = self.summary.window_start, self.summary.window_end
-        indices = sorted({self.frames.nearest(time) for time in (0.0, start, end)}) if len(self.frames) else []
+        indices = (
+            sorted({self.frames.nearest(time) for time in (0.0, start, end)}) if len(self.frames) else []
+        )
         drawings = {"time_series.png": figures.time_series(self.series, window=(start, end))}
         if indices:
-            views = [figures.View(self.frames, index, f"fill {self.summary.fill:.0%}") for index in indices]
+            views = [
+                figures.View(self.frames, index, f"fill {100.0 * self.summary.fill:.0f} %")
+                for index in indices
+            ]
             drawings["snapshots.png"] = figures.snapshots(views)
         for name, figure in drawings.items():
             figures.write(figure, folder / name)
@@ -194,7 +199,7 @@ def load(folder: str | Path) -> Result:
     ConfigError
         Where the folder does not hold a finished run.
     """
-    import polars
+    import polars as pl
 
     folder = Path(folder)
     if not (folder / "summary.json").is_file():
@@ -202,7 +207,7 @@ def load(folder: str | Path) -> Result:
     return Result(
         config=Config.read(folder / "config.toml"),
         summary=Summary.from_mapping(json.loads((folder / "summary.json").read_text(encoding="utf-8"))),
-        series=polars.read_parquet(folder / "series.parquet"),
+        series=pl.read_parquet(folder / "series.parquet"),
         frames=Frames.load(folder / "frames.parquet"),
-        units=json.loads(polars.read_parquet_metadata(folder / "series.parquet")["units"]),
+        units=json.loads(pl.read_parquet_metadata(folder / "series.parquet")["units"]),
     )

@@ -20,13 +20,14 @@ from drumrs.frames import Frames
 from drumrs.result import Result, Summary
 
 if TYPE_CHECKING:
-    import polars
+    import polars as pl
 
 Array = NDArray[np.float64]
 
 # Wall seconds between looks at the clock and at the stop flag; the core answers Ctrl-C more often.
 _SLICE = 0.25
 _MOST_THREADS = 1024
+_PAIRS_OF_NUMBERS = {"positions", "velocities"}
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,10 +64,10 @@ class State:
         arrays = {name: _floats(name, value) for name, value in given.items() if value is not None}
         count = len(arrays["positions"]) if arrays["positions"].ndim else 0
         for name, array in arrays.items():
-            shape = (count, 2) if name in {"positions", "velocities"} else (count,)
-            if array.shape != shape or not count:
-                wanted = "(n, 2)" if len(shape) == 2 else "(n,)"
-                raise ConfigError(f"state.{name} is of shape {array.shape}, but must be {wanted} with n = {count or 'at least 1'}")
+            pairs = name in _PAIRS_OF_NUMBERS
+            if array.shape != ((count, 2) if pairs else (count,)) or not count:
+                wanted = f"{'(n, 2)' if pairs else '(n,)'} with n = {count or 'at least 1'}"
+                raise ConfigError(f"state.{name} is of shape {array.shape}, but must be of shape {wanted}")
         return arrays
 
 
@@ -109,15 +110,16 @@ class Simulation:
         self, config: Config, seed: int | None = None, threads: int = 1, state: State | None = None
     ) -> None:
         _check_threads(threads)
-        self._config = config if seed is None else config.replace({"run.seed": seed})
+        config = config if seed is None else config.replace({"run.seed": seed})
         arrays = None if state is None else state.arrays()
         try:
-            core = _core.Simulation(self._config.to_core_json(), self._config.run.seed, threads, arrays)
+            core = _core.Simulation(config.to_core_json(), config.run.seed, threads, arrays)
         except ConfigError as error:
-            raise _in_terms_of_fill(self._config, error) from None
-        self._start(core)
+            raise _in_terms_of_fill(config, error) from None
+        self._start(config, core)
 
-    def _start(self, core: _core.Simulation) -> None:
+    def _start(self, config: Config, core: _core.Simulation) -> None:
+        self._config = config
         self._core = core
         self._stop = threading.Event()
         self._wall_time = 0.0
@@ -291,17 +293,17 @@ class Simulation:
         return State(**{field.name: getattr(self._core, field.name) for field in fields(State)})
 
     @property
-    def series(self) -> "polars.DataFrame":
+    def series(self) -> "pl.DataFrame":
         """Polars table of the recorded quantities, one row a sample; `drumrs.units` has the units."""
-        import polars
+        import polars as pl
 
-        return polars.DataFrame(self._core.series())
+        return pl.DataFrame(self._core.series())
 
     @property
     def frames(self) -> Frames:
         """Positions, angles and speeds of the bundles at the frames' times."""
         recorded = self._core.frames()
-        drum = self._config.drum
+        drum, outlines = self._config.drum, self._core.outlines()
         return Frames(
             times=recorded["time"],
             drum_angles=recorded["drum_angle"],
@@ -310,7 +312,8 @@ class Simulation:
             speeds=recorded["speeds"],
             radii=self.radii,
             drum_radius=drum.diameter / 2.0 if drum.rim else None,
-            outlines=tuple(self._core.outlines()),
+            baffles=tuple(outlines[: drum.baffles.count]),
+            walls=tuple(outlines[drum.baffles.count :]),
         )
 
     def summary(self, window: tuple[float, float] | None = None) -> Summary:
@@ -356,12 +359,12 @@ class Simulation:
         """
         _check_threads(threads)
         config, data = read_checkpoint(path)
-        simulation = cls.__new__(cls)
-        simulation._config = config
         try:
-            simulation._start(_core.Simulation.from_checkpoint(data, threads))
+            core = _core.Simulation.from_checkpoint(data, threads)
         except CheckpointError as error:
             raise CheckpointError(f"{path}: {error}") from None
+        simulation = cls.__new__(cls)
+        simulation._start(config, core)  # noqa: SLF001 - a second constructor
         return simulation
 
 

@@ -84,7 +84,9 @@ Polyline = Annotated[
     Field(min_length=2),
     Limit("a list of at least 2 points [x, y]"),
 ]
-Knot = Annotated[tuple[NonNegative, Real], BeforeValidator(_plain), Limit("a knot [time, rpm], time at least 0")]
+Knot = Annotated[
+    tuple[NonNegative, Real], BeforeValidator(_plain), Limit("a knot [time, rpm], time at least 0")
+]
 Program = Annotated[
     tuple[Knot, ...],
     BeforeValidator(_plain),

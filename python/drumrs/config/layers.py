@@ -10,7 +10,6 @@ from drumrs.config.report import part_of, show
 from drumrs.errors import ConfigError
 
 
-
 class _Paired(Protocol):
     pair: ClassVar[tuple[str, str] | None]
 

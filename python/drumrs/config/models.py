@@ -1,5 +1,6 @@
 """The tables of a configuration, in SI units but for rpm and the baffles' phase; defaults are the paper's Table 1."""
 
+from itertools import pairwise
 from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import Field, model_validator
@@ -9,9 +10,7 @@ from drumrs.config.fields import Flag, Limit, NonNegative, Positive, Real
 from drumrs.config.part import Part
 from drumrs.config.report import relation, show
 
-Shape = Annotated[
-    Literal["triangle", "trapezoid", "polygon"], Limit("'triangle', 'trapezoid' or 'polygon'")
-]
+Shape = Annotated[Literal["triangle", "trapezoid", "polygon"], Limit("'triangle', 'trapezoid' or 'polygon'")]
 Tension = Annotated[Literal["allowed", "clipped"], Limit("'allowed' or 'clipped'")]
 TimeStep = Annotated[Literal["auto"] | Positive, Limit("'auto' or a positive finite number")]
 Skin = Annotated[Literal["auto"] | NonNegative, Limit("'auto' or a finite number of at least 0")]
@@ -79,7 +78,7 @@ class Rotation(Part):
     @model_validator(mode="after")
     def _knots_are_in_order(self) -> Self:
         times = [time for time, _ in self.program or ()]
-        for index, (earlier, later) in enumerate(zip(times, times[1:], strict=False)):
+        for index, (earlier, later) in enumerate(pairwise(times)):
             if later <= earlier:
                 raise relation(
                     f"{{at}}program[{index + 1}] is at {later} s, but must be later than the {earlier} s before it"
@@ -93,7 +92,9 @@ class Load(Part):
     pair: ClassVar[tuple[str, str] | None] = ("fill", "count")
 
     diameter: Positive = _key(0.02375, "Diameter d of a bundle [m]")
-    density: Positive = _key(1000.0, "Density of a bundle [kg/m³]; its mass is density · π d²/4 per metre of depth")
+    density: Positive = _key(
+        1000.0, "Density of a bundle [kg/m³]; its mass is density · π d²/4 per metre of depth"
+    )
     fill: Positive | None = _key(None, "Fill N d²/D², a fraction of the bare drum's area", 0.25)
     count: fields.BundleCount | None = _key(None, "Number N of bundles, instead of fill", 100)
     start_speed: NonNegative = _key(0.0, "Speed of every bundle at t = 0 [m/s], in a random direction")
@@ -128,9 +129,13 @@ class Run(Part):
     """How long to run, what to record, when to give up."""
 
     time_step: TimeStep = _key(3.70e-6, "Time step [s]; 'auto' is the shortest collision time / 50")
-    duration: Positive = _key(30.0, "Simulated time [s]; the number of steps is its quotient by the step, rounded up")
+    duration: Positive = _key(
+        30.0, "Simulated time [s]; the number of steps is its quotient by the step, rounded up"
+    )
     window: fields.Interval | None = _key(
-        None, "Start and end [s, s] of the averages; the last third of the duration unless given", [20.0, 30.0]
+        None,
+        "Start and end [s, s] of the averages; the last third of the duration unless given",
+        [20.0, 30.0],
     )
     sample_every: Positive = _key(0.002, "Interval between rows of the series [s]; means are exact for any")
     frame_every: Positive = _key(0.04, "Interval between frames (positions, angles, speeds) [s]")

@@ -1,6 +1,6 @@
 """`Part`: what every table of a configuration has in common."""
 
-from typing import Any, ClassVar, Self
+from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 from pydantic import BaseModel, ConfigDict, ValidationError, model_validator
 
@@ -8,13 +8,19 @@ from drumrs.config.layers import both_given
 from drumrs.config.report import relation, sentence
 from drumrs.errors import ConfigError
 
+if TYPE_CHECKING:
+    from pydantic._internal._model_construction import ModelMetaclass
+else:
+    # The same class, by a public way.
+    ModelMetaclass = type(BaseModel)
 
-class _OneSentence(type(BaseModel)):  # type: ignore[misc]
+
+class _OneSentence(ModelMetaclass):
     """Make a constructor raise `ConfigError`; validation of nested tables does not pass here, so paths stay whole."""
 
-    def __call__(cls, *args: Any, **values: Any) -> Any:
+    def __call__(cls: type[Any], *args: Any, **values: Any) -> Any:  # noqa: N805 - a metaclass's self is a class
         try:
-            return super().__call__(*args, **values)
+            return ModelMetaclass.__call__(cls, *args, **values)
         except ValidationError as error:
             raise ConfigError(sentence(cls, error)) from None
 
@@ -35,11 +41,13 @@ class Part(BaseModel, metaclass=_OneSentence):
             raise relation(both_given("{at}", given, values))
         if self.pair and not given:
             first, second = self.pair
-            raise relation(f"{{at}}{first} and {{at}}{second} are both missing, but one of them must be given")
+            raise relation(
+                f"{{at}}{first} and {{at}}{second} are both missing, but one of them must be given"
+            )
         return self
 
     @classmethod
-    def model_validate(cls, obj: Any, **options: Any) -> Self:  # type: ignore[override]
+    def model_validate(cls, obj: Any, **options: Any) -> Self:
         """Validate `obj` as pydantic does, but raise `ConfigError`."""
         try:
             return super().model_validate(obj, **options)

@@ -40,7 +40,7 @@ class Config(Part):
     @model_validator(mode="after")
     def _fill_is_a_number_of_bundles(self) -> Self:
         one = (self.load.diameter / self.drum.diameter) ** 2
-        if self.load.fill is not None and not 0.5 < self.load.fill / one <= fields.GREATEST_COUNT:
+        if self.load.fill is not None and not one / 2.0 < self.load.fill <= one * fields.GREATEST_COUNT:
             raise relation(
                 f"load.fill is {self.load.fill}, but must be between one bundle, {one:.4g}, "
                 f"and {fields.GREATEST_COUNT} of them"
@@ -141,7 +141,9 @@ def read_toml_file(path: str | Path) -> dict[str, Any]:
         text = Path(path).read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
         reason = error.strerror if isinstance(error, OSError) else "it is not UTF-8"
-        raise ConfigError(f"the case file is {str(path)!r}, but must be one that can be read: {reason}") from None
+        raise ConfigError(
+            f"the case file is {str(path)!r}, but must be one that can be read: {reason}"
+        ) from None
     return read_toml(text, str(path))
 
 
