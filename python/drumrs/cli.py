@@ -86,7 +86,7 @@ def run(
     seed: Seed = None,
     threads: Threads = 1,
     out: Path | None = None,
-    json: bool = False,
+    json: Annotated[bool, Parameter(negative="")] = False,
     resume: Path | None = None,
 ) -> None:
     """Run a case: the paper's baseline, a TOML file laid over it, settings laid over the file.
@@ -239,6 +239,7 @@ _SHOWN = {
 
 def _print_table(results: dict[str, Result]) -> None:
     from rich.console import Console
+    from rich.markup import escape
     from rich.table import Table
 
     table = Table(box=None, show_header=len(results) > 1)
@@ -247,8 +248,8 @@ def _print_table(results: dict[str, Result]) -> None:
         table.add_column(name, justify="right")
     summaries = [asdict(result.summary) for result in results.values()]
     for key, label in _SHOWN.items():
-        table.add_row(label, *(_number(summary[key]) for summary in summaries))
-    Console().print(table)
+        table.add_row(escape(label), *(_number(summary[key]) for summary in summaries))
+    Console(highlight=False).print(table)
 
 
 def _number(value: Any) -> str:
