@@ -38,7 +38,12 @@ class Config(Part):
     run: Run = Field(default=Run())
 
     @model_validator(mode="after")
-    def _fill_is_a_number_of_bundles(self) -> Self:
+    def _bundles_are_smaller_than_the_drum(self) -> Self:
+        if self.drum.rim and self.load.diameter >= self.drum.diameter:
+            raise relation(
+                f"load.diameter is {self.load.diameter}, but must be smaller than "
+                f"drum.diameter = {self.drum.diameter}"
+            )
         one = (self.load.diameter / self.drum.diameter) ** 2
         if self.load.fill is not None and not one / 2.0 < self.load.fill <= one * fields.GREATEST_COUNT:
             raise relation(
