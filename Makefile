@@ -1,0 +1,60 @@
+# Two commands matter: `make run` and `make test`. Both build what is missing and rebuild after a Rust edit.
+# With uv on the path it makes the environment; otherwise python3 -m venv and pip do.
+
+PYTHON ?= python3
+VENV   ?= .venv
+OUT    ?= out
+
+BIN    := $(VENV)/bin
+UV     := $(shell command -v uv 2>/dev/null)
+STAMP  := $(VENV)/.installed
+
+# maturin builds into the environment named here, and refuses to guess between this one and conda's.
+export VIRTUAL_ENV := $(abspath $(VENV))
+unexport CONDA_PREFIX
+
+.DEFAULT_GOAL := help
+.PHONY: help run test develop lint bench clean
+
+help: ## list the commands
+	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "make %-8s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
+
+run: develop ## run the paper's drum without and with baffles; results and pictures in out/
+	$(BIN)/drumrs baseline --out $(OUT)
+
+test: develop ## test the physics, the package and the documentation
+	@if command -v cargo-nextest >/dev/null; then cargo nextest run; else cargo test --lib --tests; fi
+	cargo test --doc
+	$(BIN)/python -m pytest
+
+develop: $(STAMP) ## build the core into the environment (.venv)
+	$(BIN)/maturin develop --release --skip-install --quiet
+
+lint: develop ## check format, lints, types and the stub of the core
+	cargo fmt --check
+	cargo clippy --all-targets --features python -- -D warnings
+	$(BIN)/ruff format --check .
+	$(BIN)/ruff check .
+	$(BIN)/mypy
+	cd python && ../$(BIN)/python -m mypy.stubtest drumrs._core --mypy-config-file ../pyproject.toml
+
+bench: ## measure the speed of a step
+	cargo bench
+
+clean: ## remove everything built
+	cargo clean
+	rm -rf $(VENV) $(OUT) dist python/drumrs/_core*.so
+
+# The Python dependencies are installed once and again when they change; a Rust edit only rebuilds the core.
+$(STAMP): pyproject.toml Cargo.toml
+ifdef UV
+	test -x $(BIN)/python || $(UV) venv --python '>=3.11' $(VENV)
+	$(UV) pip install 'maturin>=1.13,<2'
+	$(BIN)/maturin develop --release --extras dev --uv
+else
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "drumrs needs Python 3.11 or later; set PYTHON=")'
+	test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
+	$(BIN)/python -m pip install --disable-pip-version-check --quiet 'maturin>=1.13,<2'
+	$(BIN)/maturin develop --release --extras dev
+endif
+	@touch $@

@@ -1,0 +1,50 @@
+"""drumrs: loads tumbling in a rotating drum, simulated as discs with soft contacts.
+
+>>> import drumrs
+>>> config = drumrs.baseline(fill=0.25, baffles=True).replace({"contact.bundle.friction": 0.3})
+>>> config.bundle_count
+100
+
+All values are in SI units and per metre of drum depth, but for rpm and degrees in configurations.
+"""
+
+from importlib.metadata import version
+from typing import Any
+
+from drumrs import errors
+from drumrs.config import Config, baseline
+from drumrs.errors import CheckpointError, ConfigError, DrumrsError, UnstableError
+from drumrs.frames import Frames
+from drumrs.protocol import run
+from drumrs.result import Result, Summary, load
+from drumrs.simulation import Simulation, State, info, quantities, units
+
+__version__ = version("drumrs")
+
+__all__ = [
+    "CheckpointError",
+    "Config",
+    "ConfigError",
+    "DrumrsError",
+    "Frames",
+    "Result",
+    "Simulation",
+    "State",
+    "Summary",
+    "UnstableError",
+    "__version__",
+    "baseline",
+    "errors",
+    "info",
+    "load",
+    "quantities",
+    "run",
+    "units",
+]
+
+
+def __getattr__(name: str) -> Any:
+    """Make `drumrs.QUANTITIES`, the columns of a bare drum's series, on demand."""
+    if name == "QUANTITIES":
+        return quantities()
+    raise AttributeError(f"module 'drumrs' has no attribute {name!r}")

@@ -1,0 +1,60 @@
+"""The checkpoint file: a line with the format's version, the configuration, the core's bytes, a digest of it all."""
+
+import hashlib
+import json
+from pathlib import Path
+
+from drumrs.config import Config
+from drumrs.errors import CheckpointError
+from drumrs.files import write_whole
+
+_NAME = b"drumrs checkpoint "
+_VERSION = b"1"
+_DIGEST_SIZE = hashlib.sha256().digest_size
+
+
+def write_checkpoint(path: str | Path, config: Config, core: bytes) -> None:
+    """Write a checkpoint that is whole or not there.
+
+    Parameters
+    ----------
+    path
+        File to write.
+    config
+        The simulation's configuration; the core's bytes hold only what the core reads of it.
+    core
+        What the core's `checkpoint` returned.
+    """
+    head = json.dumps(config.model_dump(mode="json", exclude_none=True)).encode()
+    body = _NAME + _VERSION + b"\n" + head + b"\n" + core
+    write_whole(path, body + hashlib.sha256(body).digest())
+
+
+def read_checkpoint(path: str | Path) -> tuple[Config, bytes]:
+    """Read a checkpoint back.
+
+    Raises
+    ------
+    CheckpointError
+        Where the file cannot be read, is no checkpoint, of another version, truncated or damaged.
+    """
+    try:
+        data = Path(path).read_bytes()
+    except OSError as error:
+        raise CheckpointError(f"cannot read the checkpoint {str(path)!r}: {error.strerror}") from None
+    body, digest = data[:-_DIGEST_SIZE], data[-_DIGEST_SIZE:]
+    line, _, rest = body.partition(b"\n")
+    if not line.startswith(_NAME):
+        raise CheckpointError(f"{str(path)!r} is not a checkpoint, but must be a file that drumrs wrote")
+    version = line.removeprefix(_NAME)
+    if version != _VERSION:
+        found = version.decode(errors="replace")[:20]
+        raise CheckpointError(
+            f"the checkpoint {str(path)!r} is of version {found!r}, but must be of version {_VERSION.decode()!r}"
+        )
+    if hashlib.sha256(body).digest() != digest:
+        raise CheckpointError(
+            f"the checkpoint {str(path)!r} is truncated or damaged: its digest does not match"
+        )
+    head, _, core = rest.partition(b"\n")
+    return Config.model_validate(json.loads(head)), core

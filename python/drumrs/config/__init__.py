@@ -1,0 +1,26 @@
+"""Validated, frozen configurations: keys and defaults, layers, TOML and JSON in and out.
+
+Imports nothing else of drumrs but its errors. `fields` holds the types of values and the words for their limits,
+`models` the tables, `root` the whole; `layers` lays tables over each other, `report` words refusals, `document`
+writes TOML, `boundary` translates for the compiled core.
+"""
+
+from drumrs.config.layers import merge, nest, parse_settings
+from drumrs.config.models import Baffles, Contact, Drum, LinearContact, Load, Rotation, Run
+from drumrs.config.root import Config, baseline, read_toml_file
+
+__all__ = [
+    "Baffles",
+    "Config",
+    "Contact",
+    "Drum",
+    "LinearContact",
+    "Load",
+    "Rotation",
+    "Run",
+    "baseline",
+    "merge",
+    "nest",
+    "parse_settings",
+    "read_toml_file",
+]

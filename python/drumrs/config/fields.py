@@ -1,0 +1,95 @@
+"""Types of the configuration's values: what they accept, and the words in which a refusal says so."""
+
+import numbers
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+from pydantic import BeforeValidator, Field
+
+
+@dataclass(frozen=True)
+class Limit:
+    """What a field accepts, as the end of the sentence "KEY is VALUE, but must be …"."""
+
+    text: str
+
+
+def _plain(value: Any) -> Any:
+    """Turn NumPy scalars and arrays into Python's own, so that a study may feed either."""
+    if isinstance(value, bool):
+        return value
+    if isinstance(value, numbers.Integral):
+        return int(value)
+    if isinstance(value, numbers.Real):
+        return float(value)
+    return value.tolist() if hasattr(value, "tolist") else value
+
+
+def _whole_as_float(value: Any) -> Any:
+    """Let 54 stand for 54.0; an integer beyond all floats is refused as infinite."""
+    value = _plain(value)
+    if isinstance(value, int) and not isinstance(value, bool):
+        try:
+            return float(value)
+        except OverflowError:
+            return float("inf") if value > 0 else float("-inf")
+    return value
+
+
+_NUMBER = BeforeValidator(_whole_as_float)
+_FINITE = Field(strict=True, allow_inf_nan=False)
+_WHOLE = Field(strict=True)
+
+Real = Annotated[float, _NUMBER, _FINITE, Limit("a finite number")]
+Positive = Annotated[float, _NUMBER, _FINITE, Field(gt=0), Limit("a positive finite number")]
+NonNegative = Annotated[float, _NUMBER, _FINITE, Field(ge=0), Limit("a finite number of at least 0")]
+Restitution = Annotated[float, _NUMBER, _FINITE, Field(gt=0, le=1), Limit("above 0 and at most 1")]
+OpenFraction = Annotated[float, _NUMBER, _FINITE, Field(gt=0, lt=1), Limit("between 0 and 1")]
+Flag = Annotated[bool, Field(strict=True), Limit("true or false")]
+
+GREATEST_COUNT = 10_000_000
+GREATEST_SEED = 2**63 - 1
+
+BundleCount = Annotated[
+    int,
+    BeforeValidator(_plain),
+    _WHOLE,
+    Field(ge=1, le=GREATEST_COUNT),
+    Limit(f"a whole number from 1 to {GREATEST_COUNT}"),
+]
+BaffleCount = Annotated[
+    int, BeforeValidator(_plain), _WHOLE, Field(ge=0, le=1000), Limit("a whole number from 0 to 1000")
+]
+Seed = Annotated[
+    int,
+    BeforeValidator(_plain),
+    _WHOLE,
+    Field(ge=0, le=GREATEST_SEED),
+    Limit(f"a whole number from 0 to {GREATEST_SEED}"),
+]
+
+Vector = Annotated[tuple[Real, Real], BeforeValidator(_plain), Limit("a pair [x, y] of finite numbers")]
+Interval = Annotated[
+    tuple[NonNegative, NonNegative], BeforeValidator(_plain), Limit("a pair [start, end] of times")
+]
+Points = Annotated[
+    tuple[Vector, ...],
+    BeforeValidator(_plain),
+    Field(min_length=3),
+    Limit("a list of at least 3 points [x, y]"),
+]
+Polyline = Annotated[
+    tuple[Vector, ...],
+    BeforeValidator(_plain),
+    Field(min_length=2),
+    Limit("a list of at least 2 points [x, y]"),
+]
+Knot = Annotated[
+    tuple[NonNegative, Real], BeforeValidator(_plain), Limit("a knot [time, rpm], time at least 0")
+]
+Program = Annotated[
+    tuple[Knot, ...],
+    BeforeValidator(_plain),
+    Field(min_length=1),
+    Limit("a list of at least 1 knot [time, rpm]"),
+]

@@ -1,0 +1,110 @@
+"""Layers of keys: a case file over the baseline, command-line settings over the file, the upper one winning."""
+
+import tomllib
+from collections.abc import Iterable, Mapping
+from typing import Any, ClassVar, Protocol, cast
+
+from pydantic import BaseModel
+
+from drumrs.config.report import part_of, show
+from drumrs.errors import ConfigError
+
+
+class _Paired(Protocol):
+    pair: ClassVar[tuple[str, str] | None]
+
+
+def nest(dotted: Mapping[str, Any]) -> dict[str, Any]:
+    """Turn dotted keys into nested tables.
+
+    Examples
+    --------
+    >>> nest({"load.fill": 0.4, "run.seed": 2})
+    {'load': {'fill': 0.4}, 'run': {'seed': 2}}
+    """
+    nested: dict[str, Any] = {}
+    for key, value in dotted.items():
+        *tables, leaf = key.split(".")
+        table = nested
+        for name in tables:
+            table = table.setdefault(name, {})
+            if not isinstance(table, dict):
+                raise ConfigError(f"{name} is {show(table)}, but must be a table to hold {key}")
+        if isinstance(value, Mapping) and isinstance(table.get(leaf), dict):
+            table[leaf] = {**table[leaf], **value}
+        else:
+            table[leaf] = value
+    return nested
+
+
+def merge(
+    model: type[BaseModel], lower: Mapping[str, Any], upper: Mapping[str, Any], at: str = ""
+) -> dict[str, Any]:
+    """Lay `upper` over `lower`; one of an either–or pair takes the place of the other.
+
+    Raises
+    ------
+    ConfigError
+        If `upper` holds both of a pair.
+    """
+    pair = cast("_Paired", model).pair or ()
+    chosen = [key for key in pair if upper.get(key) is not None]
+    if len(chosen) > 1:
+        raise ConfigError(both_given(at, chosen, upper))
+    merged = {key: value for key, value in lower.items() if not (chosen and key in pair)}
+    for key, value in upper.items():
+        part = part_of(model, key)
+        below = merged.get(key)
+        if part is not None and isinstance(value, Mapping) and isinstance(below, Mapping):
+            merged[key] = merge(part, below, value, f"{at}{key}.")
+        elif value is None:
+            merged.pop(key, None)
+        else:
+            merged[key] = value
+    return merged
+
+
+def both_given(at: str, pair: Iterable[str], values: Mapping[str, Any]) -> str:
+    """Say that both keys of an either–or pair stand in one layer."""
+    names = " and ".join(f"{at}{key}" for key in pair)
+    shown = " and ".join(show(values[key]) for key in pair)
+    return f"{names} are both given ({shown}), but only one of them may be"
+
+
+def parse_settings(settings: Iterable[str]) -> dict[str, Any]:
+    """Read `KEY=VALUE` words into dotted keys; VALUE is a TOML literal, a bare word a string, the last wins.
+
+    Examples
+    --------
+    >>> parse_settings(["run.window=[5, 15]", "contact.drum.tension=clipped"])
+    {'run.window': [5, 15], 'contact.drum.tension': 'clipped'}
+    """
+    layer: dict[str, Any] = {}
+    for setting in settings:
+        key, equals, text = setting.partition("=")
+        if not equals or not key.strip():
+            raise ConfigError(f"--set is {setting!r}, but must be KEY=VALUE")
+        layer[key.strip()] = _literal(text.strip())
+    return layer
+
+
+def read_toml(text: str, source: str = "the configuration") -> dict[str, Any]:
+    """Parse TOML into a layer.
+
+    Raises
+    ------
+    ConfigError
+        If `text` is not TOML; the sentence names `source`, the line and the column.
+    """
+    try:
+        return tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise ConfigError(f"{source} is not valid TOML: {error}") from None
+
+
+def _literal(text: str) -> Any:
+    try:
+        parsed = tomllib.loads(f"value = {text}")
+    except tomllib.TOMLDecodeError:
+        return text
+    return parsed["value"] if len(parsed) == 1 else text

@@ -1,0 +1,162 @@
+"""The tables of a configuration, in SI units but for rpm and the baffles' phase; defaults are the paper's Table 1."""
+
+from itertools import pairwise
+from typing import Annotated, Any, ClassVar, Literal, Self
+
+from pydantic import Field, model_validator
+
+from drumrs.config import fields
+from drumrs.config.fields import Flag, Limit, NonNegative, Positive, Real
+from drumrs.config.part import Part
+from drumrs.config.report import relation, show
+
+Shape = Annotated[Literal["triangle", "trapezoid", "polygon"], Limit("'triangle', 'trapezoid' or 'polygon'")]
+Tension = Annotated[Literal["allowed", "clipped"], Limit("'allowed' or 'clipped'")]
+TimeStep = Annotated[Literal["auto"] | Positive, Limit("'auto' or a positive finite number")]
+Skin = Annotated[Literal["auto"] | NonNegative, Limit("'auto' or a finite number of at least 0")]
+
+
+def _key(default: Any, meaning: str, example: Any = None) -> Any:
+    """Describe a key, unit in brackets; `example` is what the documented TOML shows for a key that is not set."""
+    examples = None if example is None else [example]
+    return Field(default=default, description=f"{meaning}.", examples=examples)
+
+
+class Baffles(Part):
+    """Equal baffles, spread evenly round the rim; their default sizes are an assumption."""
+
+    count: fields.BaffleCount = _key(0, "Number of baffles; 0 is a bare drum")
+    shape: Shape = _key("triangle", "'triangle', 'trapezoid' or 'polygon'")
+    height: Positive = _key(0.05, "Distance of the tip from the rim [m], along the baffle's axis")
+    base: Positive = _key(0.06, "Distance (chord) of the two base corners [m], which lie on the rim")
+    tip: Positive = _key(0.02, "Distance of the two tip corners of a trapezoid [m]")
+    points: fields.Points | None = _key(
+        None,
+        "Corners of a polygon [m]: x along the baffle's axis inwards from the rim, y across",
+        [[0.0, -0.03], [0.05, 0.0], [0.0, 0.03]],
+    )
+    phase: Real = _key(0.0, "Angle of the first baffle's axis at t = 0 [degrees], counter-clockwise from +x")
+
+    @model_validator(mode="after")
+    def _polygon_has_points(self) -> Self:
+        if self.shape == "polygon" and self.points is None:
+            raise relation("{at}points is missing, but must be given where {at}shape is 'polygon'")
+        return self
+
+
+class Drum(Part):
+    """The drum: rim, baffles and straight walls, one rigid body that turns about the origin."""
+
+    diameter: Positive = _key(0.475, "Inner diameter D [m]")
+    rim: Flag = _key(default=True, meaning="Whether there is a rim; false leaves the walls alone")
+    walls: Annotated[tuple[fields.Polyline, ...], Limit("a list of polylines")] = _key(
+        (), "Further walls: open polylines of points [m, m] at t = 0, which turn with the drum"
+    )
+    baffles: Baffles = Field(default=Baffles())
+
+    @model_validator(mode="after")
+    def _baffles_stand_on_a_rim(self) -> Self:
+        if self.baffles.count and not self.rim:
+            raise relation(
+                f"{{at}}baffles.count is {self.baffles.count}, but must be 0 where {{at}}rim is false"
+            )
+        return self
+
+
+class Rotation(Part):
+    """How the drum turns, counter-clockwise positive: one speed, or a programme."""
+
+    pair: ClassVar[tuple[str, str] | None] = ("rpm", "program")
+
+    rpm: Real | None = _key(None, "Constant speed [rpm]", 54.0)
+    program: fields.Program | None = _key(
+        None,
+        "Knots [s, rpm] of a programme: linear between them, constant beyond the first and last",
+        [[0.0, 0.0], [2.0, 54.0], [20.0, 54.0], [22.0, -54.0]],
+    )
+
+    @model_validator(mode="after")
+    def _knots_are_in_order(self) -> Self:
+        times = [time for time, _ in self.program or ()]
+        for index, (earlier, later) in enumerate(pairwise(times)):
+            if later <= earlier:
+                raise relation(
+                    f"{{at}}program[{index + 1}] is at {later} s, but must be later than the {earlier} s before it"
+                )
+        return self
+
+
+class Load(Part):
+    """The load: equal discs that stand for bundles of fabric."""
+
+    pair: ClassVar[tuple[str, str] | None] = ("fill", "count")
+
+    diameter: Positive = _key(0.02375, "Diameter d of a bundle [m]")
+    density: Positive = _key(
+        1000.0, "Density of a bundle [kg/m³]; its mass is density · π d²/4 per metre of depth"
+    )
+    fill: Positive | None = _key(None, "Fill N d²/D², a fraction of the bare drum's area", 0.25)
+    count: fields.BundleCount | None = _key(None, "Number N of bundles, instead of fill", 100)
+    start_speed: NonNegative = _key(0.0, "Speed of every bundle at t = 0 [m/s], in a random direction")
+    spin_locked: Flag = _key(default=False, meaning="Whether bundles are kept from spinning")
+
+
+class LinearContact(Part):
+    """A linear spring and dashpot with a tangential spring that Coulomb friction cuts off."""
+
+    pair: ClassVar[tuple[str, str] | None] = ("restitution", "normal_damping")
+
+    normal_stiffness: Positive = Field(description="Stiffness of the normal spring [N/m].")
+    stiffness_ratio: NonNegative = _key(1.0, "Tangential stiffness over normal stiffness")
+    restitution: fields.Restitution | None = _key(
+        None, "Coefficient of restitution; the damping follows from it", 0.1
+    )
+    normal_damping: NonNegative | None = _key(
+        None, "Damping of the normal dashpot [N s/m], instead of restitution", 5.35e3
+    )
+    friction: NonNegative = _key(0.5, "Coefficient of friction")
+    tension: Tension = _key("allowed", "Whether the dashpot may pull: 'allowed' (the paper) or 'clipped'")
+
+
+class Contact(Part):
+    """The contact laws: bundle against bundle, bundle against drum."""
+
+    bundle: LinearContact = Field(default=LinearContact(normal_stiffness=9.25e7, restitution=0.1))
+    drum: LinearContact = Field(default=LinearContact(normal_stiffness=9.70e7, restitution=0.1))
+
+
+class Run(Part):
+    """How long to run, what to record, when to give up."""
+
+    time_step: TimeStep = _key(3.70e-6, "Time step [s]; 'auto' is the shortest collision time / 50")
+    duration: Positive = _key(
+        30.0, "Simulated time [s]; the number of steps is its quotient by the step, rounded up"
+    )
+    window: fields.Interval | None = _key(
+        None,
+        "Start and end [s, s] of the averages; the last third of the duration unless given",
+        [20.0, 30.0],
+    )
+    sample_every: Positive = _key(0.002, "Interval between rows of the series [s]; means are exact for any")
+    frame_every: Positive = _key(0.04, "Interval between frames (positions, angles, speeds) [s]")
+    checkpoint_every: Positive = _key(60.0, "Interval between checkpoints [s], in time of the wall clock")
+    seed: fields.Seed = _key(1, "Seed of the random start")
+    skin: Skin = _key("auto", "Margin of the neighbour lists [m]; it changes the speed, never a result")
+    overlap_limit: fields.OpenFraction = _key(
+        0.5, "Greatest overlap, over the smaller radius, before the run is given up as unstable"
+    )
+
+    @model_validator(mode="after")
+    def _window_lies_in_the_duration(self) -> Self:
+        start, end = self.averaging_window
+        if not start < end <= self.duration:
+            raise relation(
+                f"{{at}}window is {show(self.window)}, but must be a pair [start, end] with "
+                f"0 <= start < end <= {{at}}duration = {self.duration}"
+            )
+        return self
+
+    @property
+    def averaging_window(self) -> tuple[float, float]:
+        """Interval of the averages [s]: `window`, or the last third of the duration."""
+        return self.window or (self.duration * 2.0 / 3.0, self.duration)

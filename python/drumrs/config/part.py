@@ -1,0 +1,55 @@
+"""`Part`: what every table of a configuration has in common."""
+
+from typing import TYPE_CHECKING, Any, ClassVar, Self
+
+from pydantic import BaseModel, ConfigDict, ValidationError, model_validator
+
+from drumrs.config.layers import both_given
+from drumrs.config.report import relation, sentence
+from drumrs.errors import ConfigError
+
+if TYPE_CHECKING:
+    from pydantic._internal._model_construction import ModelMetaclass
+else:
+    # The same class, by a public way.
+    ModelMetaclass = type(BaseModel)
+
+
+class _OneSentence(ModelMetaclass):
+    """Make a constructor raise `ConfigError`; validation of nested tables does not pass here, so paths stay whole."""
+
+    def __call__(cls: type[Any], *args: Any, **values: Any) -> Any:  # noqa: N805 - a metaclass's self is a class
+        try:
+            return ModelMetaclass.__call__(cls, *args, **values)
+        except ValidationError as error:
+            raise ConfigError(sentence(cls, error)) from None
+
+
+class Part(BaseModel, metaclass=_OneSentence):
+    """A frozen table of keys that refuses unknown ones."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", validate_default=True)
+
+    # Two keys of which a complete table holds exactly one.
+    pair: ClassVar[tuple[str, str] | None] = None
+
+    @model_validator(mode="after")
+    def _has_one_of_its_pair(self) -> Self:
+        given = [key for key in self.pair or () if getattr(self, key) is not None]
+        if len(given) > 1:
+            values = {key: getattr(self, key) for key in given}
+            raise relation(both_given("{at}", given, values))
+        if self.pair and not given:
+            first, second = self.pair
+            raise relation(
+                f"{{at}}{first} and {{at}}{second} are both missing, but one of them must be given"
+            )
+        return self
+
+    @classmethod
+    def model_validate(cls, obj: Any, **options: Any) -> Self:
+        """Validate `obj` as pydantic does, but raise `ConfigError`."""
+        try:
+            return super().model_validate(obj, **options)
+        except ValidationError as error:
+            raise ConfigError(sentence(cls, error)) from None

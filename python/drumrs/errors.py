@@ -1,0 +1,28 @@
+"""What can go wrong, as four exceptions; each message is one sentence with the value and the limit.
+
+The core raises the same classes, by importing this module: so every error pickles, whichever side it comes from.
+"""
+
+
+class DrumrsError(Exception):
+    """Base of every error that drumrs raises on purpose."""
+
+
+class ConfigError(DrumrsError, ValueError):
+    """A key, a value or a combination of them that no simulation can have.
+
+    Examples
+    --------
+    >>> import drumrs
+    >>> drumrs.baseline(fill=-0.1)
+    Traceback (most recent call last):
+    drumrs.errors.ConfigError: load.fill is -0.1, but must be a positive finite number
+    """
+
+
+class UnstableError(DrumrsError, RuntimeError):
+    """The simulation left the range in which the model means anything; names the step and the bundle."""
+
+
+class CheckpointError(DrumrsError, ValueError):
+    """A checkpoint that is truncated, damaged or of another version."""

@@ -1,0 +1,25 @@
+"""Files that are either whole or not there: written under a temporary name, flushed to disk, renamed."""
+
+import os
+from pathlib import Path
+
+
+def write_whole(path: str | Path, data: bytes) -> None:
+    """Write `data` so that `path` never holds half of it, not even after a power cut.
+
+    Raises
+    ------
+    OSError
+        Where the folder cannot be written; the temporary file is removed.
+    """
+    path = Path(path)
+    temporary = path.with_name(f".{path.name}.{os.getpid()}.tmp")
+    try:
+        with temporary.open("wb") as file:
+            file.write(data)
+            file.flush()
+            os.fsync(file.fileno())
+        temporary.replace(path)
+    except BaseException:
+        temporary.unlink(missing_ok=True)
+        raise

@@ -1,0 +1,127 @@
+"""Progress of runs: bars in a terminal or notebook, otherwise one line a minute on standard error."""
+
+import sys
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Self
+
+_MINUTE = 60.0
+
+
+@dataclass(frozen=True)
+class Journey:
+    """A run to be reported: from where to where, and what a step is worth."""
+
+    label: str
+    first_step: int
+    last_step: int
+    time_step: float
+    count: int
+
+
+class Board:
+    """Shows how far one or several runs are; this one, the base of the others, shows nothing."""
+
+    def __enter__(self) -> Self:
+        """Begin to show."""
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        """Stop showing."""
+
+    def add(self, journey: Journey) -> Callable[[int], None]:
+        """Show another run; the function returned is to be called with its step number."""
+        del journey
+        return _ignore
+
+
+def _ignore(step: int) -> None:
+    """Take a step number and say nothing."""
+    del step
+
+
+def board(*, show: bool) -> Board:
+    """Choose how to show progress: bars where someone looks, lines in a log, nothing if not wanted."""
+    if not show:
+        return Board()
+    from rich.console import Console
+
+    notebook = Console().is_jupyter
+    if notebook or sys.stderr.isatty():
+        return _Bars(notebook=notebook)
+    return _Lines()
+
+
+class _Meter:
+    """Rate and time left of one run."""
+
+    def __init__(self, journey: Journey) -> None:
+        self.journey = journey
+        self.began = time.perf_counter()
+
+    def rate(self, step: int) -> float:
+        """Particle-steps per second so far."""
+        elapsed = max(time.perf_counter() - self.began, 1e-9)
+        return (step - self.journey.first_step) * self.journey.count / elapsed
+
+    def line(self, step: int) -> str:
+        """Say in one line how far the run is."""
+        journey = self.journey
+        done, end = step * journey.time_step, journey.last_step * journey.time_step
+        rate = self.rate(step)
+        left = (journey.last_step - step) * journey.count / rate if rate else float("inf")
+        share = step / max(journey.last_step, 1)
+        label = f"{journey.label}: " if journey.label else ""
+        return f"{label}{share:.0%}, {done:.2f} of {end:.2f} s, {rate / 1e6:.1f} M particle-steps/s, {left:.0f} s left"
+
+
+class _Lines(Board):
+    def add(self, journey: Journey) -> Callable[[int], None]:
+        meter = _Meter(journey)
+        due = meter.began + _MINUTE
+
+        def report(step: int) -> None:
+            nonlocal due
+            if time.perf_counter() >= due:
+                due += _MINUTE
+                sys.stderr.write(f"{meter.line(step)}\n")
+                sys.stderr.flush()
+
+        return report
+
+
+class _Bars(Board):
+    def __init__(self, *, notebook: bool) -> None:
+        from rich.console import Console
+        from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
+
+        self._progress: Progress = Progress(
+            TextColumn("{task.description}"),
+            BarColumn(),
+            TaskProgressColumn(),
+            TextColumn("{task.fields[state]}"),
+            TimeRemainingColumn(),
+            TextColumn("left"),
+            console=None if notebook else Console(stderr=True),
+        )
+
+    def __enter__(self) -> Self:
+        self._progress.start()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._progress.stop()
+
+    def add(self, journey: Journey) -> Callable[[int], None]:
+        meter = _Meter(journey)
+        label = journey.label or "drum"
+        task = self._progress.add_task(label, total=journey.last_step, completed=journey.first_step, state="")
+        end = journey.last_step * journey.time_step
+
+        def report(step: int) -> None:
+            now = step * journey.time_step
+            state = f"{now:.2f} of {end:.2f} s · {meter.rate(step) / 1e6:.1f} M particle-steps/s"
+            self._progress.update(task, completed=step, state=state)
+
+        return report

@@ -1,0 +1,213 @@
+"""`Result`: what a finished run leaves, in memory and in a folder."""
+
+import json
+import math
+from dataclasses import asdict, dataclass, fields
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from drumrs.config import Config
+from drumrs.errors import ConfigError
+from drumrs.files import write_whole
+from drumrs.frames import Frames, write_table
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    import polars as pl
+
+
+@dataclass(frozen=True)
+class Summary:
+    """Averages over a window of the run; powers, torques and forces are per metre of drum depth.
+
+    Attributes
+    ----------
+    bundle_count
+        Number of bundles N.
+    fill
+        Fill N d²/D².
+    steps
+        Steps since t = 0.
+    time_step
+        Time step [s].
+    window_start, window_end
+        The window [s].
+    drum_torque
+        Torque of the drum on the load about its axis [N m/m].
+    drum_power
+        Power of the drum [W/m], positive where it does work on the load.
+    specific_power
+        Drum power over the load's mass [W/kg].
+    specific_power_error
+        Standard error of `specific_power` [W/kg], from block averages; `None` where the window is too short.
+    normal_power, tangential_power
+        Work into normal and tangential contacts, springs and dissipation together, per time [W/m].
+    normal_tangential_ratio
+        `normal_power` over `tangential_power`; `None` where that is 0.
+    center_of_mass
+        Centre of mass of the load [m, m].
+    coordination
+        Contacts per bundle.
+    max_overlap_ratio
+        Greatest overlap over the smaller radius.
+    energy_residual
+        What the energy ledger fails to account for, relative, over the whole run.
+    power_disagreement
+        Largest difference of the three powers over the largest of them.
+    power_torque, power_ledger, power_balance
+        The three powers [W/m]: torque times speed; energy stored and dissipated; gravity and angular momentum.
+    force_x, force_y
+        Force of the load on the drum [N/m].
+    kinetic_energy
+        Kinetic energy of the load [J/m].
+    dissipated_normal_power, dissipated_sliding_power
+        Dissipation by normal damping and by sliding [W/m].
+    numerical_power
+        Power that the finite time step takes [W/m].
+    correlation_time
+        Integral correlation time of the drum's power [s].
+    wall_time
+        Time of the wall clock spent stepping in this process [s].
+    particle_steps_per_second
+        Bundles times steps per second of `wall_time` [1/s].
+    """
+
+    bundle_count: int
+    fill: float
+    steps: int
+    time_step: float
+    window_start: float
+    window_end: float
+    drum_torque: float
+    drum_power: float
+    specific_power: float
+    specific_power_error: float | None
+    normal_power: float
+    tangential_power: float
+    normal_tangential_ratio: float | None
+    center_of_mass: tuple[float, float]
+    coordination: float
+    max_overlap_ratio: float
+    energy_residual: float
+    power_disagreement: float
+    power_torque: float
+    power_ledger: float
+    power_balance: float
+    force_x: float
+    force_y: float
+    kinetic_energy: float
+    dissipated_normal_power: float
+    dissipated_sliding_power: float
+    numerical_power: float
+    correlation_time: float | None
+    wall_time: float
+    particle_steps_per_second: float | None
+
+    @classmethod
+    def from_mapping(cls, values: "Mapping[str, Any]") -> "Summary":
+        """Build a summary from the core's mapping or from JSON; further keys are left out, NaN becomes `None`."""
+        values = dict(values)
+        if "center_of_mass" not in values:
+            values["center_of_mass"] = (values["center_of_mass_x"], values["center_of_mass_y"])
+        known = {field.name: _finite(values[field.name]) for field in fields(cls)}
+        return cls(**{**known, "center_of_mass": tuple(known["center_of_mass"])})
+
+    def to_json(self) -> str:
+        """Return one JSON object; what is not defined is null."""
+        return json.dumps(asdict(self), indent=2, allow_nan=False)
+
+
+def _finite(value: Any) -> Any:
+    return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+@dataclass(frozen=True, eq=False)
+class Result:
+    """A finished run.
+
+    Attributes
+    ----------
+    config
+        The configuration, seed included.
+    summary
+        Averages over the window.
+    series
+        Polars table, one row a sample; `units` has the columns' units.
+    frames
+        Positions, angles and speeds of the bundles at the frames' times.
+    units
+        Unit of each column of `series`.
+    """
+
+    config: Config
+    summary: Summary
+    series: "pl.DataFrame"
+    frames: Frames
+    units: "Mapping[str, str]"
+
+    def save(self, folder: str | Path, *, pictures: bool = True) -> list[Path]:
+        """Write config.toml, series.parquet, frames.parquet, the pictures and, last, summary.json.
+
+        Parameters
+        ----------
+        folder
+            Created where it does not exist.
+        pictures
+            Whether to draw snapshots.png and time_series.png.
+
+        Returns
+        -------
+        list of Path
+            The files written.
+        """
+        folder = Path(folder)
+        folder.mkdir(parents=True, exist_ok=True)
+        write_whole(folder / "config.toml", self.config.to_toml().encode())
+        write_table(folder / "series.parquet", self.series, {"units": json.dumps(dict(self.units))})
+        self.frames.save(folder / "frames.parquet")
+        drawn = self._draw(folder) if pictures else []
+        # The summary comes last: a folder that has one is complete.
+        write_whole(folder / "summary.json", f"{self.summary.to_json()}\n".encode())
+        names = ("config.toml", "series.parquet", "frames.parquet", "summary.json")
+        return [folder / name for name in names] + drawn
+
+    def _draw(self, folder: Path) -> list[Path]:
+        from drumrs import figures
+
+        start, end = self.summary.window_start, self.summary.window_end
+        indices = (
+            sorted({self.frames.nearest(time) for time in (0.0, start, end)}) if len(self.frames) else []
+        )
+        drawings = {"time_series.png": figures.time_series(self.series, window=(start, end))}
+        if indices:
+            views = [
+                figures.View(self.frames, index, f"fill {100.0 * self.summary.fill:.0f} %")
+                for index in indices
+            ]
+            drawings["snapshots.png"] = figures.snapshots(views)
+        for name, figure in drawings.items():
+            figures.write(figure, folder / name)
+        return [folder / name for name in drawings]
+
+
+def load(folder: str | Path) -> Result:
+    """Read what `Result.save` wrote.
+
+    Raises
+    ------
+    ConfigError
+        Where the folder does not hold a finished run.
+    """
+    import polars as pl
+
+    folder = Path(folder)
+    if not (folder / "summary.json").is_file():
+        raise ConfigError(f"{str(folder)!r} holds no summary.json, but must be the folder of a finished run")
+    return Result(
+        config=Config.read(folder / "config.toml"),
+        summary=Summary.from_mapping(json.loads((folder / "summary.json").read_text(encoding="utf-8"))),
+        series=pl.read_parquet(folder / "series.parquet"),
+        frames=Frames.load(folder / "frames.parquet"),
+        units=json.loads(pl.read_parquet_metadata(folder / "series.parquet")["units"]),
+    )

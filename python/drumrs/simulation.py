@@ -1,0 +1,422 @@
+"""`Simulation`: one drum, step by step; the only module that talks to the compiled core."""
+
+import math
+import threading
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, fields
+from pathlib import Path
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from drumrs import _core
+from drumrs.checkpoint import read_checkpoint, write_checkpoint
+from drumrs.config import Config
+from drumrs.errors import CheckpointError, ConfigError
+from drumrs.frames import Frames
+from drumrs.result import Result, Summary
+
+if TYPE_CHECKING:
+    import polars as pl
+
+Array = NDArray[np.float64]
+
+# Wall seconds between looks at the clock and at the stop flag; the core answers Ctrl-C more often.
+_SLICE = 0.25
+_MOST_THREADS = 1024
+_PAIRS_OF_NUMBERS = {"positions", "velocities"}
+
+
+@dataclass(frozen=True, eq=False)
+class State:
+    """Where the bundles are and how they move; what is not given is 0, or the configuration's radius.
+
+    Attributes
+    ----------
+    positions
+        Centres [m], shape (n, 2). Their number takes the place of ``load.count``.
+    velocities
+        Velocities [m/s], shape (n, 2).
+    angles, angular_velocities
+        Angles [rad] and spins [rad/s], counter-clockwise, shape (n,).
+    radii
+        Radii [m], shape (n,).
+    """
+
+    positions: ArrayLike
+    velocities: ArrayLike | None = None
+    angles: ArrayLike | None = None
+    angular_velocities: ArrayLike | None = None
+    radii: ArrayLike | None = None
+
+    def arrays(self) -> dict[str, Array]:
+        """Return the given arrays as the core reads them.
+
+        Raises
+        ------
+        ConfigError
+            Where an array has another shape or holds something but numbers.
+        """
+        given = {field.name: getattr(self, field.name) for field in fields(self)}
+        arrays = {name: _floats(name, value) for name, value in given.items() if value is not None}
+        count = len(arrays["positions"]) if arrays["positions"].ndim else 0
+        for name, array in arrays.items():
+            pairs = name in _PAIRS_OF_NUMBERS
+            if array.shape != ((count, 2) if pairs else (count,)) or not count:
+                wanted = f"{'(n, 2)' if pairs else '(n,)'} with n = {count or 'at least 1'}"
+                raise ConfigError(f"state.{name} is of shape {array.shape}, but must be of shape {wanted}")
+        return arrays
+
+
+def _floats(name: str, value: ArrayLike) -> Array:
+    try:
+        return np.ascontiguousarray(value, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise ConfigError(f"state.{name} is {value!r:.60}, but must be an array of numbers") from None
+
+
+class Simulation:
+    """A load in a turning drum, stepped at will.
+
+    Parameters
+    ----------
+    config
+        What to simulate.
+    seed
+        Seed of the random start, instead of ``config.run.seed``.
+    threads
+        Threads that share a step; the trajectory is the same for any number.
+    state
+        Where to start, instead of a random packing.
+
+    Raises
+    ------
+    ConfigError
+        Where no such simulation can be; the sentence names key, value and limit.
+
+    Examples
+    --------
+    >>> import drumrs
+    >>> simulation = drumrs.Simulation(drumrs.baseline(fill=0.1), seed=1)
+    >>> simulation.run(steps=100)
+    >>> simulation.step, simulation.positions.shape
+    (100, (40, 2))
+    """
+
+    def __init__(
+        self, config: Config, seed: int | None = None, threads: int = 1, state: State | None = None
+    ) -> None:
+        _check_threads(threads)
+        config = config if seed is None else config.replace({"run.seed": seed})
+        arrays = None if state is None else state.arrays()
+        try:
+            core = _core.Simulation(config.to_core_json(), config.run.seed, threads, arrays)
+        except ConfigError as error:
+            raise _in_terms_of_fill(config, error) from None
+        self._start(config, core)
+
+    def _start(self, config: Config, core: _core.Simulation) -> None:
+        self._config = config
+        self._core = core
+        self._stop = threading.Event()
+        self._wall_time = 0.0
+        self._steps_timed = 0
+
+    def run(
+        self,
+        duration: float | None = None,
+        *,
+        steps: int | None = None,
+        progress: Callable[[int], None] | None = None,
+    ) -> None:
+        """Advance by a time or a number of steps, or else to the end of the configuration's duration.
+
+        Ctrl-C and `stop` end the call early and leave a valid simulation, which can go on.
+
+        Parameters
+        ----------
+        duration
+            Simulated time [s], rounded up to whole steps.
+        steps
+            Number of steps.
+        progress
+            Called with the step number, some ten times a second.
+
+        Raises
+        ------
+        UnstableError
+            Where the state stops meaning anything; the sentence names step and bundle.
+        """
+        if duration is not None and steps is not None:
+            raise ConfigError("duration and steps are both given, but only one of them may be")
+        if duration is not None:
+            if not 0.0 <= duration < math.inf:
+                raise ConfigError(f"duration is {duration}, but must be a finite number of at least 0")
+            steps = math.ceil(duration / self.time_step)
+        end = self.last_step if steps is None else self.step + _check_steps(steps)
+        self.run_until(end, progress=progress)
+
+    def run_until(
+        self, step: int, *, wall_limit: float = math.inf, progress: Callable[[int], None] | None = None
+    ) -> bool:
+        """Advance to a step number, but no longer than a time of the wall clock.
+
+        Parameters
+        ----------
+        step
+            Step number to reach.
+        wall_limit
+            Time [s] after which to return where the step is not reached yet.
+        progress
+            Called with the step number, some ten times a second.
+
+        Returns
+        -------
+        bool
+            False where `stop` ended the call.
+        """
+        began = time.perf_counter()
+        piece = 1
+        while self.step < step and not self._stop.is_set() and time.perf_counter() - began < wall_limit:
+            piece = self._run_piece(min(piece, step - self.step), progress)
+        stopped = self._stop.is_set()
+        self._stop.clear()
+        return not stopped
+
+    def _run_piece(self, steps: int, progress: Callable[[int], None] | None) -> int:
+        """Step, keep the time, and return how many steps the next slice should have."""
+        first, began = self.step, time.perf_counter()
+        try:
+            self._core.run(steps, progress)
+        finally:
+            elapsed = time.perf_counter() - began
+            self._wall_time += elapsed
+            self._steps_timed += self.step - first
+        return max(1, min(round(steps * _SLICE / max(elapsed, 1e-6)), 4 * steps + 1000))
+
+    def stop(self) -> None:
+        """End a `run` that another thread is in; safe from any thread."""
+        self._stop.set()
+        self._core.stop()
+
+    @property
+    def config(self) -> Config:
+        """The configuration, seed included."""
+        return self._config
+
+    @property
+    def seed(self) -> int:
+        """Seed of the random start."""
+        return self._core.seed
+
+    @property
+    def threads(self) -> int:
+        """Threads that share a step."""
+        return self._core.threads
+
+    @property
+    def count(self) -> int:
+        """Number of bundles n."""
+        return self._core.count
+
+    @property
+    def step(self) -> int:
+        """Steps since t = 0."""
+        return self._core.step
+
+    @property
+    def last_step(self) -> int:
+        """Step number at which the configuration's duration is reached."""
+        return math.ceil(self._config.run.duration / self.time_step)
+
+    @property
+    def time(self) -> float:
+        """Simulated time [s]."""
+        return self._core.time
+
+    @property
+    def time_step(self) -> float:
+        """Time step [s]."""
+        return self._core.time_step
+
+    @property
+    def collision_times(self) -> dict[str, float]:
+        """Duration of a collision with another bundle and with the drum [s]."""
+        return self._core.collision_times
+
+    @property
+    def drum_angle(self) -> float:
+        """Angle by which the drum has turned [rad]."""
+        return self._core.drum_angle
+
+    @property
+    def drum_angular_velocity(self) -> float:
+        """Angular velocity of the drum [rad/s]."""
+        return self._core.drum_angular_velocity
+
+    @property
+    def positions(self) -> Array:
+        """Centres of the bundles [m], shape (n, 2)."""
+        return self._core.positions
+
+    @property
+    def velocities(self) -> Array:
+        """Velocities of the bundles [m/s], shape (n, 2)."""
+        return self._core.velocities
+
+    @property
+    def angles(self) -> Array:
+        """Angles by which the bundles have turned [rad], shape (n,)."""
+        return self._core.angles
+
+    @property
+    def angular_velocities(self) -> Array:
+        """Spins of the bundles [rad/s], shape (n,)."""
+        return self._core.angular_velocities
+
+    @property
+    def radii(self) -> Array:
+        """Radii of the bundles [m], shape (n,)."""
+        return self._core.radii
+
+    @property
+    def masses(self) -> Array:
+        """Masses of the bundles per metre of depth [kg/m], shape (n,)."""
+        return self._core.masses
+
+    @property
+    def state(self) -> State:
+        """Where the bundles are now; a simulation started from it has new contacts, unlike one loaded."""
+        return State(**{field.name: getattr(self._core, field.name) for field in fields(State)})
+
+    @property
+    def series(self) -> "pl.DataFrame":
+        """Polars table of the recorded quantities, one row a sample; `drumrs.units` has the units."""
+        import polars as pl
+
+        return pl.DataFrame(self._core.series())
+
+    @property
+    def frames(self) -> Frames:
+        """Positions, angles and speeds of the bundles at the frames' times."""
+        recorded = self._core.frames()
+        drum, outlines = self._config.drum, self._core.outlines()
+        return Frames(
+            times=recorded["time"],
+            drum_angles=recorded["drum_angle"],
+            positions=recorded["positions"],
+            angles=recorded["angles"],
+            speeds=recorded["speeds"],
+            radii=self.radii,
+            drum_radius=drum.diameter / 2.0 if drum.rim else None,
+            baffles=tuple(outlines[: drum.baffles.count]),
+            walls=tuple(outlines[drum.baffles.count :]),
+        )
+
+    def summary(self, window: tuple[float, float] | None = None) -> Summary:
+        """Return averages over an interval.
+
+        Parameters
+        ----------
+        window
+            Start and end [s]; the configuration's window unless given.
+
+        Raises
+        ------
+        ConfigError
+            Where the interval has not been simulated.
+        """
+        start, end = window or self._config.run.averaging_window
+        if not 0.0 <= start < end <= self.time + self.time_step:
+            raise ConfigError(
+                f"the window is [{start}, {end}], but must lie within the {self.time} s simulated so far"
+            )
+        rate = self.count * self._steps_timed / self._wall_time if self._wall_time else None
+        timing = {"wall_time": self._wall_time, "particle_steps_per_second": rate}
+        return Summary.from_mapping({**self._core.summary(start, end), **timing})
+
+    def result(self) -> Result:
+        """Return the run so far as a `Result`."""
+        series = self.series
+        known = {column: units(column) for column in series.columns}
+        return Result(self._config, self.summary(), series, self.frames, known)
+
+    def save(self, path: str | Path) -> None:
+        """Write a checkpoint: `load` goes on from it, bit for bit as if there had been no break."""
+        write_checkpoint(path, self._config, self._core.checkpoint())
+
+    @classmethod
+    def load(cls, path: str | Path, threads: int = 1) -> "Simulation":
+        """Read a checkpoint.
+
+        Raises
+        ------
+        CheckpointError
+            Where the file is truncated, damaged or of another version.
+        """
+        _check_threads(threads)
+        config, data = read_checkpoint(path)
+        try:
+            core = _core.Simulation.from_checkpoint(data, threads)
+        except CheckpointError as error:
+            raise CheckpointError(f"{path}: {error}") from None
+        simulation = cls.__new__(cls)
+        simulation._start(config, core)  # noqa: SLF001 - a second constructor
+        return simulation
+
+
+def _check_threads(threads: int) -> None:
+    if isinstance(threads, bool) or not isinstance(threads, int) or not 1 <= threads <= _MOST_THREADS:
+        raise ConfigError(f"threads is {threads!r}, but must be a whole number from 1 to {_MOST_THREADS}")
+
+
+def _check_steps(steps: int) -> int:
+    if isinstance(steps, bool) or not isinstance(steps, int) or steps < 0:
+        raise ConfigError(f"steps is {steps!r}, but must be a whole number of at least 0")
+    return steps
+
+
+def _in_terms_of_fill(config: Config, error: ConfigError) -> ConfigError:
+    """Name the fill, which the user wrote, where the core refuses the count that follows from it."""
+    if config.load.fill is None or not str(error).startswith("load.count"):
+        return error
+    return ConfigError(f"load.fill is {config.load.fill}, too much: {error}")
+
+
+class Quantity(NamedTuple):
+    """A column of the series: its unit and what it means."""
+
+    unit: str
+    meaning: str
+
+
+def quantities(baffles: int = 0) -> Mapping[str, Quantity]:
+    """Return the columns of the series of a drum with so many baffles, with units and meanings."""
+    listed = _core.Simulation.quantities(baffles)
+    return MappingProxyType({name: Quantity(unit, meaning) for name, unit, meaning in listed})
+
+
+def units(column: str) -> str:
+    """Return the unit of a column of the series, "" where it is a plain number.
+
+    Examples
+    --------
+    >>> import drumrs
+    >>> drumrs.units("specific_power"), drumrs.units("work_baffle_2")
+    ('W/kg', 'J/m')
+    """
+    # Baffles and walls are numbered from 1 and share their units.
+    pattern = "_".join("1" if part.isdecimal() else part for part in column.split("_"))
+    known = quantities(1)
+    for name in (column, pattern, pattern.replace("_wall_", "_baffle_")):
+        if name in known:
+            return known[name].unit
+    raise KeyError(f"{column!r} is not a column of the series; drumrs.QUANTITIES lists them")
+
+
+def info() -> dict[str, Any]:
+    """Return what this copy of drumrs is: version, build profile, CPU features, physics version, target."""
+    return dict(_core.info())

@@ -1,0 +1,207 @@
+"""Bad input gets one sentence with key, value and limit, status 2, no traceback, and writes nothing."""
+
+import hashlib
+
+import pytest
+
+import drumrs
+from drumrs.errors import CheckpointError, ConfigError
+
+NAN, INF = "nan", "inf"
+
+
+def numbers(*keys: str) -> list[tuple[str, str]]:
+    """Each key with the values that no length, mass or time can have."""
+    return [(f"{key}={value}", key) for key in keys for value in ("-1.0", "0", NAN, INF)]
+
+
+# What is set, and what the sentence must name.
+SETTINGS = [
+    *numbers(
+        "drum.diameter",
+        "load.diameter",
+        "load.density",
+        "contact.bundle.normal_stiffness",
+        "contact.drum.normal_stiffness",
+        "run.time_step",
+        "run.duration",
+    ),
+    ("contact.bundle.frictoin=0.3", "did you mean contact.bundle.friction?"),
+    ("contact.bundle.restitution=0", "above 0 and at most 1"),
+    ("contact.drum.restitution=1.5", "above 0 and at most 1"),
+    ("contact.drum.restitution=nan", "above 0 and at most 1"),
+    ("contact.bundle.friction=-0.1", "at least 0"),
+    ("contact.drum.tension=perhaps", "'allowed' or 'clipped'"),
+    ("load.fill=1.2", "load.count"),
+    ("load.count=500", "load.count is 500, but must be at most"),
+    ("load.count=0", "from 1"),
+    ("load.diameter=0.5", "load.diameter"),
+    ("run.window=[5, 40]", "run.duration"),
+    ("run.window=[7, 7]", "start < end"),
+    ("run.window=[-1, 7]", "run.window"),
+    ("run.window=[5", "run.window"),
+    ("run.time_step=2e-5", "run.time_step"),
+    ("run.seed=-1", "run.seed"),
+    ("run.skin=-1", "run.skin"),
+    ("run.overlap_limit=1", "run.overlap_limit"),
+    ("rotation.program=[]", "at least 1 knot"),
+    ("rotation.program=[[1, 5], [0, 5]]", "rotation.program"),
+    ("rotation.program=[[0, nan]]", "rotation.program"),
+    ("rotation.rpm=nan", "rotation.rpm"),
+    ("gravity=[0]", "gravity"),
+    ("drum.baffles.shape=round", "drum.baffles.shape"),
+    ("load=3", "load is 3"),
+]
+
+BAFFLES = [
+    (["height=0.3"], "drum.baffles"),
+    (["height=0.2375"], "drum.baffles"),
+    (["base=0.6"], "drum.baffles"),
+    (["count=60"], "drum.baffles"),
+    (["shape=polygon"], "drum.baffles.points"),
+    (["shape=polygon", "points=[[0, -0.03], [0.05, 0.03], [0.05, -0.03], [0, 0.03]]"], "drum.baffles.points"),
+    (["shape=polygon", "points=[[0, -0.03], [0, -0.03], [0.05, 0], [0, 0.03]]"], "drum.baffles.points"),
+    (["shape=trapezoid", "tip=0"], "drum.baffles.tip"),
+    (["shape=trapezoid", "tip=-0.01"], "drum.baffles.tip"),
+]
+
+
+def refused(drum, tmp_path, *words: str, names: str) -> None:
+    out = tmp_path / "out"
+    status, printed, complaint = drum("run", *words, "--out", out)
+    assert status == 2, complaint
+    assert printed == ""
+    assert complaint.count("\n") == 1
+    assert names in complaint
+    assert "Traceback" not in complaint
+    assert not out.exists()
+
+
+@pytest.mark.parametrize(("setting", "names"), SETTINGS)
+def test_bad_setting(drum, tmp_path, setting, names):
+    refused(drum, tmp_path, "--set", setting, names=names)
+
+
+@pytest.mark.parametrize(("settings", "names"), BAFFLES)
+def test_bad_baffle(drum, tmp_path, settings, names):
+    words = [word for setting in ["count=3", *settings] for word in ("--set", f"drum.baffles.{setting}")]
+    refused(drum, tmp_path, *words, names=names)
+
+
+@pytest.mark.parametrize(
+    ("words", "names"),
+    [
+        (["--set", "load.fill=0.2", "--set", "load.count=5"], "load.fill and load.count"),
+        (["--set", "rotation.rpm=1", "--set", "rotation.program=[[0, 1]]"], "rotation.rpm"),
+        (["--set", "novalue"], "KEY=VALUE"),
+        (["--seed", "-1"], "run.seed"),
+        (["--threads", "0"], "threads is 0"),
+        (["--threads", "-2"], "threads is -2"),
+        (["--threads", "many"], "--threads"),
+        (["nowhere.toml"], "nowhere.toml"),
+        (["--set", "drum.rim=false", "--set", "drum.baffles.count=3"], "drum.baffles.count"),
+    ],
+)
+def test_bad_words(drum, tmp_path, words, names):
+    refused(drum, tmp_path, *words, names=names)
+
+
+@pytest.mark.parametrize(
+    ("text", "names"),
+    [
+        ("load = [", "not valid TOML"),
+        ("[load]\nfil = 0.3", "did you mean load.fill?"),
+        ("[load]\nfill = 0.3\ncount = 3", "both given"),
+        ("load = 3", "load is 3"),
+    ],
+)
+def test_bad_file(drum, tmp_path, text, names):
+    case = tmp_path / "case.toml"
+    case.write_text(text)
+    refused(drum, tmp_path, case, names=names)
+
+
+def test_folder_that_cannot_be_written(drum, tmp_path):
+    (tmp_path / "file").write_text("in the way")
+    for out in (tmp_path / "file", tmp_path / "file" / "below", "/proc/drumrs"):
+        status, printed, complaint = drum("run", "--out", out)
+        assert (status, printed) == (2, "")
+        assert "--out is" in complaint
+        assert complaint.count("\n") == 1
+
+
+def test_resume_takes_no_case(drum, tmp_path):
+    status, _, complaint = drum("run", "--resume", tmp_path, "--seed", "3")
+    assert status == 2
+    assert "--resume" in complaint
+
+
+@pytest.fixture
+def checkpoint(short, tmp_path):
+    simulation = drumrs.Simulation(short)
+    simulation.run(steps=101)
+    simulation.save(tmp_path / "checkpoint.bin")
+    return tmp_path / "checkpoint.bin"
+
+
+def resealed(data: bytes) -> bytes:
+    return data + hashlib.sha256(data).digest()
+
+
+DAMAGE = {
+    "empty": lambda data: data[:0],
+    "another file": lambda data: b"PK" + data,
+    "another version": lambda data: resealed(data[:-32].replace(b"checkpoint 1\n", b"checkpoint 2\n", 1)),
+    "half": lambda data: data[: len(data) // 2],
+    "last byte missing": lambda data: data[:-1],
+    **{
+        f"byte {where} flipped": lambda data, w=where: _flipped(data, int(w * (len(data) - 1)))
+        for where in (0.0, 0.01, 0.3, 0.6, 0.99, 1.0)
+    },
+}
+
+
+def _flipped(data: bytes, index: int) -> bytes:
+    return data[:index] + bytes([data[index] ^ 1]) + data[index + 1 :]
+
+
+@pytest.mark.parametrize("damage", DAMAGE)
+def test_bad_checkpoint(drum, checkpoint, damage):
+    checkpoint.write_bytes(DAMAGE[damage](checkpoint.read_bytes()))
+    with pytest.raises(CheckpointError, match="checkpoint"):
+        drumrs.Simulation.load(checkpoint)
+    status, printed, complaint = drum("run", "--resume", checkpoint.parent)
+    assert (status, printed) == (2, "")
+    assert complaint.count("\n") == 1
+    assert sorted(path.name for path in checkpoint.parent.iterdir()) == ["checkpoint.bin"]
+
+
+@pytest.mark.parametrize(
+    "state",
+    [
+        drumrs.State(positions=[[0.0, 0.0, 0.0]]),
+        drumrs.State(positions=[]),
+        drumrs.State(positions="here"),
+        drumrs.State(positions=[[0.0, 0.0]], angles=[0.0, 1.0]),
+        drumrs.State(positions=[[0.0, float("nan")]]),
+        drumrs.State(positions=[[0.0, 0.0]], radii=[-1.0]),
+        drumrs.State(positions=[[5.0, 0.0]]),
+    ],
+)
+def test_bad_state(short, state):
+    with pytest.raises(ConfigError):
+        drumrs.Simulation(short, state=state)
+
+
+@pytest.mark.parametrize("threads", [0, -1, 1.5, True])
+def test_bad_threads(short, threads):
+    with pytest.raises(ConfigError, match="threads"):
+        drumrs.Simulation(short, threads=threads)
+
+
+@pytest.mark.parametrize(
+    "arguments", [{"steps": -1}, {"duration": float("nan")}, {"duration": -1.0}, {"duration": 1, "steps": 1}]
+)
+def test_bad_length_of_run(short, arguments):
+    with pytest.raises(ConfigError):
+        drumrs.Simulation(short).run(**arguments)

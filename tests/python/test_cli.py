@@ -1,0 +1,153 @@
+"""The command line: JSON, folders, layers, checkpoints, Ctrl-C."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import polars as pl
+import pytest
+
+import drumrs
+
+SHORT = ["--set", "run.duration=0.03", "--set", "run.frame_every=0.01", "--set", "load.count=20"]
+KEYS = {
+    "bundle_count",
+    "fill",
+    "steps",
+    "time_step",
+    "drum_torque",
+    "drum_power",
+    "specific_power",
+    "specific_power_error",
+    "normal_power",
+    "tangential_power",
+    "normal_tangential_ratio",
+    "center_of_mass",
+    "coordination",
+    "max_overlap_ratio",
+    "energy_residual",
+    "power_disagreement",
+    "wall_time",
+    "particle_steps_per_second",
+}
+TIMINGS = {"wall_time", "particle_steps_per_second"}
+
+
+def summary(folder) -> dict:
+    values = json.loads((folder / "summary.json").read_text())
+    return {key: value for key, value in values.items() if key not in TIMINGS}
+
+
+def test_json_is_one_object(drum):
+    status, printed, _ = drum("run", *SHORT, "--json")
+    values = json.loads(printed)
+    assert status == 0
+    assert set(values) >= KEYS
+    assert values["bundle_count"] == 20
+    assert len(values["center_of_mass"]) == 2
+
+
+def test_out_holds_everything(drum, tmp_path):
+    out = tmp_path / "deep" / "out"
+    status, printed, _ = drum("run", *SHORT, "--seed", "7", "--out", out)
+    assert status == 0
+    assert "wall time [s]" in printed
+    names = (
+        "summary.json series.parquet frames.parquet config.toml snapshots.png time_series.png checkpoint.bin"
+    )
+    assert {path.name for path in out.iterdir()} == set(names.split())
+    assert drumrs.load(out).config.run.seed == 7
+    assert json.loads(pl.read_parquet_metadata(out / "series.parquet")["units"])["drum_power"] == "W/m"
+
+
+def test_layers(drum, tmp_path):
+    case = tmp_path / "case.toml"
+    case.write_text("[load]\ncount = 30\n[run]\nseed = 5\n")
+    words = [case, "--set", "run.duration=0.03", "--set", "run.seed=6", "--set", "load.fill=0.05"]
+    assert json.loads(drum("run", case, "--set", "run.duration=0.03", "--json")[1])["bundle_count"] == 30
+    assert json.loads(drum("run", *words, "--json")[1])["bundle_count"] == 20
+    drum("run", *words, "--seed", "7", "--out", tmp_path / "out")
+    assert drumrs.Config.read(tmp_path / "out" / "config.toml").run.seed == 7
+
+
+def test_config_command_round_trips(drum):
+    status, printed, _ = drum("config")
+    assert status == 0
+    assert drumrs.Config.from_toml(printed) == drumrs.baseline()
+
+
+def test_info_and_version(drum):
+    assert drum("--version")[1].strip() == drumrs.__version__
+    printed = drum("info")[1]
+    assert "build_profile: " in printed
+    assert "cpu_features: " in printed
+
+
+@pytest.mark.parametrize("words", [["--help"], ["run", "--help"], ["baseline", "--help"]])
+def test_help_teaches(drum, words):
+    status, printed, _ = drum(*words)
+    assert status == 0
+    assert "drumrs run case.toml" in printed
+
+
+def test_resume_is_byte_identical(drum, tmp_path):
+    whole, broken = tmp_path / "whole", tmp_path / "broken"
+    assert drum("run", *SHORT, "--out", whole)[0] == 0
+    # As after a power cut: a folder with nothing but the checkpoint of a run's middle.
+    broken.mkdir()
+    config = drumrs.Config.read(whole / "config.toml")
+    simulation = drumrs.Simulation(config)
+    simulation.run(steps=1001)
+    simulation.save(broken / "checkpoint.bin")
+    assert drum("run", "--resume", broken)[0] == 0
+    for name in ("series.parquet", "frames.parquet", "config.toml", "snapshots.png", "time_series.png"):
+        assert (whole / name).read_bytes() == (broken / name).read_bytes(), name
+    assert summary(whole) == summary(broken)
+
+
+def test_checkpoints_are_written_while_running(tmp_path):
+    out = tmp_path / "out"
+    words = ["--set", "run.duration=600", "--set", "run.checkpoint_every=0.2", "--out", str(out)]
+    process = subprocess.Popen(
+        [sys.executable, "-m", "drumrs", "run", *words], stderr=subprocess.PIPE, text=True, env=os.environ
+    )
+    path = out / "checkpoint.bin"
+    steps = {_wait_for_newer(path, process, 0.0)}
+    steps.add(_wait_for_newer(path, process, path.stat().st_mtime))
+    process.send_signal(signal.SIGINT)
+    _, complaint = process.communicate(timeout=20)
+    assert process.returncode == 130
+    assert f"drumrs run --resume {out}" in complaint
+    assert "Traceback" not in complaint
+    assert len(steps) == 2
+    assert drumrs.Simulation.load(path).step >= max(steps)
+    assert not (out / "summary.json").exists()
+
+
+def _wait_for_newer(path, process, since: float) -> int:
+    end = time.monotonic() + 20
+    while time.monotonic() < end and process.poll() is None:
+        if path.exists() and path.stat().st_mtime > since:
+            return drumrs.Simulation.load(path).step
+        time.sleep(0.02)
+    raise AssertionError("no checkpoint came")
+
+
+def test_unstable_run_keeps_the_last_good_checkpoint(drum, tmp_path):
+    soft = ["--set", "contact.drum.normal_stiffness=1e3", "--set", "contact.bundle.normal_stiffness=1e3"]
+    limit = ["--set", "run.overlap_limit=0.01", "--set", "run.duration=5"]
+    status, printed, complaint = drum("run", *soft, *limit, "--out", tmp_path / "out")
+    assert (status, printed) == (1, "")
+    assert "step" in complaint.splitlines()[-1]
+    assert drumrs.Simulation.load(tmp_path / "out" / "checkpoint.bin").step >= 0
+
+
+def test_baseline_compares_both(drum, tmp_path):
+    status, printed, _ = drum("baseline", *SHORT[:4], "--fill", "0.05", "--out", tmp_path)
+    assert status == 0
+    assert "without baffles" in printed
+    assert (tmp_path / "baseline.png").is_file()
+    assert (tmp_path / "with_baffles" / "summary.json").is_file()

@@ -1,0 +1,95 @@
+"""Figures from made-up frames and tables: each kind of scene gives a picture, the same bytes each time."""
+
+import numpy as np
+import polars as pl
+import pytest
+
+from drumrs import figures
+from drumrs.frames import Frames
+
+TRIANGLE = np.array([[0.98, -0.2], [0.8, 0.0], [0.98, 0.2]])
+
+
+def made_up(count: int = 12, frames: int = 3, **scene) -> Frames:
+    random = np.random.default_rng(1)
+    times = 0.1 * np.arange(frames)
+    return Frames(
+        times=times,
+        drum_angles=2.0 * times,
+        positions=random.uniform(-0.6, 0.6, (frames, count, 2)),
+        angles=random.uniform(0.0, 6.0, (frames, count)),
+        speeds=random.uniform(0.0, 2.0, (frames, count)),
+        radii=np.full(count, 0.05),
+        **scene,
+    )
+
+
+SCENES = {
+    "bare drum": made_up(drum_radius=1.0),
+    "baffles": made_up(drum_radius=1.0, baffles=(TRIANGLE,)),
+    "walls alone": made_up(walls=(np.array([[-1.0, -1.0], [1.0, -1.0]]),)),
+    "one bundle, one frame": made_up(count=1, frames=1, drum_radius=1.0),
+}
+
+
+@pytest.mark.parametrize("scene", SCENES)
+@pytest.mark.parametrize("ending", ["png", "svg"])
+def test_snapshot_is_written(scene, ending, tmp_path):
+    for name in ("a", "b"):
+        figures.write(figures.snapshot(SCENES[scene], label=scene), tmp_path / f"{name}.{ending}")
+    first = (tmp_path / f"a.{ending}").read_bytes()
+    assert len(first) > 1000
+    assert first == (tmp_path / f"b.{ending}").read_bytes()
+
+
+def test_snapshots_share_one_scale_of_speed():
+    frames = SCENES["bare drum"]
+    figure = figures.snapshots([figures.View(frames, 0), figures.View(frames, 2)])
+    *drums, _bar = figure.axes
+    norms = [axes.collections[-2].norm for axes in drums]
+    assert norms[0] is norms[1]
+    assert norms[0].vmax == max(frames.speeds[0].max(), frames.speeds[2].max())
+
+
+def test_snapshots_need_a_view():
+    with pytest.raises(ValueError, match="views is empty"):
+        figures.snapshots([])
+
+
+def series(rows: int) -> pl.DataFrame:
+    time = 0.01 * np.arange(rows)
+    names = (
+        "work_drum dissipated_normal dissipated_sliding kinetic_translation kinetic_rotation elastic_normal "
+        "elastic_tangential energy_residual center_of_mass_x center_of_mass_y"
+    )
+    return pl.DataFrame({"time": time, **{name: time * (1 + k) for k, name in enumerate(names.split())}})
+
+
+@pytest.mark.parametrize("rows", [1, 2, 50, 5000])
+def test_time_series_is_written(rows, tmp_path):
+    figures.write(figures.time_series(series(rows), window=(0.0, 1.0)), tmp_path / "series.png")
+    assert (tmp_path / "series.png").stat().st_size > 1000
+
+
+def test_means_of_power_are_exact():
+    time = 0.01 * np.arange(301)
+    _, power = figures._mean_rate(time, 7.0 * time, 1.0)
+    assert power == pytest.approx(7.0)
+
+
+def test_direction_of_rotation():
+    frames = SCENES["bare drum"]
+    assert [frames.turning(index) for index in range(3)] == [1, 1, 1]
+    assert made_up(frames=1).turning(0) == 0
+
+
+def test_frames_survive_a_file(tmp_path):
+    frames = SCENES["baffles"]
+    frames.save(tmp_path / "frames.parquet")
+    again = Frames.load(tmp_path / "frames.parquet")
+    for name in ("times", "drum_angles", "positions", "angles", "speeds", "radii"):
+        assert np.array_equal(getattr(again, name), getattr(frames, name)), name
+    assert again.drum_radius == frames.drum_radius
+    assert np.array_equal(again.baffles[0], TRIANGLE)
+    units = pl.read_parquet_metadata(tmp_path / "frames.parquet")["units"]
+    assert '"speed": "m/s"' in units
