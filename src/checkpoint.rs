@@ -19,7 +19,8 @@ use crate::simulation::Simulation;
 use crate::state::{State, TouchingContacts};
 
 const MAGIC: &[u8; 8] = b"DRUMRS\r\n";
-const VERSION: u32 = 1;
+/// Version of the layout below; a checkpoint of another one is refused.
+pub const FORMAT_VERSION: u32 = 1;
 const HEADER: usize = MAGIC.len() + 4 + 32;
 
 #[derive(Serialize, Deserialize)]
@@ -57,7 +58,7 @@ impl Simulation {
         let body = postcard::to_stdvec(&snapshot).map_err(|error| refuse(error.to_string()))?;
         let mut bytes = Vec::with_capacity(HEADER + body.len());
         bytes.extend_from_slice(MAGIC);
-        bytes.extend_from_slice(&VERSION.to_le_bytes());
+        bytes.extend_from_slice(&FORMAT_VERSION.to_le_bytes());
         bytes.extend_from_slice(&Sha256::digest(&body));
         bytes.extend_from_slice(&body);
         Ok(bytes)
@@ -124,9 +125,9 @@ fn read(bytes: &[u8]) -> Result<Snapshot, Error> {
     }
     let (version, rest) = bytes[MAGIC.len()..].split_at(4);
     let (digest, body) = rest.split_at(32);
-    if version != VERSION.to_le_bytes() {
+    if version != FORMAT_VERSION.to_le_bytes() {
         let found = version.iter().rev().fold(0_u32, |sum, &byte| (sum << 8) | u32::from(byte));
-        return Err(refuse(format!("it has format version {found}, this drumrs reads version {VERSION}")));
+        return Err(refuse(format!("it has format version {found}, this drumrs reads version {FORMAT_VERSION}")));
     }
     if digest != Sha256::digest(body).as_slice() {
         return Err(refuse("its content does not match its digest: it is damaged or cut short"));

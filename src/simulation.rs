@@ -102,7 +102,9 @@ impl Simulation {
             particles,
         };
         let mut simulation = Self::assemble(config, seed, threads, (state, table), fixed);
+        start::require_inside(&simulation.fixed.drum, &simulation.state.particles)?;
         simulation.open();
+        simulation.guard()?;
         Ok(simulation)
     }
 

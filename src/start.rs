@@ -6,6 +6,7 @@ use rand_pcg::Pcg64Mcg;
 use crate::config::SimulationConfig;
 use crate::contact::laws::Laws;
 use crate::contact::table::ContactTable;
+use crate::drum::Drum;
 use crate::error::Error;
 use crate::particles::Particles;
 use crate::vector::Vec2;
@@ -57,6 +58,21 @@ impl InitialState {
         }
         particles.validate()?;
         Ok(particles)
+    }
+}
+
+/// Refuses bundles whose centers are outside of the drum or within a baffle.
+///
+/// # Errors
+/// `Error::Config` naming the first of them.
+pub fn require_inside(drum: &Drum, particles: &Particles) -> Result<(), Error> {
+    match particles.positions.iter().position(|&center| !(drum.clearance(center) > 0.0)) {
+        None => Ok(()),
+        Some(i) => {
+            let (x, y) = (particles.positions[i].x, particles.positions[i].y);
+            let limit = "inside the drum and outside of its baffles";
+            Err(Error::config(format!("state.positions[{i}]"), format!("[{x}, {y}]"), limit))
+        }
     }
 }
 

@@ -1,0 +1,140 @@
+//! Bundles at baffles: rolling round a tip, the foot, the torque of each part, programmes.
+
+mod common;
+
+use common::*;
+use drumrs::drum::RIM;
+use drumrs::drum::baffle::BaffleShape;
+use drumrs::simulation::Simulation;
+
+/// A disc pressed onto the tip of a wedge and rolling over it: the contact passes from edge to vertex to edge; force
+/// and spring must not jump.
+#[test]
+fn force_and_spring_survive_a_tip() {
+    // The tip is at the origin, the flanks fall off to both sides, gravity presses the disc onto it.
+    let mut config = floor([0.0, -GRAVITY]);
+    config.drum.walls = vec![vec![[-1.0, -0.3], [0.0, 0.0], [1.0, -0.3]]];
+    config.run.time_step = Some(2e-6);
+    let length = (1.0_f64 + 0.09).sqrt();
+    // The disc stands on the left flank near the tip and rolls to the right, slowly enough to stay in contact.
+    let (normal, along) = ([-0.3 / length, 1.0 / length], [1.0 / length, 0.3 / length]);
+    let distance = RADIUS - mass() * GRAVITY / length / 9.70e7;
+    let foot = [-0.004 * along[0], -0.004 * along[1]];
+    let center = [foot[0] + distance * normal[0], foot[1] + distance * normal[1]];
+    let speed = 0.3;
+    let velocity = [speed * along[0], speed * along[1]];
+    let mut simulation = start(&config, single(center, velocity, -speed / RADIUS));
+    let mut features = Vec::new();
+    let mut last_force = None;
+    let mut last_stretch = 0.0_f64;
+    for _ in 0..20_000 {
+        simulation.run(1).unwrap();
+        let touching: Vec<_> = simulation.contacts().walls.touching().collect();
+        if touching.is_empty() {
+            break;
+        }
+        assert_eq!(touching.len(), 1, "a corner counts once");
+        let (feature, history) = (touching[0].other, touching[0].history);
+        let jump = last_force.map_or(0.0, |force: drumrs::vector::Vec2| (history.force() - force).norm());
+        assert!(jump < 0.02 * mass() * GRAVITY, "the force jumps by {jump} at feature {feature}");
+        if features.last() != Some(&feature) {
+            if !features.is_empty() {
+                assert!(history.tangential_displacement != 0.0, "the spring is lost");
+                let change = (history.tangential_displacement - last_stretch).abs();
+                assert!(change < 0.05 * last_stretch.abs(), "{change} {last_stretch}");
+            }
+            features.push(feature);
+        }
+        last_force = Some(history.force());
+        last_stretch = history.tangential_displacement;
+    }
+    assert_eq!(features.len(), 3, "edge, vertex, edge: {features:?}");
+}
+
+/// Between the foot of a baffle and the rim, a disc has two contacts.
+#[test]
+fn a_disc_at_the_foot_has_two_contacts() {
+    let mut config = baseline(1, 1);
+    config.rotation.knots = vec![[0.0, 0.0]];
+    // The baffle stands at the bottom; the disc lies beside it.
+    config.drum.baffles.phase = -std::f64::consts::FRAC_PI_2;
+    config.contact.drum.friction = 0.0;
+    let angle: f64 = -std::f64::consts::FRAC_PI_2 + 0.25;
+    let orbit = DRUM_RADIUS - RADIUS - 1e-4;
+    let mut simulation = start(&config, single([orbit * angle.cos(), orbit * angle.sin()], [0.0, 0.0], 0.0));
+    run(&mut simulation, 1.0);
+    let features: Vec<u32> = simulation.contacts().walls.touching().map(|contact| contact.other).collect();
+    assert_eq!(features.len(), 2, "{features:?}");
+    assert_eq!(features[0], RIM);
+    assert!(simulation.state().particles.velocities[0].norm() < 1e-4);
+}
+
+/// The torque of one baffle that lifts one bundle, from statics: all of the bundle's weight times its arm.
+#[test]
+fn a_lifted_bundle_gives_the_torque_of_its_weight() {
+    let mut config = baseline(1, 3);
+    config.rotation.knots = vec![[0.0, 0.5]];
+    config.drum.baffles.phase = -1.0;
+    let initial = {
+        let source = Simulation::new(config.clone(), 1, 1).unwrap();
+        let _ = source;
+        let angle: f64 = -1.0 + 0.25;
+        let orbit = DRUM_RADIUS - RADIUS - 2e-3;
+        single([orbit * angle.cos(), orbit * angle.sin()], [0.0, 0.0], 0.0)
+    };
+    let mut simulation = start(&config, initial);
+    run(&mut simulation, 1.0);
+    let statistics =
+        drumrs::summary::summarize(&simulation.state().series, simulation.mass(), 0.9, 1.0).unwrap();
+    let value = |name: &str| statistics.iter().find(|entry| entry.0 == name).unwrap().1.unwrap();
+    let expected = mass() * GRAVITY * value("center_of_mass_x");
+    assert!((value("drum_torque") / expected - 1.0).abs() < 0.02, "{} {expected}", value("drum_torque"));
+}
+
+#[test]
+fn trapezoids_and_polygons_run_with_a_closed_ledger() {
+    let points = vec![[0.0, 0.03], [0.03, 0.02], [0.03, 0.005], [0.06, 0.005], [0.06, -0.005], [0.0, -0.03]];
+    for (shape, points) in [(BaffleShape::Trapezoid, None), (BaffleShape::Polygon, Some(points))] {
+        let mut config = baseline(150, 4);
+        config.drum.baffles.shape = shape;
+        config.drum.baffles.points = points;
+        let mut simulation = Simulation::new(config, 2, 1).unwrap();
+        run(&mut simulation, 0.8);
+        assert!(last(&simulation, "energy_residual") < 1e-11);
+        assert!(last(&simulation, "work_baffle_4") != 0.0);
+    }
+}
+
+#[test]
+fn a_bundle_never_sits_inside_a_baffle() {
+    let mut simulation = Simulation::new(baseline(150, 3), 5, 1).unwrap();
+    for _ in 0..40 {
+        run(&mut simulation, 0.02);
+        let rotation = drumrs::vector::Rotation::new(simulation.drum_angle());
+        for &position in &simulation.state().particles.positions {
+            let clearance = simulation.drum().clearance(rotation.apply_inverse(position));
+            assert!(clearance > 0.97 * RADIUS, "{clearance}");
+        }
+    }
+}
+
+#[test]
+fn unstable_runs_say_where_and_keep_saying_it() {
+    let mut config = baseline(30, 0);
+    config.load.start_speed = 400.0;
+    let mut simulation = Simulation::new(config, 1, 1).unwrap();
+    let error = simulation.run(100_000).unwrap_err();
+    assert!(error.to_string().contains("step"), "{error}");
+    assert!(error.to_string().contains("bundle"), "{error}");
+    assert_eq!(simulation.run(1).unwrap_err(), error);
+    assert_eq!(simulation.to_checkpoint().unwrap_err(), error);
+}
+
+#[test]
+fn a_run_that_blows_up_is_not_finite() {
+    let mut config = floor([0.0, 0.0]);
+    config.drum.walls.clear();
+    let mut simulation = start(&config, single([0.0, 0.0], [1e308, 0.0], 0.0));
+    let error = simulation.run(1_000_000).unwrap_err();
+    assert!(matches!(error, drumrs::error::Error::NonFinite { particle: 0, .. }), "{error}");
+}

@@ -1,0 +1,131 @@
+//! Whole-drum identities: the ledger closes, three powers agree, the numerical column falls with the time step.
+
+mod common;
+
+use common::*;
+use drumrs::config::SimulationConfig;
+use drumrs::contact::linear::Tension;
+use drumrs::simulation::Simulation;
+use drumrs::summary::summarize;
+
+fn statistic(simulation: &Simulation, name: &str, start: f64) -> f64 {
+    let (series, mass) = (&simulation.state().series, simulation.mass());
+    let statistics = summarize(series, mass, start, simulation.time()).expect("a window of samples");
+    statistics.iter().find(|entry| entry.0 == name).expect("a known statistic").1.expect("a defined value")
+}
+
+fn tumbled(config: &SimulationConfig, seconds: f64) -> Simulation {
+    let mut simulation = Simulation::new(config.clone(), 3, 1).expect("a load that fits");
+    run(&mut simulation, seconds);
+    simulation
+}
+
+fn cases() -> Vec<(&'static str, SimulationConfig)> {
+    let bare = baseline(100, 0);
+    let mut frictionless = baseline(100, 0);
+    frictionless.contact.bundle.friction = 0.0;
+    frictionless.contact.drum.friction = 0.0;
+    let mut clipped = baseline(200, 3);
+    clipped.contact.bundle.tension = Tension::Clipped;
+    clipped.contact.drum.tension = Tension::Clipped;
+    let mut overdamped = baseline(100, 3);
+    for law in [&mut overdamped.contact.bundle, &mut overdamped.contact.drum] {
+        law.restitution = None;
+        law.normal_damping = Some(2.0e4);
+    }
+    let mut washing = baseline(160, 3);
+    washing.rotation.knots = vec![[0.0, 0.0], [0.2, SPEED], [0.4, SPEED], [0.7, -SPEED]];
+    let mut coarse = baseline(100, 3);
+    coarse.run.time_step = Some(1.5e-5);
+    let mut locked = baseline(100, 3);
+    locked.load.spin_locked = true;
+    vec![
+        ("bare", bare),
+        ("frictionless", frictionless),
+        ("clipped, baffles, 50 %", clipped),
+        ("75 %", baseline(300, 0)),
+        ("overdamped", overdamped),
+        ("wash programme", washing),
+        ("coarse step", coarse),
+        ("spins locked", locked),
+    ]
+}
+
+#[test]
+fn the_ledger_closes_and_three_powers_agree() {
+    for (name, config) in cases() {
+        let simulation = tumbled(&config, 1.0);
+        let residual = statistic(&simulation, "energy_residual", 0.5);
+        assert!(residual < 1e-11, "{name}: {residual:e}");
+        let disagreement = statistic(&simulation, "power_disagreement", 0.5);
+        assert!(disagreement < 1e-9, "{name}: {disagreement:e}");
+    }
+}
+
+#[test]
+fn dissipation_never_runs_backwards() {
+    for (name, config) in cases() {
+        let simulation = tumbled(&config, 0.3);
+        for quantity in ["dissipated_normal", "dissipated_sliding"] {
+            assert!(column(&simulation, quantity).is_sorted(), "{name}: {quantity}");
+        }
+    }
+}
+
+#[test]
+fn power_is_bounded_by_the_whole_load_at_the_rim() {
+    for baffle_count in [0, 3] {
+        let simulation = tumbled(&baseline(100, baffle_count), 4.0);
+        let scaled = statistic(&simulation, "specific_power", 2.0) / (GRAVITY * DRUM_RADIUS * SPEED);
+        assert!(scaled > 0.05 && scaled < 1.0, "{scaled}");
+        assert!(statistic(&simulation, "max_overlap_ratio", 2.0) < 0.02);
+    }
+}
+
+/// The work that no formula accounts for comes from the steps in which contacts open and close, and from quadrature.
+/// It belongs to the method: halving the time step must take most of it away.
+#[test]
+fn the_numerical_column_falls_with_the_time_step() {
+    let share = |time_step: f64| {
+        let mut config = baseline(60, 0);
+        config.load.start_speed = 1.0;
+        config.gravity = [0.0, 0.0];
+        config.rotation.knots = vec![[0.0, 0.0]];
+        config.run.time_step = Some(time_step);
+        (1..=6)
+            .map(|seed| {
+                let mut simulation = Simulation::new(config.clone(), seed, 1).unwrap();
+                run(&mut simulation, 0.05);
+                last(&simulation, "numerical") / last(&simulation, "dissipated_normal")
+            })
+            .sum::<f64>()
+            / 6.0
+    };
+    let (coarse, fine) = (share(1.6e-5), share(4e-6));
+    assert!(coarse.abs() < 0.1, "{coarse}");
+    assert!(fine.abs() < 0.25 * coarse.abs(), "{fine} against {coarse}");
+}
+
+#[test]
+fn forces_on_the_drum_carry_the_weight() {
+    for baffle_count in [0, 3] {
+        let simulation = tumbled(&baseline(100, baffle_count), 4.0);
+        let mut vertical = 0.0;
+        for part in ["rim", "baffle_1", "baffle_2", "baffle_3"].iter().take(1 + baffle_count) {
+            let forces = column(&simulation, &format!("force_{part}_y"));
+            let window = &forces[forces.len() / 2..];
+            vertical += window.iter().sum::<f64>() / window.len() as f64;
+        }
+        let weight = 100.0 * mass() * GRAVITY;
+        assert!((vertical / weight + 1.0).abs() < 0.02, "{}", vertical / weight);
+    }
+}
+
+#[test]
+fn the_drums_work_is_the_sum_of_its_parts() {
+    let simulation = tumbled(&baseline(100, 3), 1.0);
+    let parts: f64 =
+        ["work_rim", "work_baffle_1", "work_baffle_2", "work_baffle_3"].map(|p| last(&simulation, p)).iter().sum();
+    assert!((parts / last(&simulation, "work_drum") - 1.0).abs() < 1e-12);
+    assert!(last(&simulation, "work_baffle_2") != 0.0);
+}

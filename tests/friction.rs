@@ -1,0 +1,182 @@
+//! Friction and rolling: slip to roll, the incline, the spin-locked disc in a turning drum, a stack at rest,
+//! co-rotation.
+
+mod common;
+
+use common::*;
+use drumrs::contact::linear::Tension;
+
+/// A floor whose contacts are stiff enough that the overlap under gravity hardly matters, and damped strongly.
+fn calm_floor(gravity: [f64; 2]) -> drumrs::config::SimulationConfig {
+    let mut config = floor(gravity);
+    config.contact.drum.tension = Tension::Clipped;
+    config.run.time_step = Some(1e-5);
+    config
+}
+
+/// Height of a disc's center at rest on the floor.
+fn rest_height(stiffness: f64, weight: f64) -> f64 {
+    RADIUS - weight / stiffness
+}
+
+#[test]
+fn a_sliding_disc_comes_to_roll_at_two_thirds_of_its_speed() {
+    let config = calm_floor([0.0, -GRAVITY]);
+    let (speed, friction) = (0.5, 0.5);
+    let height = rest_height(9.70e7, mass() * GRAVITY);
+    let mut simulation = start(&config, single([0.0, height], [speed, 0.0], 0.0));
+    let time_to_roll = speed / (3.0 * friction * GRAVITY);
+    run(&mut simulation, 0.95 * time_to_roll);
+    let velocity = |s: &drumrs::simulation::Simulation| s.state().particles.velocities[0].x;
+    let still_sliding = speed - friction * GRAVITY * simulation.time();
+    assert!((velocity(&simulation) - still_sliding).abs() < 1e-3, "friction decelerates by μ g");
+    assert!(velocity(&simulation) > speed * 2.0 / 3.0 * 1.01);
+    run(&mut simulation, 0.3 * time_to_roll);
+    assert!((velocity(&simulation) - speed * 2.0 / 3.0).abs() < 1e-3, "{}", velocity(&simulation));
+    let spin = simulation.state().particles.angular_velocities[0];
+    assert!((spin + speed * 2.0 / 3.0 / RADIUS).abs() < 0.2, "rolls without slip");
+    run(&mut simulation, 0.1);
+    let expected = mass() * speed * speed / 6.0;
+    assert!((last(&simulation, "dissipated_sliding") / expected - 1.0).abs() < 0.01);
+    assert!(last(&simulation, "energy_residual") < 1e-11);
+}
+
+/// On an incline of angle α (gravity turned by α) a disc rolls if μ ≥ tan α / 3, and then accelerates with
+/// (2/3) g sin α; else it slides with g (sin α − μ cos α).
+#[test]
+fn the_incline() {
+    for (degrees, friction) in [(20.0_f64, 0.5), (45.0, 0.4), (45.0, 0.2)] {
+        let (sin, cos) = degrees.to_radians().sin_cos();
+        let mut config = calm_floor([GRAVITY * sin, -GRAVITY * cos]);
+        config.contact.drum.friction = friction;
+        let height = rest_height(9.70e7, mass() * GRAVITY * cos);
+        let mut simulation = start(&config, single([0.0, height], [0.0, 0.0], 0.0));
+        run(&mut simulation, 0.2);
+        let rolls = friction >= degrees.to_radians().tan() / 3.0;
+        let acceleration =
+            if rolls { 2.0 / 3.0 * GRAVITY * sin } else { GRAVITY * (sin - friction * cos) };
+        let seen = simulation.state().particles.velocities[0].x / simulation.time();
+        assert!((seen / acceleration - 1.0).abs() < 2e-3, "{degrees}° μ {friction}: {seen}, {acceleration}");
+    }
+}
+
+/// A disc that may not spin rests in a slowly turning smooth drum where gravity's pull along the rim equals μ N: at
+/// θ = atan μ. The torque is m g R' sin θ with R' the radius of the contact point, here R; all power is sliding.
+#[test]
+fn a_spin_locked_disc_rests_at_the_friction_angle() {
+    let mut config = baseline(1, 0);
+    config.load.spin_locked = true;
+    config.contact.drum.friction = 0.3;
+    config.rotation.knots = vec![[0.0, 1.0]];
+    let angle = 0.3_f64.atan();
+    let orbit = DRUM_RADIUS - RADIUS + mass() * GRAVITY * angle.cos() / 9.70e7;
+    let at = [orbit * angle.sin(), -orbit * angle.cos()];
+    let mut simulation = start(&config, single(at, [0.0, 0.0], 0.0));
+    run(&mut simulation, 0.5);
+    let statistics =
+        drumrs::summary::summarize(&simulation.state().series, simulation.mass(), 0.1, 0.5).unwrap();
+    let value = |name| statistics.iter().find(|entry| entry.0 == name).unwrap().1.unwrap();
+    let position = simulation.state().particles.positions[0];
+    let rests_at = position.x.atan2(-position.y);
+    assert!((rests_at - angle).abs() < 2e-3, "{rests_at} {angle}");
+    let torque = mass() * GRAVITY * DRUM_RADIUS * angle.sin();
+    assert!((value("drum_torque") / torque - 1.0).abs() < 3e-3, "{} {torque}", value("drum_torque"));
+    assert!((value("tangential_power") / value("drum_power") - 1.0).abs() < 3e-3);
+    assert!(value("power_disagreement") < 1e-9, "{}", value("power_disagreement"));
+    assert!(value("energy_residual") < 1e-11);
+}
+
+/// Without rolling resistance a free disc ends at the bottom, spinning with the rim; it takes no power.
+#[test]
+fn a_free_disc_rests_at_the_bottom_spinning() {
+    let mut config = baseline(1, 0);
+    config.rotation.knots = vec![[0.0, 2.0]];
+    let orbit = DRUM_RADIUS - RADIUS + mass() * GRAVITY / 9.70e7;
+    let mut simulation = start(&config, single([0.0, -orbit], [0.0, 0.0], 2.0 * DRUM_RADIUS / RADIUS));
+    run(&mut simulation, 1.0);
+    let statistics =
+        drumrs::summary::summarize(&simulation.state().series, simulation.mass(), 0.5, 1.0).unwrap();
+    let power = statistics.iter().find(|entry| entry.0 == "specific_power").unwrap().1.unwrap();
+    assert!(power.abs() < 1e-4, "{power}");
+    let p = &simulation.state().particles;
+    assert!(p.positions[0].x.abs() < 1e-4 && p.velocities[0].norm() < 1e-3);
+    assert!((p.angular_velocities[0] * RADIUS - 2.0 * DRUM_RADIUS).abs() < 1e-3);
+}
+
+#[test]
+fn a_stack_at_rest_carries_its_weight() {
+    let mut config = calm_floor([0.0, -GRAVITY]);
+    config.run.time_step = Some(5e-6);
+    let count = 5;
+    let bundles: Vec<_> =
+        (0..count).map(|k| ([0.0, RADIUS * (1.0 + 2.0 * f64::from(k))], [0.0, 0.0], 0.0)).collect();
+    let mut simulation = start(&config, several(&bundles));
+    run(&mut simulation, 0.2);
+    let p = &simulation.state().particles;
+    let heights: Vec<f64> = p.positions.iter().map(|position| position.y).collect();
+    for level in 0..count as usize {
+        let above = (count as usize - level) as f64 * mass() * GRAVITY;
+        let (overlap, stiffness) = if level == 0 {
+            (RADIUS - heights[0], 9.70e7)
+        } else {
+            (2.0 * RADIUS - (heights[level] - heights[level - 1]), 9.25e7)
+        };
+        assert!((overlap * stiffness / above - 1.0).abs() < 1e-4, "level {level}: {}", overlap * stiffness / above);
+    }
+}
+
+/// A pair and a disc on the rim that turn rigidly with the drum keep their tangential springs.
+#[test]
+fn co_rotation_leaves_the_springs_alone() {
+    let speed = 30.0;
+    let mut config = baseline(1, 0);
+    config.gravity = [0.0, 0.0];
+    config.rotation.knots = vec![[0.0, speed]];
+    // Held against the rim by the centrifugal force alone; at rest in the drum's frame.
+    let force = mass() * (DRUM_RADIUS - RADIUS) * speed * speed;
+    let orbit = DRUM_RADIUS - RADIUS + force / 9.70e7;
+    let mut simulation = start(&config, single([orbit, 0.0], [0.0, orbit * speed], speed));
+    run(&mut simulation, 0.5);
+    let stretch = simulation.contacts().walls.touching().next().unwrap().history.tangential_displacement;
+    assert!(stretch.abs() < 1e-3 * force / 9.70e7, "{stretch} against {}", force / 9.70e7);
+    assert!(last(&simulation, "dissipated_sliding") == 0.0);
+
+    let mut config = free_space();
+    config.rotation.knots = vec![[0.0, 0.0]];
+    let reach = RADIUS * 2.0 - 1e-6;
+    // The springs push the two apart with just what turns them: k δ = m ω² r does not hold, so only the spring's
+    // stretch over a small angle is looked at.
+    let initial = several(&[
+        ([-0.5 * reach, 0.0], [0.0, -0.5 * reach * speed], speed),
+        ([0.5 * reach, 0.0], [0.0, 0.5 * reach * speed], speed),
+    ]);
+    config.contact.bundle.restitution = Some(1.0);
+    let mut simulation = start(&config, initial);
+    simulation.run(3).unwrap();
+    let stretch = simulation.contacts().pairs.touching().next().unwrap().history.tangential_displacement;
+    assert!(stretch.abs() < 1e-12, "{stretch}");
+}
+
+/// Beyond centrifuging a ring of bundles turns as a rigid body: neither dissipation nor mean torque is left.
+#[test]
+fn a_centrifuged_ring_takes_no_power() {
+    let mut config = baseline(1, 0);
+    let speed = 12.0;
+    config.rotation.knots = vec![[0.0, speed]];
+    let orbit = DRUM_RADIUS - RADIUS;
+    let bundles: Vec<_> = (0..20)
+        .map(|k| {
+            let (sin, cos) = (f64::from(k) * std::f64::consts::TAU / 20.0).sin_cos();
+            let velocity = [-orbit * sin * speed, orbit * cos * speed];
+            ([orbit * cos, orbit * sin], velocity, speed)
+        })
+        .collect();
+    let mut simulation = start(&config, several(&bundles));
+    let turn = std::f64::consts::TAU / speed;
+    run(&mut simulation, 6.05 * turn);
+    let end = simulation.time();
+    let statistics =
+        drumrs::summary::summarize(&simulation.state().series, simulation.mass(), end - 2.0 * turn, end).unwrap();
+    let power = statistics.iter().find(|entry| entry.0 == "specific_power").unwrap().1.unwrap();
+    assert!(power.abs() < 2e-3 * GRAVITY * DRUM_RADIUS * speed, "{power}");
+}

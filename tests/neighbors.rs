@@ -1,0 +1,58 @@
+//! The Verlet list against brute force.
+
+mod common;
+
+use common::*;
+use drumrs::contact::table::ContactTable;
+use drumrs::contact::laws::Laws;
+use drumrs::drum::{Drum, RIM};
+use drumrs::neighbors::{Surroundings, VerletList};
+use drumrs::particles::Particles;
+use drumrs::threads::Threads;
+use drumrs::vector::{Rotation, Vec2};
+use proptest::prelude::*;
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 128, failure_persistence: None, ..ProptestConfig::default() })]
+
+    /// For any load of mixed sizes at any angle of the drum, the list holds exactly the pairs within reach, and every
+    /// part of the drum within reach.
+    #[test]
+    fn the_list_is_brute_force(
+        bundles in proptest::collection::vec((-0.22..0.22_f64, -0.22..0.22_f64, 0.002..0.02_f64), 1..400),
+        skin in 0.0..0.02_f64,
+        angle in -7.0..7.0_f64,
+        threads in 1..3_usize,
+    ) {
+        let config = baseline(1, 3);
+        let drum = Drum::new(&config.drum).unwrap();
+        let laws = Laws::new(&config.contact.bundle, &config.contact.drum);
+        let positions: Vec<Vec2> = bundles.iter().map(|b| Vec2::new(b.0, b.1)).collect();
+        let radii: Vec<f64> = bundles.iter().map(|b| b.2).collect();
+        let particles = Particles::at_rest(positions.clone(), radii.clone(), 1000.0, false);
+        let mut table = ContactTable::empty(particles.len());
+        let mut list = VerletList::new(skin, particles.len());
+        let rotation = Rotation::new(angle);
+        let around = Surroundings { particles: &particles, drum: &drum, laws: &laws, rotation };
+        list.rebuild(around, &mut table, &Threads::new(threads).unwrap());
+
+        for i in 0..particles.len() {
+            let expected: Vec<u32> = (i + 1..particles.len())
+                .filter(|&j| (positions[j] - positions[i]).norm() < radii[i] + radii[j] + skin)
+                .map(|j| j as u32)
+                .collect();
+            prop_assert_eq!(&table.pairs.other[table.pairs.row(i)], &expected[..]);
+
+            let listed = &table.walls.other[table.walls.row(i)];
+            prop_assert!(listed.is_sorted());
+            let center = rotation.apply_inverse(positions[i]);
+            let at_rim = positions[i].norm() + radii[i] + skin > DRUM_RADIUS;
+            prop_assert_eq!(listed.contains(&RIM), at_rim);
+            for feature in 1..drum.feature_count() {
+                if drum.proximity(feature, center).is_some_and(|near| near.distance <= radii[i] + skin) {
+                    prop_assert!(listed.contains(&feature));
+                }
+            }
+        }
+    }
+}
