@@ -5,4 +5,6 @@
 //! the rim, and every edge and vertex of the outlines. Each contact belongs to one of them. Lengths enter by
 //! comparison with each other only, so that a drum four times as large answers with the same bits, scaled.
 
+mod polygon;
 pub mod rotation;
+mod side;
