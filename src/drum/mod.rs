@@ -5,6 +5,8 @@
 //! the rim, and every edge and vertex of the outlines. Each contact belongs to one of them. Lengths enter by
 //! comparison with each other only, so that a drum four times as large answers with the same bits, scaled.
 
+pub mod baffle;
+mod fit;
 mod polygon;
 pub mod rotation;
 mod side;
