@@ -1,0 +1,155 @@
+//! One straight side of an outline, and the bridge between parry2d's vectors and ours.
+
+use parry2d::query::PointQueryWithLocation;
+use parry2d::shape::{Segment, SegmentPointLocation};
+
+use crate::vector::{Vec2, cross, dot};
+
+/// A directed straight side from its start to its end, of non-zero length.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Side(Segment);
+
+/// Where on a side the closest point lies.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Place {
+    /// At the start; the projection falls on it or before it.
+    Start,
+    /// Between the ends, at this fraction of the way from the start.
+    Between(f64),
+    /// At the end; the projection falls on it or beyond it.
+    End,
+}
+
+/// The point of a side closest to some other point.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Projection {
+    /// The closest point.
+    pub(super) point: Vec2,
+    /// Where on the side it lies.
+    pub(super) place: Place,
+}
+
+impl Side {
+    pub(super) fn new(start: Vec2, end: Vec2) -> Self {
+        Self(Segment::new(to_parry(start), to_parry(end)))
+    }
+
+    #[inline]
+    pub(super) fn start(&self) -> Vec2 {
+        from_parry(self.0.a)
+    }
+
+    #[inline]
+    pub(super) fn end(&self) -> Vec2 {
+        from_parry(self.0.b)
+    }
+
+    /// From the start to the end, in full length [m].
+    #[inline]
+    pub(super) fn vector(&self) -> Vec2 {
+        self.end() - self.start()
+    }
+
+    /// The point of this side closest to `point`.
+    ///
+    /// Parry compares scalar products only, so the answer has no length scale of its own. (Its flag
+    /// `is_inside` has a tolerance; it is not used.)
+    #[inline]
+    pub(super) fn project(&self, point: Vec2) -> Projection {
+        let (projection, location) = self.0.project_local_point_and_get_location(to_parry(point), false);
+        let place = match location {
+            SegmentPointLocation::OnVertex(0) => Place::Start,
+            SegmentPointLocation::OnVertex(_) => Place::End,
+            SegmentPointLocation::OnEdge([_, fraction]) => Place::Between(fraction),
+        };
+        Projection { point: from_parry(projection.point), place }
+    }
+
+    /// Squared distance [m²] from `point`.
+    #[inline]
+    pub(super) fn distance_squared(&self, point: Vec2) -> f64 {
+        let offset = self.project(point).point - point;
+        dot(offset, offset)
+    }
+
+    /// Positive left of the line through this side, negative right of it, zero on it.
+    #[inline]
+    pub(super) fn left_of(&self, point: Vec2) -> f64 {
+        cross(self.vector(), point - self.start())
+    }
+
+    /// Whether two sides cross at a point inside both.
+    #[inline]
+    pub(super) fn crosses(&self, other: &Self) -> bool {
+        opposite(self.left_of(other.start()), self.left_of(other.end()))
+            && opposite(other.left_of(self.start()), other.left_of(self.end()))
+    }
+
+    /// Whether two sides share any point at all.
+    pub(super) fn meets(&self, other: &Self) -> bool {
+        self.crosses(other)
+            || self.holds(other.start())
+            || self.holds(other.end())
+            || other.holds(self.start())
+            || other.holds(self.end())
+    }
+
+    /// Whether `point` lies on this side.
+    pub(super) fn holds(&self, point: Vec2) -> bool {
+        let (start, end) = (self.start(), self.end());
+        let between = |a: f64, b: f64, value: f64| a.min(b) <= value && value <= a.max(b);
+        self.left_of(point) == 0.0 && between(start.x, end.x, point.x) && between(start.y, end.y, point.y)
+    }
+}
+
+/// Whether two numbers have opposite signs, neither being zero.
+#[inline]
+fn opposite(a: f64, b: f64) -> bool {
+    (a > 0.0 && b < 0.0) || (a < 0.0 && b > 0.0)
+}
+
+#[inline]
+fn to_parry(v: Vec2) -> parry2d::math::Vector {
+    parry2d::math::Vector::new(v.x, v.y)
+}
+
+#[inline]
+fn from_parry(v: parry2d::math::Vector) -> Vec2 {
+    Vec2::new(v.x, v.y)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn side(start: [f64; 2], end: [f64; 2]) -> Side {
+        Side::new(start.into(), end.into())
+    }
+
+    #[test]
+    fn projection_names_its_place() {
+        let side = side([1.0, 1.0], [5.0, 1.0]);
+        assert_eq!(side.project(Vec2::new(1.0, 3.0)).place, Place::Start);
+        assert_eq!(side.project(Vec2::new(5.0, 0.0)).place, Place::End);
+        let between = side.project(Vec2::new(2.0, 3.0));
+        assert_eq!((between.point, between.place), (Vec2::new(2.0, 1.0), Place::Between(0.25)));
+        assert_eq!(side.distance_squared(Vec2::new(8.0, 5.0)), 25.0);
+    }
+
+    #[test]
+    fn left_is_positive() {
+        assert!(side([0.0, 0.0], [1.0, 0.0]).left_of(Vec2::new(0.3, 0.1)) > 0.0);
+        assert!(side([1.0, 0.0], [0.0, 0.0]).left_of(Vec2::new(0.3, 0.1)) < 0.0);
+    }
+
+    #[test]
+    fn crossing_and_touching_differ() {
+        let base = side([0.0, 0.0], [2.0, 0.0]);
+        let (crossing, touching) = (side([1.0, -1.0], [1.0, 1.0]), side([1.0, 0.0], [1.0, 1.0]));
+        let (collinear, beyond) = (side([1.0, 0.0], [3.0, 0.0]), side([2.5, 0.0], [3.0, 0.0]));
+        assert!(base.crosses(&crossing) && base.meets(&crossing));
+        assert!(!base.crosses(&touching) && base.meets(&touching) && touching.meets(&base));
+        assert!(!base.crosses(&collinear) && base.meets(&collinear));
+        assert!(!base.meets(&beyond) && !base.meets(&side([0.0, 1.0], [2.0, 0.5])));
+    }
+}
