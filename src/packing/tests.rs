@@ -1,0 +1,250 @@
+//! Contracts of `pack` on the drum of the paper, bare and with its three baffles.
+
+use std::f64::consts::PI;
+
+use super::*;
+use crate::vector::{Rotation, cross};
+
+/// Radius of the bundles of the paper [m]: a drum twenty times as wide.
+const RADIUS: f64 = 0.011_875;
+
+/// A rim of radius 0.2375 m and triangular baffles, all lengths times a scale.
+struct TestDrum {
+    radius: f64,
+    baffles: Vec<[Vec2; 3]>,
+}
+
+impl TestDrum {
+    fn new(scale: f64, baffles: u32) -> Self {
+        let radius = 0.2375 * scale;
+        let half_angle = libm::asin(0.03 / 0.2375);
+        let corner = |distance: f64, angle: f64| Rotation::new(angle).apply(Vec2::new(distance, 0.0));
+        let baffle = |index: u32| {
+            let axis = f64::from(index) * 2.0 * PI / 3.0;
+            let tip = corner(0.1875 * scale, axis);
+            [corner(radius, axis - half_angle), corner(radius, axis + half_angle), tip]
+        };
+        Self { radius, baffles: (0..baffles).map(baffle).collect() }
+    }
+
+    /// The bare drum and the one with baffles.
+    fn both() -> [Self; 2] {
+        [Self::new(1.0, 0), Self::new(1.0, 3)]
+    }
+}
+
+impl FreeSpace for TestDrum {
+    fn clearance(&self, point: Vec2) -> f64 {
+        let rim = self.radius - dot(point, point).sqrt();
+        self.baffles.iter().map(|baffle| distance_to_triangle(baffle, point)).fold(rim, f64::min)
+    }
+
+    fn bounding_radius(&self) -> Option<f64> {
+        Some(self.radius)
+    }
+}
+
+/// Free space without bounds.
+struct Open;
+
+impl FreeSpace for Open {
+    fn clearance(&self, _: Vec2) -> f64 {
+        f64::INFINITY
+    }
+
+    fn bounding_radius(&self) -> Option<f64> {
+        None
+    }
+}
+
+/// Distance to a triangle with counter-clockwise corners, negative inside.
+fn distance_to_triangle(corners: &[Vec2; 3], point: Vec2) -> f64 {
+    let (mut distance, mut inside) = (f64::INFINITY, true);
+    for (index, start) in corners.iter().enumerate() {
+        let edge = corners[(index + 1) % 3] - start;
+        let along = (dot(point - start, edge) / dot(edge, edge)).clamp(0.0, 1.0);
+        let apart = point - start - edge * along;
+        distance = distance.min(dot(apart, apart).sqrt());
+        inside &= cross(edge, point - start) > 0.0;
+    }
+    if inside { -distance } else { distance }
+}
+
+/// Asserts that discs touch neither each other nor a solid, after a turn by any odd angle too.
+fn assert_valid(space: &impl FreeSpace, bed: &[Vec2], radius: f64) {
+    assert!(bed.iter().all(|center| space.clearance(*center) >= radius));
+    let turn = Rotation::new(1.234);
+    let turned: Vec<Vec2> = bed.iter().map(|center| turn.apply(*center)).collect();
+    for (index, center) in turned.iter().enumerate() {
+        for other in &turned[..index] {
+            assert!((center - other).norm() >= 2.0 * radius, "{center} and {other} overlap");
+        }
+    }
+}
+
+/// The count that an error names for a request that cannot fit.
+fn most_that_fit(space: &impl FreeSpace, radius: f64) -> usize {
+    match pack(space, 5000, radius, 0) {
+        Err(Error::Packing { requested: 5000, fits, diameter }) if diameter == 2.0 * radius => fits,
+        other => panic!("not the error of a drum too small: {other:?}"),
+    }
+}
+
+/// How much the directions to near neighbors agree with one hexagonal order throughout: 1 for a lattice.
+fn hexagonal_order(bed: &[Vec2], radius: f64) -> f64 {
+    let mut sum = Vec2::zeros();
+    let mut pairs = 0.0;
+    for center in bed {
+        for other in bed {
+            let apart = other - center;
+            if apart.norm() > 0.0 && apart.norm() < 2.8 * radius {
+                let angle = libm::atan2(apart.y, apart.x);
+                sum += Rotation::new(6.0 * angle).apply(Vec2::new(1.0, 0.0));
+                pairs += 1.0;
+            }
+        }
+    }
+    sum.norm() / pairs
+}
+
+#[test]
+fn discs_are_free_at_every_fill() {
+    for drum in TestDrum::both() {
+        for tenths in 1..=8 {
+            let bed = pack(&drum, 40 * tenths, RADIUS, 5).unwrap();
+            assert_eq!(bed.len(), 40 * tenths);
+            assert_valid(&drum, &bed, RADIUS);
+        }
+    }
+}
+
+#[test]
+fn the_densest_beds_of_the_paper_fit() {
+    for (drum, at_least) in TestDrum::both().iter().zip([330, 321]) {
+        let fits = most_that_fit(drum, RADIUS);
+        assert!(fits >= at_least, "only {fits} fit");
+        for seed in 0..4 {
+            let bed = pack(drum, fits, RADIUS, seed).unwrap();
+            assert_eq!(bed.len(), fits);
+            assert_valid(drum, &bed, RADIUS);
+            let error = Error::Packing { requested: fits + 1, fits, diameter: 2.0 * RADIUS };
+            assert_eq!(pack(drum, fits + 1, RADIUS, seed), Err(error));
+        }
+    }
+}
+
+#[test]
+fn few_large_discs_fit_at_the_reported_count() {
+    for drum in TestDrum::both() {
+        for ratio in [1.5, 2.2, 2.5, 2.75, 3.4, 4.1, 6.0, 9.0] {
+            let radius = drum.radius / ratio;
+            let fits = most_that_fit(&drum, radius);
+            for (seed, count) in (1..=fits).enumerate() {
+                assert_valid(&drum, &pack(&drum, count, radius, seed as u64).unwrap(), radius);
+            }
+            assert!(pack(&drum, fits + 1, radius, 1).is_err());
+        }
+    }
+}
+
+#[test]
+fn few_large_discs_lie_in_rings_where_these_hold_more() {
+    let drum = TestDrum::new(1.0, 0);
+    for (ratio, count) in [(1.5, 1), (2.2, 3), (2.5, 4), (2.75, 5), (3.01, 7), (3.4, 8), (5.0, 17)] {
+        assert_eq!(most_that_fit(&drum, drum.radius / ratio), count, "drum {ratio} times as wide");
+    }
+}
+
+#[test]
+fn a_seed_decides_every_bit() {
+    for drum in TestDrum::both() {
+        for count in [100, 240, 320] {
+            let bed = pack(&drum, count, RADIUS, 1).unwrap();
+            assert_eq!(bed, pack(&drum, count, RADIUS, 1).unwrap());
+            let other = pack(&drum, count, RADIUS, 2).unwrap();
+            assert!(bed.iter().all(|center| !other.contains(center)));
+        }
+    }
+}
+
+#[test]
+fn beds_have_the_same_bits_on_every_machine() {
+    let drum = TestDrum::new(1.0, 3);
+    let sums = [100, 300].map(|count| {
+        let bed = pack(&drum, count, RADIUS, 1).unwrap();
+        bed.iter().fold(0u64, |sum, center| sum.rotate_left(1) ^ center.x.to_bits() ^ center.y.to_bits())
+    });
+    assert_eq!(sums, [1_452_182_670_960_276_796, 3_294_468_466_642_155_409]);
+}
+
+#[test]
+fn lengths_scale_bit_for_bit() {
+    for baffles in [0, 3] {
+        for count in [100, 240, 320] {
+            let bed = pack(&TestDrum::new(1.0, baffles), count, RADIUS, 3).unwrap();
+            let scaled: Vec<Vec2> = bed.iter().map(|center| center * 4.0).collect();
+            assert_eq!(pack(&TestDrum::new(4.0, baffles), count, RADIUS * 4.0, 3).unwrap(), scaled);
+        }
+    }
+}
+
+#[test]
+fn a_loose_bed_is_uniform() {
+    let drum = TestDrum::new(1.0, 0);
+    let reach = drum.radius - RADIUS;
+    let mut sum = 0.0;
+    let mut mean = Vec2::zeros();
+    for seed in 0..400 {
+        for center in pack(&drum, 10, RADIUS, seed).unwrap() {
+            sum += dot(center, center) / (reach * reach) / 4000.0;
+            mean += center / reach / 4000.0;
+        }
+    }
+    assert!((sum - 0.5).abs() < 0.02, "mean square distance {sum}");
+    assert!(mean.norm() < 0.02, "mean position {mean}");
+}
+
+#[test]
+fn shuffling_melts_the_pattern() {
+    let drum = TestDrum::new(1.0, 0);
+    for seed in 0..4 {
+        let order = hexagonal_order(&pack(&drum, 240, RADIUS, seed).unwrap(), RADIUS);
+        assert!(order < 0.3, "order {order} at 60 % fill");
+    }
+}
+
+#[test]
+fn a_disc_may_be_barely_smaller_than_the_drum() {
+    let drum = TestDrum::new(1.0, 0);
+    let radius = drum.radius * 0.999_999;
+    for seed in 0..20 {
+        assert_valid(&drum, &pack(&drum, 1, radius, seed).unwrap(), radius);
+    }
+    assert_eq!(most_that_fit(&drum, radius), 1);
+    assert_eq!(most_that_fit(&drum, drum.radius), 0);
+    assert_eq!(most_that_fit(&drum, drum.radius * 3.0), 0);
+    let baffled = TestDrum::new(1.0, 3);
+    assert_valid(&baffled, &pack(&baffled, 1, 0.187, 1).unwrap(), 0.187);
+}
+
+#[test]
+fn few_tiny_discs_cost_little() {
+    let drum = TestDrum::new(1.0, 3);
+    let radius = drum.radius * 1e-7;
+    assert_valid(&drum, &pack(&drum, 7, radius, 1).unwrap(), radius);
+}
+
+#[test]
+fn nothing_is_placed_where_nothing_is_asked_for() {
+    assert_eq!(pack(&TestDrum::new(1.0, 3), 0, RADIUS, 1), Ok(Vec::new()));
+}
+
+#[test]
+fn a_drum_without_bounds_and_a_disc_without_size_are_refused() {
+    let error = pack(&Open, 1, RADIUS, 1).unwrap_err();
+    assert_eq!(error.to_string(), "drum.diameter is none, but must be given when no initial state is");
+    for radius in [0.0, -1.0, f64::NAN] {
+        let error = pack(&TestDrum::new(1.0, 0), 1, radius, 1).unwrap_err();
+        assert!(error.to_string().starts_with("load.diameter is "));
+    }
+}
