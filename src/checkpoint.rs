@@ -13,8 +13,10 @@ use crate::PHYSICS_VERSION;
 use crate::config::SimulationConfig;
 use crate::contact::laws::Laws;
 use crate::contact::table::{Contact, ContactTable, SlotRows};
+use crate::drum::Drum;
 use crate::error::Error;
 use crate::particles::Particles;
+use crate::recorder::columns;
 use crate::simulation::Simulation;
 use crate::state::{State, TouchingContacts};
 
@@ -73,6 +75,7 @@ impl Simulation {
         let config =
             SimulationConfig::from_json(&snapshot.config).map_err(|error| refuse(error.to_string()))?;
         let contacts = snapshot.contacts;
+        check(&snapshot.state, &contacts, &config)?;
         Self::resume(config, snapshot.seed, threads, snapshot.state, move |laws, particles| {
             restore(&contacts, laws, particles)
         })
@@ -127,7 +130,9 @@ fn read(bytes: &[u8]) -> Result<Snapshot, Error> {
     let (digest, body) = rest.split_at(32);
     if version != FORMAT_VERSION.to_le_bytes() {
         let found = version.iter().rev().fold(0_u32, |sum, &byte| (sum << 8) | u32::from(byte));
-        return Err(refuse(format!("it has format version {found}, this drumrs reads version {FORMAT_VERSION}")));
+        return Err(refuse(format!(
+            "it has format version {found}, this drumrs reads version {FORMAT_VERSION}"
+        )));
     }
     if digest != Sha256::digest(body).as_slice() {
         return Err(refuse("its content does not match its digest: it is damaged or cut short"));
@@ -143,17 +148,34 @@ fn read(bytes: &[u8]) -> Result<Snapshot, Error> {
     Ok(snapshot)
 }
 
-fn restore(contacts: &TouchingContacts, laws: &Laws, particles: &Particles) -> Result<ContactTable, Error> {
-    particles.validate().map_err(|error| refuse(error.to_string()))?;
-    let count = particles.len();
-    let known = |contact: &Contact| (contact.particle as usize) < count;
-    let pairs_known = contacts.pairs.iter().all(|c| known(c) && (c.other as usize) < count);
-    if !pairs_known || !contacts.walls.iter().all(known) {
-        return Err(refuse("a contact names a bundle that is not there"));
+/// Refuses a state whose parts do not belong together, which a matching digest alone does not rule out.
+fn check(state: &State, contacts: &TouchingContacts, config: &SimulationConfig) -> Result<(), Error> {
+    let drum = Drum::new(&config.drum).map_err(|error| refuse(error.to_string()))?;
+    state.particles.validate().map_err(|error| refuse(error.to_string()))?;
+    let count = state.particles.len() as u32;
+    let width = columns(drum.baffle_count(), drum.wall_count()).len();
+    if state.ledger.surfaces.len() != drum.surface_count() || !state.series.has_width(width) {
+        return Err(refuse("its accounts are not those of its drum"));
     }
+    if !state.frames.are_of(count as usize) {
+        return Err(refuse("its frames are not those of its bundles"));
+    }
+    let known = |contacts: &[Contact], others: u32| {
+        contacts.iter().all(|contact| contact.particle < count && contact.other < others)
+            && contacts.is_sorted_by_key(|contact| (contact.particle, contact.other))
+    };
+    if known(&contacts.pairs, count) && known(&contacts.walls, drum.feature_count()) {
+        Ok(())
+    } else {
+        Err(refuse("its contacts are not those of its bundles"))
+    }
+}
+
+fn restore(contacts: &TouchingContacts, laws: &Laws, particles: &Particles) -> Result<ContactTable, Error> {
     if particles.materials.iter().any(|&material| usize::from(material) >= laws.materials()) {
         return Err(refuse("a bundle is of a material that is not there"));
     }
+    let count = particles.len();
     let body = |id: u32| (particles.materials[id as usize], particles.masses[id as usize]);
     Ok(ContactTable {
         pairs: SlotRows::from_contacts(count, &contacts.pairs, |i, j| laws.pair_slot(body(i), body(j))),

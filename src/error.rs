@@ -79,6 +79,7 @@ pub enum Error {
 
 impl Error {
     /// An `Error::Config` from anything that prints.
+    #[allow(clippy::needless_pass_by_value)] // Callers hand over numbers and fresh strings.
     pub fn config(key: impl Into<String>, value: impl ToString, limit: impl Into<String>) -> Self {
         Self::Config { key: key.into(), value: value.to_string(), limit: limit.into() }
     }

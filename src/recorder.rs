@@ -177,6 +177,11 @@ impl Series {
         self.values.is_empty()
     }
 
+    /// Whether this series holds whole rows of `width` columns.
+    pub fn has_width(&self, width: usize) -> bool {
+        self.width == width && self.values.len().is_multiple_of(width)
+    }
+
     /// What the last sample had seen.
     pub fn earlier(&self) -> &Earlier {
         &self.earlier
@@ -234,6 +239,15 @@ impl Frames {
             (angle - turns * std::f64::consts::TAU) as f32
         }));
         self.speeds.extend(particles.velocities.iter().map(|v: &Vec2| v.norm() as f32));
+    }
+
+    /// Whether these are whole frames of `count` particles.
+    pub fn are_of(&self, count: usize) -> bool {
+        let values = self.len() * count;
+        self.drum_angles.len() == self.len()
+            && self.positions.len() == 2 * values
+            && self.angles.len() == values
+            && self.speeds.len() == values
     }
 
     /// Number of frames.

@@ -46,12 +46,14 @@ fn sources(folder: &Path, extension: &str) -> Vec<PathBuf> {
 fn module_of(path: &Path) -> String {
     let inside = path.strip_prefix("src").unwrap_or(path).with_extension("");
     let parts: Vec<_> = inside.iter().map(|part| part.to_string_lossy().into_owned()).collect();
-    let parts = if parts.last().is_some_and(|last| last == "mod") { &parts[..parts.len() - 1] } else { &parts[..] };
+    let parts =
+        if parts.last().is_some_and(|last| last == "mod") { &parts[..parts.len() - 1] } else { &parts[..] };
     parts.join("::")
 }
 
 fn level_of(module: &str) -> Option<u32> {
-    let matches = LEVELS.iter().filter(|(name, _)| module == *name || module.starts_with(&format!("{name}::")));
+    let matches =
+        LEVELS.iter().filter(|(name, _)| module == *name || module.starts_with(&format!("{name}::")));
     matches.max_by_key(|(name, _)| name.len()).map(|(_, level)| *level)
 }
 
@@ -62,7 +64,8 @@ fn imports(text: &str) -> Vec<String> {
         .filter(|line| !line.trim_start().starts_with("//"))
         .flat_map(|line| line.split("crate::").skip(1))
         .map(|rest| {
-            let path: String = rest.chars().take_while(|c| c.is_alphanumeric() || *c == '_' || *c == ':').collect();
+            let path: String =
+                rest.chars().take_while(|c| c.is_alphanumeric() || *c == '_' || *c == ':').collect();
             path.trim_end_matches(':').to_owned()
         })
         .collect()
@@ -81,7 +84,10 @@ fn modules_import_from_lower_levels_only() {
         for import in imports(&fs::read_to_string(&path).expect("a source")) {
             let Some(other) = level_of(&import) else { continue };
             let same_folder = import.split("::").next() == Some(top);
-            assert!(same_folder || other < level, "{module} (level {level}) imports {import} (level {other})");
+            assert!(
+                same_folder || other < level,
+                "{module} (level {level}) imports {import} (level {other})"
+            );
             seen += 1;
         }
     }
@@ -104,10 +110,12 @@ fn libraries_stay_where_they_belong() {
     for path in sources(Path::new("src"), "rs") {
         let module = module_of(&path);
         let text = fs::read_to_string(&path).expect("a source");
-        let code = text.lines().filter(|line| !line.trim_start().starts_with("//")).collect::<Vec<_>>().join("\n");
+        let code =
+            text.lines().filter(|line| !line.trim_start().starts_with("//")).collect::<Vec<_>>().join("\n");
         for (library, modules) in owners {
             let mentions = code.contains(&format!("{library}::")) || code.contains(&format!("use {library}"));
-            let allowed = modules.iter().any(|owner| module == *owner || module.starts_with(&format!("{owner}::")));
+            let allowed =
+                modules.iter().any(|owner| module == *owner || module.starts_with(&format!("{owner}::")));
             assert!(!mentions || allowed, "{module} uses {library}");
         }
     }
@@ -117,7 +125,8 @@ fn libraries_stay_where_they_belong() {
 fn python_keeps_to_its_own_rules() {
     let text = |path: &Path| fs::read_to_string(path).expect("a source");
     for path in sources(Path::new("python/drumrs"), "py") {
-        let inside = path.strip_prefix("python/drumrs").expect("inside the package").to_string_lossy().into_owned();
+        let inside =
+            path.strip_prefix("python/drumrs").expect("inside the package").to_string_lossy().into_owned();
         let code = text(&path);
         let imports = |name: &str| {
             code.lines().any(|line| {

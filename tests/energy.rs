@@ -124,8 +124,10 @@ fn forces_on_the_drum_carry_the_weight() {
 #[test]
 fn the_drums_work_is_the_sum_of_its_parts() {
     let simulation = tumbled(&baseline(100, 3), 1.0);
-    let parts: f64 =
-        ["work_rim", "work_baffle_1", "work_baffle_2", "work_baffle_3"].map(|p| last(&simulation, p)).iter().sum();
+    let parts: f64 = ["work_rim", "work_baffle_1", "work_baffle_2", "work_baffle_3"]
+        .map(|p| last(&simulation, p))
+        .iter()
+        .sum();
     assert!((parts / last(&simulation, "work_drum") - 1.0).abs() < 1e-12);
     assert!(last(&simulation, "work_baffle_2") != 0.0);
 }

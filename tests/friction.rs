@@ -53,8 +53,7 @@ fn the_incline() {
         let mut simulation = start(&config, single([0.0, height], [0.0, 0.0], 0.0));
         run(&mut simulation, 0.2);
         let rolls = friction >= degrees.to_radians().tan() / 3.0;
-        let acceleration =
-            if rolls { 2.0 / 3.0 * GRAVITY * sin } else { GRAVITY * (sin - friction * cos) };
+        let acceleration = if rolls { 2.0 / 3.0 * GRAVITY * sin } else { GRAVITY * (sin - friction * cos) };
         let seen = simulation.state().particles.velocities[0].x / simulation.time();
         assert!((seen / acceleration - 1.0).abs() < 2e-3, "{degrees}° μ {friction}: {seen}, {acceleration}");
     }
@@ -121,7 +120,11 @@ fn a_stack_at_rest_carries_its_weight() {
         } else {
             (2.0 * RADIUS - (heights[level] - heights[level - 1]), 9.25e7)
         };
-        assert!((overlap * stiffness / above - 1.0).abs() < 1e-4, "level {level}: {}", overlap * stiffness / above);
+        assert!(
+            (overlap * stiffness / above - 1.0).abs() < 1e-4,
+            "level {level}: {}",
+            overlap * stiffness / above
+        );
     }
 }
 
@@ -176,7 +179,8 @@ fn a_centrifuged_ring_takes_no_power() {
     run(&mut simulation, 6.05 * turn);
     let end = simulation.time();
     let statistics =
-        drumrs::summary::summarize(&simulation.state().series, simulation.mass(), end - 2.0 * turn, end).unwrap();
+        drumrs::summary::summarize(&simulation.state().series, simulation.mass(), end - 2.0 * turn, end)
+            .unwrap();
     let power = statistics.iter().find(|entry| entry.0 == "specific_power").unwrap().1.unwrap();
     assert!(power.abs() < 2e-3 * GRAVITY * DRUM_RADIUS * speed, "{power}");
 }

@@ -3,8 +3,8 @@
 mod common;
 
 use common::*;
-use drumrs::contact::table::ContactTable;
 use drumrs::contact::laws::Laws;
+use drumrs::contact::table::ContactTable;
 use drumrs::drum::{Drum, RIM};
 use drumrs::neighbors::{Surroundings, VerletList};
 use drumrs::particles::Particles;

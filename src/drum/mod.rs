@@ -146,6 +146,11 @@ impl Drum {
         self.outlines.len() - self.baffle_count
     }
 
+    /// Number of features, the rim included; every feature's id is below it.
+    pub fn feature_count(&self) -> FeatureId {
+        self.owners.len() as FeatureId + 1
+    }
+
     /// Number of surfaces that forces and work are counted for: the rim, each baffle, each wall.
     pub fn surface_count(&self) -> usize {
         1 + self.outlines.len()

@@ -17,6 +17,7 @@ mod tests;
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
 
+use crate::drum::Drum;
 use crate::error::{Error, require_positive};
 use crate::vector::{Vec2, dot};
 
@@ -30,6 +31,16 @@ pub trait FreeSpace {
 
     /// Radius [m] of the circle round the axis that contains the free space, `None` if it is unbounded.
     fn bounding_radius(&self) -> Option<f64>;
+}
+
+impl FreeSpace for Drum {
+    fn clearance(&self, point: Vec2) -> f64 {
+        Self::clearance(self, point)
+    }
+
+    fn bounding_radius(&self) -> Option<f64> {
+        self.radius()
+    }
 }
 
 /// Seeded random positions (drum frame) of `count` equal discs of `radius` [m] that overlap neither each other nor
