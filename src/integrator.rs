@@ -5,7 +5,7 @@
 
 use crate::particles::Particles;
 use crate::threads::{CHUNK, Chunked, Threads, chunk_count};
-use crate::vector::{Vec2, perpendicular};
+use crate::vector::{Vec2, dot, larger, perpendicular};
 
 /// What contacts need of a particle in one step; one cache line.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -164,7 +164,7 @@ impl Drift<'_> {
             motion.velocity = velocity + kick;
             motion.turn = own_turn;
             mass_moment += position * masses[i];
-            longest_squared = longest_squared.max(way.x * way.x + way.y * way.y);
+            longest_squared = larger(dot(way, way), longest_squared);
         }
         if let Some(sums) = self.sums.first_mut() {
             *sums = (mass_moment, longest_squared);

@@ -21,6 +21,19 @@ pub fn dot(a: Vec2, b: Vec2) -> f64 {
     a.x * b.x + a.y * b.y
 }
 
+/// The larger of two numbers; `b` where either is not a number. One machine instruction, unlike `f64::max`, which has
+/// to look for NaN.
+#[inline]
+pub fn larger(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
+
+/// The smaller of two numbers; `b` where either is not a number.
+#[inline]
+pub fn smaller(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
+}
+
 /// A rotation of the plane, kept as cosine and sine.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rotation {

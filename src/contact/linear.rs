@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Encounter, History, Response};
 use crate::error::{Error, require_non_negative, require_positive};
+use crate::vector::{larger, smaller};
 
 /// What a user sets: stiffness, damping, friction.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -187,7 +188,7 @@ impl LinearLaw {
     /// Forces and dissipation of one step.
     #[inline]
     pub fn respond(&self, encounter: &Encounter, history: &History) -> Response {
-        let overlap = encounter.overlap.max(0.0);
+        let overlap = larger(encounter.overlap, 0.0);
         let first_touch = !history.is_touching();
         // The step's whole change of overlap, and the part of it that fell within the contact.
         let approach =
@@ -206,7 +207,7 @@ impl LinearLaw {
         let trial = history.tangential_displacement + in_contact * encounter.displacement.slip;
         let normal_force = self.normal_force(encounter);
         let limit = self.slip_compliance * normal_force.abs();
-        let stretch = trial.max(-limit).min(limit);
+        let stretch = smaller(larger(trial, -limit), limit);
         Response {
             normal_force,
             tangential_force: self.tangential_stiffness * stretch,
@@ -221,7 +222,7 @@ impl LinearLaw {
         let force = self.normal_stiffness * encounter.overlap + encounter.damping * encounter.closing_speed;
         match self.tension {
             Tension::Allowed => force,
-            Tension::Clipped => force.max(0.0),
+            Tension::Clipped => larger(force, 0.0),
         }
     }
 
@@ -231,9 +232,9 @@ impl LinearLaw {
         let force = encounter.damping * (approach * encounter.step_rate);
         let force = match self.tension {
             Tension::Allowed => force,
-            Tension::Clipped => force.max(-self.normal_stiffness * mean_overlap),
+            Tension::Clipped => larger(force, -self.normal_stiffness * mean_overlap),
         };
-        (force * travel).max(0.0)
+        larger(force * travel, 0.0)
     }
 
     /// Work of the friction force over the stretch that truncation took away: mean of the forces before and after, or

@@ -3,7 +3,7 @@
 use crate::contact::{Displacement, Encounter, History, Response};
 use crate::energy::StepFlows;
 use crate::integrator::Motion;
-use crate::vector::{Vec2, dot, perpendicular};
+use crate::vector::{Vec2, dot, perpendicular, smaller};
 
 /// Where two bodies meet now.
 #[derive(Debug, Clone, Copy)]
@@ -56,7 +56,7 @@ impl Bodies for Pair<'_> {
 
     #[inline]
     fn radius(&self) -> f64 {
-        self.own.radius.min(self.other.radius)
+        smaller(self.own.radius, self.other.radius)
     }
 }
 
