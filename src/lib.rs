@@ -22,6 +22,7 @@ pub mod energy;
 pub mod error;
 pub mod forces;
 pub mod integrator;
+pub mod lanes;
 pub mod neighbors;
 pub mod packing;
 pub mod particles;

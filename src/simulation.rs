@@ -28,6 +28,7 @@ pub struct Simulation {
     fixed: Fixed,
     /// Scratch: nothing in it changes a result.
     list: VerletList,
+    half_gap: f64,
     integrator: Integrator,
     forces: ForcePass,
     threads: Threads,
@@ -131,8 +132,10 @@ impl Simulation {
     ) -> Self {
         let count = state.particles.len();
         let skin = config.run.skin.unwrap_or(DEFAULT_SKIN * state.particles.largest_radius());
+        let list = VerletList::new(skin, count);
         Self {
-            list: VerletList::new(skin, count),
+            half_gap: list.half_gap(state.particles.largest_radius()),
+            list,
             integrator: Integrator::new(&state.particles, fixed.time_step, fixed.gravity),
             forces: ForcePass::new(count, fixed.drum.surface_count()),
             config,
@@ -230,6 +233,8 @@ impl Simulation {
             rotation: instant.rotation,
             angular_velocity: instant.angular_velocity,
             turn: instant.turn,
+            way: self.list.way(),
+            half_gap: self.half_gap,
             step_rate: 1.0 / self.fixed.time_step,
         };
         self.forces.evaluate(scene, &mut self.table, &self.threads);

@@ -28,12 +28,6 @@ pub fn larger(a: f64, b: f64) -> f64 {
     if a > b { a } else { b }
 }
 
-/// The smaller of two numbers; `b` where either is not a number.
-#[inline]
-pub fn smaller(a: f64, b: f64) -> f64 {
-    if a < b { a } else { b }
-}
-
 /// A rotation of the plane, kept as cosine and sine.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rotation {

@@ -1,6 +1,7 @@
 //! The laws of a simulation: which one, with which damping, acts between two materials or a material and the drum.
 
-use super::linear::{LinearLaw, LinearParameters};
+use super::linear::{LinearLanes, LinearLaw, LinearParameters};
+use crate::lanes::LANES;
 
 /// What a contact's slot needs of its law, worked out once when the slot is made.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -44,6 +45,18 @@ impl Laws {
         &self.walls[slot.law as usize]
     }
 
+    /// The laws of four slots between particles.
+    #[inline(always)]
+    pub fn pair_lanes(&self, slots: [SlotLaw; LANES]) -> LinearLanes {
+        of_slots(&self.pairs, slots)
+    }
+
+    /// The laws of four slots between particles and the drum.
+    #[inline(always)]
+    pub fn wall_lanes(&self, slots: [SlotLaw; LANES]) -> LinearLanes {
+        of_slots(&self.walls, slots)
+    }
+
     /// The slot between two particles, each given as (material, mass); m* = m₁ m₂ / (m₁ + m₂).
     pub fn pair_slot(&self, one: (u16, f64), two: (u16, f64)) -> SlotLaw {
         let law = usize::from(one.0) * self.materials + usize::from(two.0);
@@ -63,5 +76,16 @@ impl Laws {
             laws.iter().map(|law| law.collision_time(effective_mass)).fold(f64::INFINITY, f64::min)
         };
         (shortest(&self.pairs, 0.5 * mass), shortest(&self.walls, mass))
+    }
+}
+
+/// Four slots mostly have one law, which is then read once.
+#[inline(always)]
+fn of_slots(laws: &[LinearLaw], slots: [SlotLaw; LANES]) -> LinearLanes {
+    let first = slots[0].law;
+    if slots.iter().all(|slot| slot.law == first) {
+        LinearLanes::splat(&laws[first as usize])
+    } else {
+        LinearLanes::new(|lane| &laws[slots[lane].law as usize])
     }
 }

@@ -4,9 +4,9 @@ use std::f64::consts::PI;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Encounter, History, Response};
+use super::{Encounter, History, HistoryLanes, Response};
 use crate::error::{Error, require_non_negative, require_positive};
-use crate::vector::{larger, smaller};
+use crate::lanes::{Lanes, lanes};
 
 /// What a user sets: stiffness, damping, friction.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -127,8 +127,8 @@ pub struct LinearLaw {
     pub damping: Damping,
     /// μ / kₛ [m per N/m]: the stretch at which a unit of normal force lets the contact slide.
     pub slip_compliance: f64,
-    /// What happens where the dashpot would pull.
-    pub tension: Tension,
+    /// The least normal force [N/m]: 0 where tension is clipped, −∞ where it is allowed.
+    pub least_normal_force: f64,
 }
 
 /// Where the normal damping comes from.
@@ -151,7 +151,10 @@ impl From<&LinearParameters> for LinearLaw {
                 (None, coefficient) => Damping::Coefficient(coefficient.unwrap_or(0.0)),
             },
             slip_compliance: parameters.friction / tangential_stiffness,
-            tension: parameters.tension,
+            least_normal_force: match parameters.tension {
+                Tension::Allowed => f64::NEG_INFINITY,
+                Tension::Clipped => 0.0,
+            },
         }
     }
 }
@@ -178,71 +181,9 @@ impl LinearLaw {
         if ratio >= 1.0 {
             return resolved;
         }
-        let phase = match self.tension {
-            Tension::Allowed => PI,
-            Tension::Clipped => 2.0 * libm::acos(ratio),
-        };
+        let clipped = self.least_normal_force == 0.0;
+        let phase = if clipped { 2.0 * libm::acos(ratio) } else { PI };
         resolved.min(phase / (frequency * (1.0 - ratio * ratio).sqrt()))
-    }
-
-    /// Forces and dissipation of one step.
-    #[inline]
-    pub fn respond(&self, encounter: &Encounter, history: &History) -> Response {
-        let overlap = larger(encounter.overlap, 0.0);
-        let first_touch = !history.is_touching();
-        // The step's whole change of overlap, and the part of it that fell within the contact.
-        let approach =
-            if first_touch { encounter.displacement.approach } else { encounter.overlap - history.overlap };
-        let travel = overlap - history.overlap;
-        let dissipated_normal =
-            self.dashpot_loss(encounter, 0.5 * (overlap + history.overlap), approach, travel);
-        if overlap == 0.0 {
-            // What the tangential spring still held is lost to sliding.
-            let stretch = history.tangential_displacement;
-            let dissipated_sliding = 0.5 * self.tangential_stiffness * stretch * stretch;
-            return Response { dissipated_normal, dissipated_sliding, ..Response::default() };
-        }
-        // Only the part of the step after first touch stretches the spring.
-        let in_contact = if first_touch && approach > travel { travel / approach } else { 1.0 };
-        let trial = history.tangential_displacement + in_contact * encounter.displacement.slip;
-        let normal_force = self.normal_force(encounter);
-        let limit = self.slip_compliance * normal_force.abs();
-        let stretch = smaller(larger(trial, -limit), limit);
-        Response {
-            normal_force,
-            tangential_force: self.tangential_stiffness * stretch,
-            tangential_displacement: stretch,
-            dissipated_normal,
-            dissipated_sliding: self.sliding_loss(history.tangential_displacement, stretch, trial - stretch),
-        }
-    }
-
-    #[inline]
-    fn normal_force(&self, encounter: &Encounter) -> f64 {
-        let force = self.normal_stiffness * encounter.overlap + encounter.damping * encounter.closing_speed;
-        match self.tension {
-            Tension::Allowed => force,
-            Tension::Clipped => larger(force, 0.0),
-        }
-    }
-
-    /// The dashpot's force at mid-step times the travel; where the force is clipped, the dashpot holds just the spring.
-    #[inline]
-    fn dashpot_loss(&self, encounter: &Encounter, mean_overlap: f64, approach: f64, travel: f64) -> f64 {
-        let force = encounter.damping * (approach * encounter.step_rate);
-        let force = match self.tension {
-            Tension::Allowed => force,
-            Tension::Clipped => larger(force, -self.normal_stiffness * mean_overlap),
-        };
-        larger(force * travel, 0.0)
-    }
-
-    /// Work of the friction force over the stretch that truncation took away: mean of the forces before and after, or
-    /// the force after where sliding turned round within the step.
-    #[inline]
-    fn sliding_loss(&self, before: f64, after: f64, slid: f64) -> f64 {
-        let mean = if before * after < 0.0 { after } else { 0.5 * (before + after) };
-        self.tangential_stiffness * mean * slid
     }
 
     /// Energy held by the springs [J/m]: (normal, tangential).
@@ -252,8 +193,116 @@ impl LinearLaw {
     }
 }
 
+/// The laws of four contacts.
+#[derive(Debug, Clone, Copy)]
+pub struct LinearLanes {
+    normal_stiffness: Lanes,
+    tangential_stiffness: Lanes,
+    slip_compliance: Lanes,
+    least_normal_force: Lanes,
+}
+
+impl LinearLanes {
+    /// One law for all.
+    #[inline(always)]
+    pub fn splat(law: &LinearLaw) -> Self {
+        Self {
+            normal_stiffness: Lanes::splat(law.normal_stiffness),
+            tangential_stiffness: Lanes::splat(law.tangential_stiffness),
+            slip_compliance: Lanes::splat(law.slip_compliance),
+            least_normal_force: Lanes::splat(law.least_normal_force),
+        }
+    }
+
+    /// A law for each index.
+    pub fn new<'a>(law: impl Fn(usize) -> &'a LinearLaw) -> Self {
+        Self {
+            normal_stiffness: lanes(|lane| law(lane).normal_stiffness),
+            tangential_stiffness: lanes(|lane| law(lane).tangential_stiffness),
+            slip_compliance: lanes(|lane| law(lane).slip_compliance),
+            least_normal_force: lanes(|lane| law(lane).least_normal_force),
+        }
+    }
+
+    /// Forces and losses of one step.
+    #[inline(always)]
+    pub fn respond(&self, encounter: &Encounter, history: &HistoryLanes) -> Response {
+        let zero = Lanes::ZERO;
+        let overlap = encounter.overlap.fast_max(zero);
+        let touching = overlap.simd_gt(zero);
+        let touched = history.overlap.simd_gt(zero);
+        // The step's whole change of overlap, and the part of it that fell within the contact.
+        let approach =
+            touched.bitselect(encounter.overlap - history.overlap, encounter.displacement.approach);
+        let travel = overlap - history.overlap;
+        let dissipated_normal =
+            self.dashpot_loss(encounter, (overlap + history.overlap) * 0.5, approach, travel);
+
+        let normal_force = touching.bitselect(self.normal_force(encounter), zero);
+        let slip = encounter.displacement.slip * share_in_contact(touching, touched, travel, approach);
+        let before = history.tangential_displacement;
+        let trial = before + slip;
+        let limit = self.slip_compliance * normal_force.abs();
+        let stretch = trial.fast_max(-limit).fast_min(limit);
+        Response {
+            normal_force,
+            tangential_force: self.tangential_stiffness * stretch,
+            tangential_displacement: stretch,
+            dissipated_normal,
+            dissipated_sliding: self.sliding_loss(before, stretch, trial - stretch),
+        }
+    }
+
+    /// Fₙ = kₙ δ + νₙ δ̇, or the least that is allowed.
+    #[inline(always)]
+    fn normal_force(&self, encounter: &Encounter) -> Lanes {
+        let force = self.normal_stiffness * encounter.overlap + encounter.damping * encounter.closing_speed;
+        force.fast_max(self.least_normal_force)
+    }
+
+    /// The dashpot's force at mid-step times the travel. Where the whole force is clipped, the dashpot holds just the
+    /// spring.
+    #[inline(always)]
+    fn dashpot_loss(
+        &self,
+        encounter: &Encounter,
+        mean_overlap: Lanes,
+        approach: Lanes,
+        travel: Lanes,
+    ) -> Lanes {
+        let force = encounter.damping * (approach * encounter.step_rate);
+        let force = force.fast_max(self.least_normal_force - self.normal_stiffness * mean_overlap);
+        (force * travel).fast_max(Lanes::ZERO)
+    }
+
+    /// Work of the friction force over the stretch that truncation took away: mean of the forces before and after, or
+    /// the force after where sliding turned round within the step. Where the contact has opened, nothing is left after,
+    /// and this is all that the spring held.
+    #[inline(always)]
+    fn sliding_loss(&self, before: Lanes, after: Lanes, slid: Lanes) -> Lanes {
+        let turned = (before * after).simd_lt(Lanes::ZERO);
+        let mean = turned.bitselect(after, (before + after) * 0.5);
+        self.tangential_stiffness * mean * slid
+    }
+}
+
+/// The part of a step's slip that stretches the spring: all of it, but only what comes after first touch, and nothing
+/// once the contact has opened.
+#[inline(always)]
+fn share_in_contact(touching: Lanes, touched: Lanes, travel: Lanes, approach: Lanes) -> Lanes {
+    let one = Lanes::ONE;
+    let throughout = touching.bitselect(one, Lanes::ZERO);
+    if touched.all() {
+        return throughout;
+    }
+    let closes = approach.simd_gt(travel);
+    let share = closes.bitselect(travel / approach, one);
+    touched.bitselect(throughout, touching.bitselect(share, Lanes::ZERO))
+}
+
 #[cfg(test)]
 mod tests {
+    use super::super::Displacement;
     use super::*;
 
     fn table_1(tension: Tension) -> LinearParameters {
@@ -289,20 +338,28 @@ mod tests {
 
     #[test]
     fn losses_are_never_negative() {
-        let law = LinearLaw::from(&table_1(Tension::Clipped));
-        for k in 0..1000_i32 {
-            let wave = |n: i32| f64::from((k * n) % 17 - 8) * 1e-6;
-            let history =
-                History { overlap: wave(3).max(0.0), tangential_displacement: wave(5), ..History::default() };
-            let encounter = Encounter {
-                overlap: wave(7),
-                displacement: super::super::Displacement { approach: wave(11), slip: wave(13) },
-                closing_speed: wave(2) * 1e5,
-                damping: 5e3,
-                step_rate: 1.0 / 3.7e-6,
-            };
-            let response = law.respond(&encounter, &history);
-            assert!(response.dissipated_normal >= 0.0 && response.dissipated_sliding >= 0.0);
+        for tension in [Tension::Allowed, Tension::Clipped] {
+            let law = LinearLaw::from(&table_1(tension));
+            for k in 0..2000_i32 {
+                let wave = |n: i32| f64::from((k * n) % 17 - 8) * 1e-6;
+                let overlap = wave(3).max(0.0);
+                let history = History {
+                    overlap,
+                    tangential_displacement: if overlap > 0.0 { wave(5) } else { 0.0 },
+                    ..History::default()
+                };
+                let encounter = Encounter {
+                    overlap: lanes(|_| wave(7)),
+                    displacement: Displacement { approach: lanes(|_| wave(11)), slip: lanes(|_| wave(13)) },
+                    closing_speed: lanes(|_| wave(2) * 1e5),
+                    damping: lanes(|_| 5e3),
+                    step_rate: 1.0 / 3.7e-6,
+                };
+                let response =
+                    LinearLanes::new(|_| &law).respond(&encounter, &HistoryLanes::new(|_| &history));
+                assert!(response.dissipated_normal.to_array()[0] >= 0.0, "{k}");
+                assert!(response.dissipated_sliding.to_array()[0] >= 0.0, "{k}");
+            }
         }
     }
 

@@ -16,11 +16,13 @@ pub mod table;
 
 use serde::{Deserialize, Serialize};
 
+use crate::lanes::{LANES, Lanes, Vec2Lanes, lanes};
 use crate::vector::{Vec2, perpendicular};
 
 /// What must survive a step, and nothing else: the tangential spring, and the force with the frame it acted in,
 /// which the next step's work needs. All zero while the bodies do not touch.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[repr(C)]
 pub struct History {
     /// Overlap δ [m]; the lever arms follow from it. Above zero exactly while the bodies touch.
     pub overlap: f64,
@@ -48,42 +50,93 @@ impl History {
     }
 }
 
-/// The relative motion of two bodies at their contact, resolved along one normal and its tangent.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Displacement {
-    /// Along the normal [m], positive when the bodies approach.
-    pub approach: f64,
-    /// Along the tangent, spin included [m].
-    pub slip: f64,
+/// Histories of four contacts.
+#[derive(Debug, Clone, Copy)]
+pub struct HistoryLanes {
+    /// Overlaps.
+    pub overlap: Lanes,
+    /// Stretches of the tangential springs.
+    pub tangential_displacement: Lanes,
+    /// Normal forces.
+    pub normal_force: Lanes,
+    /// Tangential forces.
+    pub tangential_force: Lanes,
+    /// Normals.
+    pub normal: Vec2Lanes,
 }
 
-/// What a law sees of two bodies that touch now, or touched at the last step.
-#[derive(Debug, Clone, Copy, PartialEq)]
+impl HistoryLanes {
+    /// A history for each index.
+    #[inline(always)]
+    pub fn new<'a>(history: impl Fn(usize) -> &'a History) -> Self {
+        Self {
+            overlap: lanes(|lane| history(lane).overlap),
+            tangential_displacement: lanes(|lane| history(lane).tangential_displacement),
+            normal_force: lanes(|lane| history(lane).normal_force),
+            tangential_force: lanes(|lane| history(lane).tangential_force),
+            normal: Vec2Lanes::new(|lane| history(lane).normal),
+        }
+    }
+
+    /// The forces on the owners.
+    #[inline(always)]
+    pub fn force(&self) -> Vec2Lanes {
+        self.normal.perpendicular() * self.tangential_force - self.normal * self.normal_force
+    }
+
+    /// The histories, one by one.
+    #[inline(always)]
+    pub fn to_array(self) -> [History; LANES] {
+        let (overlap, stretch) = (self.overlap.to_array(), self.tangential_displacement.to_array());
+        let (normal_force, tangential_force) =
+            (self.normal_force.to_array(), self.tangential_force.to_array());
+        let normal = self.normal.to_array();
+        std::array::from_fn(|lane| History {
+            overlap: overlap[lane],
+            tangential_displacement: stretch[lane],
+            normal_force: normal_force[lane],
+            tangential_force: tangential_force[lane],
+            normal: normal[lane],
+        })
+    }
+}
+
+/// The relative motion of two bodies at their contact, resolved along one normal and its tangent; four contacts.
+#[derive(Debug, Clone, Copy)]
+pub struct Displacement {
+    /// Along the normal [m], positive when the bodies approach.
+    pub approach: Lanes,
+    /// Along the tangent, spin included [m].
+    pub slip: Lanes,
+}
+
+/// What a law sees of bodies that touch now, or touched at the last step; four contacts.
+#[derive(Debug, Clone, Copy)]
 pub struct Encounter {
     /// Overlap δ [m]; not above zero when the bodies have separated.
-    pub overlap: f64,
+    pub overlap: Lanes,
     /// The displacement that happened during the step; spring and work use it.
     pub displacement: Displacement,
     /// Rate of approach at the time of the force [m/s], which is half a step later than the displacement's mean; the
     /// dashpot uses it.
-    pub closing_speed: f64,
-    /// Damping coefficient νₙ of this pair of bodies [N s/m].
-    pub damping: f64,
+    pub closing_speed: Lanes,
+    /// Damping coefficient νₙ of each pair of bodies [N s/m].
+    pub damping: Lanes,
     /// 1 / time step [1/s].
     pub step_rate: f64,
 }
 
-/// What a law answers.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+/// What a law answers; four contacts. All is zero where the bodies have separated, but for the losses.
+#[derive(Debug, Clone, Copy)]
 pub struct Response {
     /// Normal force Fₙ [N/m].
-    pub normal_force: f64,
+    pub normal_force: Lanes,
     /// Tangential force Fₜ [N/m].
-    pub tangential_force: f64,
+    pub tangential_force: Lanes,
     /// Stretch ξ of the tangential spring [m].
-    pub tangential_displacement: f64,
+    pub tangential_displacement: Lanes,
     /// Energy that the dashpot took during the step [J/m], never negative.
-    pub dissipated_normal: f64,
+    pub dissipated_normal: Lanes,
     /// Energy that sliding took during the step [J/m], never negative.
-    pub dissipated_sliding: f64,
+    pub dissipated_sliding: Lanes,
 }

@@ -22,6 +22,9 @@ pub struct SlotRows {
     pub laws: Vec<SlotLaw>,
     /// Everything that survives a step.
     pub histories: Vec<History>,
+    /// A slot sleeps until the way that the list counts reaches this [m]: before, no contact can have formed. Scratch
+    /// that saves work and changes no result.
+    pub wake: Vec<f64>,
 }
 
 /// One contact that has a history: its owner, its other side, and what it remembers.
@@ -44,6 +47,7 @@ impl SlotRows {
             other: Vec::new(),
             laws: Vec::new(),
             histories: Vec::new(),
+            wake: Vec::new(),
         }
     }
 
@@ -80,6 +84,7 @@ impl SlotRows {
         self.other.clear();
         self.laws.clear();
         self.histories.clear();
+        self.wake.clear();
     }
 
     fn push(&mut self, other: u32, law: SlotLaw, history: History) {
@@ -87,6 +92,7 @@ impl SlotRows {
         self.other.push(other);
         self.laws.push(law);
         self.histories.push(history);
+        self.wake.push(0.0);
     }
 
     fn end_row(&mut self) {

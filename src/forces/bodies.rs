@@ -1,139 +1,235 @@
-//! Two bodies at their contact: relative motion in a frame of contact, and the contact's step.
+//! Two bodies at their contact, four contacts at a time: relative motion in a frame of contact, and the contact's step.
 
-use crate::contact::{Displacement, Encounter, History, Response};
+use crate::contact::linear::LinearLanes;
+use crate::contact::{Displacement, Encounter, HistoryLanes};
 use crate::energy::StepFlows;
 use crate::integrator::Motion;
-use crate::vector::{Vec2, dot, perpendicular, smaller};
+use crate::lanes::{LANES, Lanes, Vec2Lanes, lanes};
 
-/// Where two bodies meet now.
+/// Where bodies meet now.
 #[derive(Debug, Clone, Copy)]
 pub struct Meeting {
-    pub overlap: f64,
-    pub normal: Vec2,
+    /// Overlap [m]; not above zero when they have separated.
+    pub overlap: Lanes,
+    /// Unit normals.
+    pub normal: Vec2Lanes,
 }
 
-/// Two bodies whose relative motion can be resolved in a given frame of contact.
+/// Bodies whose relative motion can be resolved in a given frame of contact.
 pub trait Bodies {
     /// The step's relative displacement, resolved along `normal` with the lever arms of `overlap`. `then` tells whether
     /// that frame is the one before the step.
-    fn displacement(&self, overlap: f64, normal: Vec2, then: bool) -> Displacement;
-    /// Rate of approach at the time of the force.
-    fn closing_speed(&self, overlap: f64, normal: Vec2) -> f64;
-    /// Radius against which an overlap is judged.
-    fn radius(&self) -> f64;
+    fn displacement(&self, overlap: Lanes, normal: Vec2Lanes, then: bool) -> Displacement;
+    /// Rate of approach at the time of the force [m/s].
+    fn closing_speed(&self, meeting: Meeting) -> Lanes;
+    /// Radius against which an overlap is judged [m].
+    fn radius(&self) -> Lanes;
 }
 
-/// Two particles; they touch halfway into the overlap.
-pub struct Pair<'a> {
-    pub own: &'a Motion,
-    pub other: &'a Motion,
+/// Particles in pairs; they touch halfway into the overlap.
+#[derive(Debug, Clone, Copy)]
+pub struct Pairs {
+    /// Relative displacement of the step [m].
+    apart: Vec2Lanes,
+    /// Relative velocity at the time of the force [m/s].
+    velocity: Vec2Lanes,
+    own_turn: Lanes,
+    other_turn: Lanes,
+    own_radius: Lanes,
+    other_radius: Lanes,
 }
 
-impl Pair<'_> {
-    #[inline]
-    pub fn own_arm(&self, overlap: f64) -> f64 {
-        self.own.radius - 0.5 * overlap
+impl Pairs {
+    /// Particles given as (owner, other) for each index.
+    #[inline(always)]
+    pub fn new(pair: [(&Motion, &Motion); LANES]) -> Self {
+        Self {
+            apart: Vec2Lanes::new(|lane| pair[lane].1.displacement - pair[lane].0.displacement),
+            velocity: Vec2Lanes::new(|lane| pair[lane].1.velocity - pair[lane].0.velocity),
+            own_turn: lanes(|lane| pair[lane].0.turn),
+            other_turn: lanes(|lane| pair[lane].1.turn),
+            own_radius: lanes(|lane| pair[lane].0.radius),
+            other_radius: lanes(|lane| pair[lane].1.radius),
+        }
     }
 
-    #[inline]
-    pub fn other_arm(&self, overlap: f64) -> f64 {
-        self.other.radius - 0.5 * overlap
-    }
-}
-
-impl Bodies for Pair<'_> {
-    #[inline]
-    fn displacement(&self, overlap: f64, normal: Vec2, _then: bool) -> Displacement {
-        let apart = self.other.displacement - self.own.displacement;
-        let spin = self.own_arm(overlap) * self.own.turn + self.other_arm(overlap) * self.other.turn;
-        Displacement { approach: -dot(apart, normal), slip: dot(apart, perpendicular(normal)) - spin }
+    /// Where they meet, from the vectors between their centers.
+    #[inline(always)]
+    pub fn meet(&self, gap: Vec2Lanes) -> Meeting {
+        let distance = gap.dot(gap).sqrt();
+        let overlap = self.own_radius + self.other_radius - distance;
+        Meeting { overlap, normal: gap * (Lanes::ONE / distance) }
     }
 
-    #[inline]
-    fn closing_speed(&self, _overlap: f64, normal: Vec2) -> f64 {
-        dot(self.own.velocity - self.other.velocity, normal)
+    /// From the owners' centers to the points of contact [m].
+    #[inline(always)]
+    pub fn own_arm(&self, overlap: Lanes) -> Lanes {
+        self.own_radius - overlap * 0.5
     }
 
-    #[inline]
-    fn radius(&self) -> f64 {
-        smaller(self.own.radius, self.other.radius)
-    }
-}
-
-/// A particle and the turning drum; they touch on the drum's surface.
-pub struct Wall<'a> {
-    pub own: &'a Motion,
-    pub turn: f64,
-    pub angular_velocity: f64,
-}
-
-impl Wall<'_> {
-    #[inline]
-    pub fn arm(&self, overlap: f64) -> f64 {
-        self.own.radius - overlap
+    /// From the others' centers to the points of contact [m].
+    #[inline(always)]
+    pub fn other_arm(&self, overlap: Lanes) -> Lanes {
+        self.other_radius - overlap * 0.5
     }
 }
 
-impl Bodies for Wall<'_> {
-    #[inline]
-    fn displacement(&self, overlap: f64, normal: Vec2, then: bool) -> Displacement {
-        let center = if then { self.own.position - self.own.displacement } else { self.own.position };
+impl Bodies for Pairs {
+    #[inline(always)]
+    fn displacement(&self, overlap: Lanes, normal: Vec2Lanes, _then: bool) -> Displacement {
+        let spin = self.own_arm(overlap) * self.own_turn + self.other_arm(overlap) * self.other_turn;
+        Displacement {
+            approach: -self.apart.dot(normal),
+            slip: self.apart.dot(normal.perpendicular()) - spin,
+        }
+    }
+
+    #[inline(always)]
+    fn closing_speed(&self, meeting: Meeting) -> Lanes {
+        -self.velocity.dot(meeting.normal)
+    }
+
+    #[inline(always)]
+    fn radius(&self) -> Lanes {
+        self.own_radius.fast_min(self.other_radius)
+    }
+}
+
+/// Particles at the turning drum; they touch on the drum's surface.
+#[derive(Debug, Clone, Copy)]
+pub struct Walls {
+    position: Vec2Lanes,
+    displacement: Vec2Lanes,
+    velocity: Vec2Lanes,
+    turn: Lanes,
+    radius: Lanes,
+    /// The angle that the drum turned during the step [rad].
+    drum_turn: f64,
+    /// Its angular velocity [rad/s].
+    angular_velocity: f64,
+}
+
+impl Walls {
+    /// A particle for each index, and how the drum turns.
+    #[inline(always)]
+    pub fn new(own: [&Motion; LANES], drum_turn: f64, angular_velocity: f64) -> Self {
+        Self {
+            position: Vec2Lanes::new(|lane| own[lane].position),
+            displacement: Vec2Lanes::new(|lane| own[lane].displacement),
+            velocity: Vec2Lanes::new(|lane| own[lane].velocity),
+            turn: lanes(|lane| own[lane].turn),
+            radius: lanes(|lane| own[lane].radius),
+            drum_turn,
+            angular_velocity,
+        }
+    }
+
+    /// From the centers to the points of contact [m].
+    #[inline(always)]
+    pub fn arm(&self, overlap: Lanes) -> Lanes {
+        self.radius - overlap
+    }
+
+    /// The points of contact.
+    #[inline(always)]
+    pub fn point(&self, overlap: Lanes, normal: Vec2Lanes) -> Vec2Lanes {
+        self.position + normal * self.arm(overlap)
+    }
+}
+
+impl Bodies for Walls {
+    #[inline(always)]
+    fn displacement(&self, overlap: Lanes, normal: Vec2Lanes, then: bool) -> Displacement {
+        let center = if then { self.position - self.displacement } else { self.position };
         let point = center + normal * self.arm(overlap);
-        let apart = perpendicular(point) * self.turn - self.own.displacement;
-        let spin = self.arm(overlap) * self.own.turn;
-        Displacement { approach: -dot(apart, normal), slip: dot(apart, perpendicular(normal)) - spin }
+        let apart = point.perpendicular() * Lanes::splat(self.drum_turn) - self.displacement;
+        let spin = self.arm(overlap) * self.turn;
+        Displacement { approach: -apart.dot(normal), slip: apart.dot(normal.perpendicular()) - spin }
     }
 
-    #[inline]
-    fn closing_speed(&self, overlap: f64, normal: Vec2) -> f64 {
-        let point = self.own.position + normal * self.arm(overlap);
-        dot(self.own.velocity - perpendicular(point) * self.angular_velocity, normal)
+    #[inline(always)]
+    fn closing_speed(&self, meeting: Meeting) -> Lanes {
+        let surface = self.point(meeting.overlap, meeting.normal).perpendicular();
+        (self.velocity - surface * Lanes::splat(self.angular_velocity)).dot(meeting.normal)
     }
 
-    #[inline]
-    fn radius(&self) -> f64 {
-        self.own.radius
+    #[inline(always)]
+    fn radius(&self) -> Lanes {
+        self.radius
     }
 }
 
-/// One contact's step: encounter, law, work, new history.
-#[inline]
+/// Sums of the flows, lane by lane.
+#[derive(Debug, Clone, Copy)]
+pub struct FlowLanes {
+    work_normal: Lanes,
+    work_tangential: Lanes,
+    dissipated_normal: Lanes,
+    dissipated_sliding: Lanes,
+    overlap_ratio: Lanes,
+}
+
+impl FlowLanes {
+    /// Nothing so far.
+    #[inline(always)]
+    pub fn zero() -> Self {
+        let zero = Lanes::ZERO;
+        Self {
+            work_normal: zero,
+            work_tangential: zero,
+            dissipated_normal: zero,
+            dissipated_sliding: zero,
+            overlap_ratio: zero,
+        }
+    }
+
+    /// The sums over the lanes, in their order.
+    pub fn total(&self) -> StepFlows {
+        let sum = |lanes: Lanes| lanes.to_array().into_iter().fold(0.0, |sum, value| sum + value);
+        StepFlows {
+            work_normal: 0.5 * sum(self.work_normal),
+            work_tangential: 0.5 * sum(self.work_tangential),
+            dissipated_normal: sum(self.dissipated_normal),
+            dissipated_sliding: sum(self.dissipated_sliding),
+            overlap_ratio: self.overlap_ratio.to_array().into_iter().fold(0.0, f64::max),
+        }
+    }
+}
+
+/// One step of four contacts: encounter, law, work, new history. `in_use` is all ones where a lane counts.
+#[inline(always)]
 pub fn settle(
     bodies: &impl Bodies,
-    meeting: Meeting,
-    (damping, step_rate): (f64, f64),
-    history: &mut History,
-    flows: &mut StepFlows,
-    respond: impl Fn(&Encounter, &History) -> Response,
-) {
+    (meeting, history): (Meeting, &HistoryLanes),
+    (law, damping, step_rate): (&LinearLanes, Lanes, f64),
+    in_use: Lanes,
+    flows: &mut FlowLanes,
+) -> HistoryLanes {
     let Meeting { overlap, normal } = meeting;
     let displacement = bodies.displacement(overlap, normal, false);
-    let closing_speed = bodies.closing_speed(overlap, normal);
+    let closing_speed = bodies.closing_speed(meeting);
     let encounter = Encounter { overlap, displacement, closing_speed, damping, step_rate };
-    let response = respond(&encounter, history);
-    let mut work_normal = response.normal_force * displacement.approach;
-    let mut work_tangential = response.tangential_force * displacement.slip;
-    if history.is_touching() {
-        let before = bodies.displacement(history.overlap, history.normal, true);
-        work_normal += history.normal_force * before.approach;
-        work_tangential += history.tangential_force * before.slip;
+    let response = law.respond(&encounter, history);
+    // Each force is charged half of the displacement resolved in its own frame; a contact without past had no force.
+    let before = bodies.displacement(history.overlap, history.normal, true);
+    let work_normal = response.normal_force * displacement.approach + history.normal_force * before.approach;
+    let work_tangential =
+        response.tangential_force * displacement.slip + history.tangential_force * before.slip;
+    flows.work_normal += in_use & work_normal;
+    flows.work_tangential += in_use & work_tangential;
+    flows.dissipated_normal += in_use & response.dissipated_normal;
+    flows.dissipated_sliding += in_use & response.dissipated_sliding;
+    let touching = overlap.simd_gt(Lanes::ZERO);
+    // The division waits for an overlap deeper than any before.
+    let deepest = flows.overlap_ratio * bodies.radius();
+    if (in_use & overlap.simd_gt(deepest)).any() {
+        flows.overlap_ratio = flows.overlap_ratio.fast_max(in_use & overlap / bodies.radius());
     }
-    flows.work_normal += 0.5 * work_normal;
-    flows.work_tangential += 0.5 * work_tangential;
-    flows.dissipated_normal += response.dissipated_normal;
-    flows.dissipated_sliding += response.dissipated_sliding;
-    if overlap > flows.overlap_ratio * bodies.radius() {
-        flows.overlap_ratio = overlap / bodies.radius();
+    HistoryLanes {
+        overlap: touching & overlap,
+        tangential_displacement: response.tangential_displacement,
+        normal_force: response.normal_force,
+        tangential_force: response.tangential_force,
+        normal: Vec2Lanes { x: touching & normal.x, y: touching & normal.y },
     }
-    *history = if overlap > 0.0 {
-        History {
-            overlap,
-            tangential_displacement: response.tangential_displacement,
-            normal_force: response.normal_force,
-            tangential_force: response.tangential_force,
-            normal,
-        }
-    } else {
-        History::default()
-    };
 }

@@ -1,6 +1,5 @@
 //! The gather of a parallel pass: each particle's contacts in key order, read from their histories.
 
-use super::bodies::Pair;
 use crate::contact::table::{ContactTable, SlotRows};
 use crate::integrator::{Load, Motion};
 use crate::threads::{CHUNK, Chunked, chunk_count};
@@ -10,8 +9,7 @@ use crate::vector::Vec2;
 #[derive(Debug, Clone, Default)]
 pub struct Incidence {
     starts: Vec<u32>,
-    /// (slot, lower particle).
-    slots: Vec<(u32, u32)>,
+    slots: Vec<u32>,
 }
 
 impl Incidence {
@@ -26,17 +24,15 @@ impl Incidence {
             self.starts[j + 2] += self.starts[j + 1];
         }
         self.slots.clear();
-        self.slots.resize(pairs.len(), (0, 0));
-        for i in 0..count {
-            for slot in pairs.row(i) {
-                let cursor = &mut self.starts[pairs.other[slot] as usize + 1];
-                self.slots[*cursor as usize] = (slot as u32, i as u32);
-                *cursor += 1;
-            }
+        self.slots.resize(pairs.len(), 0);
+        for (slot, &j) in pairs.other.iter().enumerate() {
+            let cursor = &mut self.starts[j as usize + 1];
+            self.slots[*cursor as usize] = slot as u32;
+            *cursor += 1;
         }
     }
 
-    fn of(&self, particle: usize) -> &[(u32, u32)] {
+    fn of(&self, particle: usize) -> &[u32] {
         &self.slots[self.starts[particle] as usize..self.starts[particle + 1] as usize]
     }
 }
@@ -68,21 +64,22 @@ impl<'a> Gather<'a> {
         for (offset, load) in self.loads.iter_mut().enumerate() {
             let i = self.first + offset;
             let own = &motions[i];
+            // Two particles touch halfway into the overlap, as in the pass over their slots.
+            let half_way = |overlap: f64| own.radius - 0.5 * overlap;
             let mut sum = Load::default();
             let mut add = |force: Vec2, moment: f64| {
                 sum.force += force;
                 sum.moment += moment;
             };
-            for &(slot, lower) in incidence.of(i) {
+            for &slot in incidence.of(i) {
                 let history = &table.pairs.histories[slot as usize];
                 if history.is_touching() {
-                    let pair = Pair { own: &motions[lower as usize], other: own };
-                    add(-history.force(), pair.other_arm(history.overlap) * history.tangential_force);
+                    add(-history.force(), half_way(history.overlap) * history.tangential_force);
                 }
             }
             for history in table.pairs.histories[table.pairs.row(i)].iter().filter(|past| past.is_touching())
             {
-                add(history.force(), (own.radius - 0.5 * history.overlap) * history.tangential_force);
+                add(history.force(), half_way(history.overlap) * history.tangential_force);
             }
             for history in table.walls.histories[table.walls.row(i)].iter().filter(|past| past.is_touching())
             {

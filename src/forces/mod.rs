@@ -4,6 +4,7 @@
 //! come in key order, so every particle receives its contacts in key order. A parallel pass leaves that to a gather
 //! that reads the same histories in the same order; the bits are the same.
 
+mod batch;
 mod bodies;
 mod gather;
 mod pairs;
@@ -35,6 +36,10 @@ pub struct Scene<'a> {
     pub angular_velocity: f64,
     /// The angle it turned during the step [rad].
     pub turn: f64,
+    /// How far anyone can have moved since the list was built, as seen from the drum [m].
+    pub way: f64,
+    /// Half of 1 / (distance + reach), for the largest distance and reach in the list and slightly less [1/m].
+    pub half_gap: f64,
     /// 1 / time step [1/s].
     pub step_rate: f64,
 }

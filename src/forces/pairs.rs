@@ -1,64 +1,110 @@
-//! Slots between particles: blocks of slots are searched for those that matter, which are then worked out.
+//! Slots between particles: those awake are looked at, those in contact are worked out four at a time.
+//!
+//! Which slots are awake, and which of them touch, is hard to foretell for a CPU. Both are therefore listed by loops
+//! without branches.
 
-use super::bodies::{Meeting, Pair, settle};
+use super::batch::{Batch, in_use};
+use super::bodies::{FlowLanes, Pairs, settle};
 use super::slots::SlotSlice;
 use super::{Scene, Sink};
-use crate::contact::History;
+use crate::contact::HistoryLanes;
 use crate::energy::StepFlows;
 use crate::integrator::Motion;
-use crate::vector::dot;
+use crate::lanes::{LANES, Vec2Lanes, lanes};
+use crate::vector::{dot, larger};
 
-/// Slots searched at a time. The search is a short loop without branches, and most slots do not touch.
-const BLOCK: usize = 64;
+/// Slots searched at a time.
+const BLOCK: usize = 128;
 
 /// Evaluates the slots in their order.
 pub fn evaluate(scene: Scene, slots: SlotSlice, sink: &mut impl Sink) -> StepFlows {
-    let mut flows = StepFlows::default();
-    let mut found = [0_u32; BLOCK];
-    let blocks = slots.owner.chunks(BLOCK).zip(slots.other.chunks(BLOCK));
-    let states = slots.histories.chunks_mut(BLOCK).zip(slots.laws.chunks(BLOCK));
-    for ((owner, other), (histories, laws)) in blocks.zip(states) {
-        let count = search(scene.motions, (owner, other), histories, &mut found);
-        for &slot in &found[..count] {
-            let slot = slot as usize;
-            let (i, j, history) = (owner[slot] as usize, other[slot] as usize, &mut histories[slot]);
-            let pair = Pair { own: &scene.motions[i], other: &scene.motions[j] };
-            let law = scene.laws.pair(laws[slot]);
-            let damping = laws[slot].damping;
-            settle(&pair, meet(&pair), (damping, scene.step_rate), history, &mut flows, |encounter, past| {
-                law.respond(encounter, past)
-            });
-            let (force, tangential) = (history.force(), history.tangential_force);
-            sink.add(i, force, pair.own_arm(history.overlap) * tangential);
-            sink.add(j, -force, pair.other_arm(history.overlap) * tangential);
+    let mut pass = Pass { scene, slots, flows: FlowLanes::zero() };
+    let mut awake = [0_u32; BLOCK];
+    // Contacts wait here until there are four of them.
+    let mut waiting = [0_u32; 2 * BLOCK];
+    let mut count = 0;
+    for start in (0..pass.slots.wake.len()).step_by(BLOCK) {
+        let found = pass.find_awake(start, &mut awake);
+        count = pass.find_contacts(&awake[..found], &mut waiting, count);
+        let full = count - count % LANES;
+        for batch in waiting[..full].chunks_exact(LANES) {
+            pass.work_out(&Batch::full(batch), sink);
+        }
+        waiting.copy_within(full..count, 0);
+        count -= full;
+    }
+    if count > 0 {
+        pass.work_out(&Batch::partial(&waiting[..count]), sink);
+    }
+    pass.flows.total()
+}
+
+struct Pass<'a> {
+    scene: Scene<'a>,
+    slots: SlotSlice<'a>,
+    flows: FlowLanes,
+}
+
+impl<'a> Pass<'a> {
+    #[inline(always)]
+    fn motions(&self, slot: usize) -> (&'a Motion, &'a Motion) {
+        let motions = self.scene.motions;
+        (&motions[self.slots.owner[slot] as usize], &motions[self.slots.other[slot] as usize])
+    }
+
+    /// Lists the slots of a block that may matter at this step: a slot sleeps until the particles could have closed
+    /// its gap.
+    #[inline(always)]
+    fn find_awake(&self, start: usize, awake: &mut [u32; BLOCK]) -> usize {
+        let end = (start + BLOCK).min(self.slots.wake.len());
+        let mut count = 0;
+        for (offset, &due) in self.slots.wake[start..end].iter().enumerate() {
+            awake[count & (BLOCK - 1)] = (start + offset) as u32;
+            count += usize::from(due <= self.scene.way);
+        }
+        count
+    }
+
+    /// Appends to the first `count` of `waiting` those slots whose particles touch, or touched at the last step; puts
+    /// the others to sleep. Returns the new count.
+    #[inline(always)]
+    fn find_contacts(&mut self, awake: &[u32], waiting: &mut [u32; 2 * BLOCK], mut count: usize) -> usize {
+        for &slot in awake {
+            let (own, other) = self.motions(slot as usize);
+            let gap = other.position - own.position;
+            let reach = own.radius + other.radius;
+            // Each of the two has to go half of the gap, which is (distance² − reach²) / (distance + reach).
+            let excess = dot(gap, gap) - reach * reach;
+            let in_contact = (excess < 0.0) | self.slots.histories[slot as usize].is_touching();
+            self.slots.wake[slot as usize] = self.scene.way + self.scene.half_gap * larger(excess, 0.0);
+            waiting[count & (2 * BLOCK - 1)] = slot;
+            count += usize::from(in_contact);
+        }
+        count
+    }
+
+    /// Works out the slots of a batch.
+    #[inline(always)]
+    fn work_out(&mut self, batch: &Batch, sink: &mut impl Sink) {
+        let slots = batch.slots;
+        let bodies = slots.map(|slot| self.motions(slot));
+        let pairs = Pairs::new(bodies);
+        let meeting = pairs.meet(Vec2Lanes::new(|lane| bodies[lane].1.position - bodies[lane].0.position));
+        let history = HistoryLanes::new(|lane| &self.slots.histories[slots[lane]]);
+        let keys = slots.map(|slot| self.slots.laws[slot]);
+        let law = self.scene.laws.pair_lanes(keys);
+        let law = (&law, lanes(|lane| keys[lane].damping), self.scene.step_rate);
+        let now = settle(&pairs, (meeting, &history), law, in_use(batch.count), &mut self.flows);
+
+        let forces = now.force().to_array();
+        let own_moments = (pairs.own_arm(now.overlap) * now.tangential_force).to_array();
+        let other_moments = (pairs.other_arm(now.overlap) * now.tangential_force).to_array();
+        let histories = now.to_array();
+        for lane in 0..batch.count {
+            let slot = slots[lane];
+            self.slots.histories[slot] = histories[lane];
+            sink.add(self.slots.owner[slot] as usize, forces[lane], own_moments[lane]);
+            sink.add(self.slots.other[slot] as usize, -forces[lane], other_moments[lane]);
         }
     }
-    flows
-}
-
-/// Lists the slots whose particles touch, or touched at the last step; returns their number.
-#[inline]
-fn search(
-    motions: &[Motion],
-    (owner, other): (&[u32], &[u32]),
-    histories: &[History],
-    found: &mut [u32; BLOCK],
-) -> usize {
-    let mut count = 0;
-    for (slot, ((&i, &j), history)) in owner.iter().zip(other).zip(histories).enumerate() {
-        let (own, other) = (&motions[i as usize], &motions[j as usize]);
-        let gap = other.position - own.position;
-        let reach = own.radius + other.radius;
-        let matters = (dot(gap, gap) < reach * reach) | history.is_touching();
-        found[count & (BLOCK - 1)] = slot as u32;
-        count += usize::from(matters);
-    }
-    count
-}
-
-#[inline]
-fn meet(pair: &Pair) -> Meeting {
-    let gap = pair.other.position - pair.own.position;
-    let distance = dot(gap, gap).sqrt();
-    Meeting { overlap: pair.own.radius + pair.other.radius - distance, normal: gap * (1.0 / distance) }
 }

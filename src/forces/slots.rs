@@ -18,6 +18,8 @@ pub struct SlotSlice<'a> {
     pub laws: &'a [SlotLaw],
     /// What survives the step.
     pub histories: &'a mut [History],
+    /// The way at which each slot wakes.
+    pub wake: &'a mut [f64],
 }
 
 impl<'a> From<&'a mut SlotRows> for SlotSlice<'a> {
@@ -28,6 +30,7 @@ impl<'a> From<&'a mut SlotRows> for SlotSlice<'a> {
             other: &rows.other,
             laws: &rows.laws,
             histories: &mut rows.histories,
+            wake: &mut rows.wake,
         }
     }
 }
@@ -41,14 +44,16 @@ impl SlotSlice<'_> {
         let (other, more_other) = self.other.split_at(at);
         let (laws, more_laws) = self.laws.split_at(at);
         let (histories, more_histories) = self.histories.split_at_mut(at);
+        let (wake, more_wake) = self.wake.split_at_mut(at);
         (
-            Self { starts: &self.starts[..=particles], owner, other, laws, histories },
+            Self { starts: &self.starts[..=particles], owner, other, laws, histories, wake },
             Self {
                 starts: &self.starts[particles..],
                 owner: more_owner,
                 other: more_other,
                 laws: more_laws,
                 histories: more_histories,
+                wake: more_wake,
             },
         )
     }

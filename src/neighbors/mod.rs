@@ -24,6 +24,8 @@ pub struct VerletList {
     farthest: f64,
     /// How far anyone may still move before the displacements have to be looked at [m].
     budget: f64,
+    /// How far anyone can have moved since the last build [m]: the sum over steps of the longest way.
+    way: f64,
     grid: CellGrid,
     found: Vec<Candidates>,
     spare: ContactTable,
@@ -59,6 +61,7 @@ impl VerletList {
             anchors: Vec::new(),
             farthest: 0.0,
             budget: -1.0,
+            way: 0.0,
             grid: CellGrid::default(),
             found: vec![Candidates::default(); chunk_count(count)],
             spare: ContactTable::empty(count),
@@ -71,8 +74,22 @@ impl VerletList {
         // The way is measured along the tangent; the arc departs from it by at most |x| turn² / 2.
         let arc = 0.5 * turn * turn * (self.farthest + self.skin);
         self.budget -= longest_way + arc;
+        self.way += longest_way + arc;
         // Written so that a way that is not a number asks, too.
         !(self.budget > 0.0)
+    }
+
+    /// How far anyone can have moved since the last build, as seen from the drum [m].
+    pub fn way(&self) -> f64 {
+        self.way
+    }
+
+    /// Half of 1 / (distance + reach) for particles of at most `largest_radius` that the list holds, taken slightly low
+    /// to cover round-off [1/m].
+    ///
+    /// Within the list, a distance is at most the reach and the skin at the build, and one skin more since.
+    pub fn half_gap(&self, largest_radius: f64) -> f64 {
+        0.5 * ROUND_OFF_MARGIN / (4.0 * largest_radius + 2.0 * self.skin)
     }
 
     /// Whether the list still holds for sure: nobody has moved half the skin, or close to it.
@@ -94,6 +111,7 @@ impl VerletList {
             .extend(particles.positions.iter().map(|&position| around.rotation.apply_inverse(position)));
         self.farthest = particles.positions.iter().fold(0.0_f64, |most, p| most.max(p.norm()));
         self.budget = 0.5 * self.skin * ROUND_OFF_MARGIN;
+        self.way = 0.0;
         self.grid.fill(&particles.positions, 2.0 * particles.largest_radius() + self.skin);
         let search = Search { chunks: &mut self.found, first: 0 };
         let (grid, anchors, skin) = (&self.grid, &self.anchors, self.skin);

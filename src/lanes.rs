@@ -1,0 +1,91 @@
+//! Four numbers at a time: the hot loop works on four contacts at once.
+//!
+//! A lane goes through the same operations, rounded in the same way, as a number alone would; nothing is reordered or
+//! fused. So the number of lanes, and the CPU, never show in a result.
+
+use std::ops::{Add, Mul, Neg, Sub};
+
+use wide::f64x4;
+
+use crate::vector::Vec2;
+
+/// Four numbers.
+pub type Lanes = f64x4;
+
+/// Numbers per `Lanes`.
+pub const LANES: usize = 4;
+
+/// A number for each index.
+#[inline(always)]
+pub fn lanes(number: impl Fn(usize) -> f64) -> Lanes {
+    Lanes::new([number(0), number(1), number(2), number(3)])
+}
+
+/// Four vectors.
+#[derive(Debug, Clone, Copy)]
+pub struct Vec2Lanes {
+    /// Their x.
+    pub x: Lanes,
+    /// Their y.
+    pub y: Lanes,
+}
+
+impl Vec2Lanes {
+    /// A vector for each index.
+    #[inline(always)]
+    pub fn new(vector: impl Fn(usize) -> Vec2) -> Self {
+        let vectors = [vector(0), vector(1), vector(2), vector(3)];
+        Self { x: lanes(|lane| vectors[lane].x), y: lanes(|lane| vectors[lane].y) }
+    }
+
+    /// Scalar products.
+    #[inline(always)]
+    pub fn dot(self, other: Self) -> Lanes {
+        self.x * other.x + self.y * other.y
+    }
+
+    /// Turned by +90°.
+    #[inline(always)]
+    pub fn perpendicular(self) -> Self {
+        Self { x: -self.y, y: self.x }
+    }
+
+    /// The vectors, one by one.
+    #[inline(always)]
+    pub fn to_array(self) -> [Vec2; LANES] {
+        let (x, y) = (self.x.to_array(), self.y.to_array());
+        std::array::from_fn(|lane| Vec2::new(x[lane], y[lane]))
+    }
+}
+
+impl Add for Vec2Lanes {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        Self { x: self.x + other.x, y: self.y + other.y }
+    }
+}
+
+impl Sub for Vec2Lanes {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        Self { x: self.x - other.x, y: self.y - other.y }
+    }
+}
+
+impl Neg for Vec2Lanes {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self { x: -self.x, y: -self.y }
+    }
+}
+
+impl Mul<Lanes> for Vec2Lanes {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, factor: Lanes) -> Self {
+        Self { x: self.x * factor, y: self.y * factor }
+    }
+}
