@@ -32,9 +32,9 @@ fn restitution(phase: f64, time_step: f64, damping_ratio: Option<f64>, tension: 
 }
 
 fn mean_restitution(time_step: f64, tension: Tension, ratio: Option<f64>) -> f64 {
-    let phases = 100;
-    (0..phases).map(|k| restitution(f64::from(k) / f64::from(phases), time_step, ratio, tension)).sum::<f64>()
-        / f64::from(phases)
+    let phases = 400;
+    let phase = |k| (f64::from(k) + 0.5) / f64::from(phases);
+    (0..phases).map(|k| restitution(phase(k), time_step, ratio, tension)).sum::<f64>() / f64::from(phases)
 }
 
 #[test]
@@ -47,11 +47,10 @@ fn restitution_at_table_1s_time_step_is_within_one_per_cent() {
 #[test]
 fn mean_restitution_converges_with_second_order() {
     let error = |divisor: f64| mean_restitution(TIME_STEP / divisor, Tension::Allowed, None) - 0.1;
-    let errors = [error(0.5), error(1.0), error(2.0)];
-    for pair in errors.windows(2) {
-        let order = (pair[0] / pair[1]).abs().log2();
-        assert!(order > 1.7 && order < 2.4, "order {order} from errors {errors:?}");
-    }
+    // Over four halvings: from one to the next the number of steps in a contact makes the order wobble round 2.
+    let errors = [error(0.5), error(8.0)];
+    let order = (errors[0] / errors[1]).abs().log2() / 4.0;
+    assert!(order > 1.85 && order < 2.3, "order {order} from errors {errors:?}");
 }
 
 #[test]

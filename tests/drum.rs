@@ -25,6 +25,10 @@ fn force_and_spring_survive_a_tip() {
     let velocity = [speed * along[0], speed * along[1]];
     let mut simulation = start(&config, single(center, velocity, -speed / RADIUS));
     let mut features = Vec::new();
+    // On the vertex the center's path bends, so the force changes by m v²/r, damped, over a collision time; the first
+    // step takes the dashpot's share of it: νₙ (v²/r) Δt.
+    let damping = simulation.contacts().walls.laws[0].damping;
+    let bend = damping * speed * speed / RADIUS * simulation.time_step();
     let mut last_force = None;
     let mut last_stretch = 0.0_f64;
     for _ in 0..20_000 {
@@ -36,7 +40,7 @@ fn force_and_spring_survive_a_tip() {
         assert_eq!(touching.len(), 1, "a corner counts once");
         let (feature, history) = (touching[0].other, touching[0].history);
         let jump = last_force.map_or(0.0, |force: drumrs::vector::Vec2| (history.force() - force).norm());
-        assert!(jump < 0.02 * mass() * GRAVITY, "the force jumps by {jump} at feature {feature}");
+        assert!(jump < bend, "the force jumps by {jump} at feature {feature}, {bend} allowed");
         if features.last() != Some(&feature) {
             if !features.is_empty() {
                 assert!(history.tangential_displacement != 0.0, "the spring is lost");

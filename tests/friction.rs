@@ -128,59 +128,66 @@ fn a_stack_at_rest_carries_its_weight() {
     }
 }
 
-/// A pair and a disc on the rim that turn rigidly with the drum keep their tangential springs.
+/// A disc on the rim and one upon it, carried rigidly with the drum and pressed outwards by the centrifugal force alone,
+/// keep their tangential springs relaxed.
 #[test]
 fn co_rotation_leaves_the_springs_alone() {
     let speed = 30.0;
     let mut config = baseline(1, 0);
     config.gravity = [0.0, 0.0];
     config.rotation.knots = vec![[0.0, speed]];
-    // Held against the rim by the centrifugal force alone; at rest in the drum's frame.
-    let force = mass() * (DRUM_RADIUS - RADIUS) * speed * speed;
-    let orbit = DRUM_RADIUS - RADIUS + force / 9.70e7;
-    let mut simulation = start(&config, single([orbit, 0.0], [0.0, orbit * speed], speed));
-    run(&mut simulation, 0.5);
-    let stretch = simulation.contacts().walls.touching().next().unwrap().history.tangential_displacement;
-    assert!(stretch.abs() < 1e-3 * force / 9.70e7, "{stretch} against {}", force / 9.70e7);
-    assert!(last(&simulation, "dissipated_sliding") == 0.0);
-
-    let mut config = free_space();
-    config.rotation.knots = vec![[0.0, 0.0]];
-    let reach = RADIUS * 2.0 - 1e-6;
-    // The springs push the two apart with just what turns them: k δ = m ω² r does not hold, so only the spring's
-    // stretch over a small angle is looked at.
-    let initial = several(&[
-        ([-0.5 * reach, 0.0], [0.0, -0.5 * reach * speed], speed),
-        ([0.5 * reach, 0.0], [0.0, 0.5 * reach * speed], speed),
-    ]);
-    config.contact.bundle.restitution = Some(1.0);
-    let mut simulation = start(&config, initial);
-    simulation.run(3).unwrap();
-    let stretch = simulation.contacts().pairs.touching().next().unwrap().history.tangential_displacement;
-    assert!(stretch.abs() < 1e-12, "{stretch}");
+    let carried = |orbit: f64| ([orbit, 0.0], [0.0, orbit * speed], speed);
+    // At rest in the drum's frame: each spring holds the centrifugal force of what it carries.
+    let centrifugal = |orbit: f64| mass() * orbit * speed * speed;
+    let (mut outer, mut inner) = (DRUM_RADIUS - RADIUS, DRUM_RADIUS - 3.0 * RADIUS);
+    for _ in 0..20 {
+        outer = DRUM_RADIUS - RADIUS + (centrifugal(outer) + centrifugal(inner)) / 9.70e7;
+        inner = outer - 2.0 * RADIUS + centrifugal(inner) / 9.25e7;
+    }
+    let mut simulation = start(&config, several(&[carried(outer), carried(inner)]));
+    let load = centrifugal(inner);
+    for _ in 0..10 {
+        run(&mut simulation, 0.02);
+        let contacts = simulation.contacts();
+        let histories: Vec<_> = contacts.pairs.touching().chain(contacts.walls.touching()).collect();
+        assert_eq!(histories.len(), 2);
+        for contact in histories {
+            let (pressed, held) = (contact.history.normal_force, contact.history.tangential_force);
+            assert!(pressed > 0.99 * load, "{pressed} of {load}");
+            assert!(held.abs() < 1e-6 * load, "{held} of {load}");
+        }
+    }
+    assert_eq!(last(&simulation, "dissipated_sliding"), 0.0);
 }
 
-/// Beyond centrifuging a ring of bundles turns as a rigid body: neither dissipation nor mean torque is left.
+/// Beyond centrifuging a closed ring of bundles turns as a rigid body: neither dissipation nor mean torque is left.
 #[test]
 fn a_centrifuged_ring_takes_no_power() {
+    let (count, speed) = (60, 25.0);
     let mut config = baseline(1, 0);
-    let speed = 12.0;
+    // The ring is closed: bundles on the rim just touch their neighbors, and are pressed into each other a little.
+    let half_angle = std::f64::consts::PI / f64::from(count);
+    let orbit = RADIUS / half_angle.sin() * (1.0 - 1e-4);
+    config.drum.radius = Some(orbit + RADIUS);
     config.rotation.knots = vec![[0.0, speed]];
-    let orbit = DRUM_RADIUS - RADIUS;
-    let bundles: Vec<_> = (0..20)
+    let bundles: Vec<_> = (0..count)
         .map(|k| {
-            let (sin, cos) = (f64::from(k) * std::f64::consts::TAU / 20.0).sin_cos();
-            let velocity = [-orbit * sin * speed, orbit * cos * speed];
-            ([orbit * cos, orbit * sin], velocity, speed)
+            let (sin, cos) = (f64::from(2 * k) * half_angle).sin_cos();
+            ([orbit * cos, orbit * sin], [-orbit * sin * speed, orbit * cos * speed], speed)
         })
         .collect();
     let mut simulation = start(&config, several(&bundles));
     let turn = std::f64::consts::TAU / speed;
-    run(&mut simulation, 6.05 * turn);
-    let end = simulation.time();
+    run(&mut simulation, 8.05 * turn);
+    let end = (8.0 * turn / 1e-3).round() * 1e-3;
+    let window = [end - 4.0 * turn, end];
     let statistics =
-        drumrs::summary::summarize(&simulation.state().series, simulation.mass(), end - 2.0 * turn, end)
+        drumrs::summary::summarize(&simulation.state().series, simulation.mass(), window[0], window[1])
             .unwrap();
-    let power = statistics.iter().find(|entry| entry.0 == "specific_power").unwrap().1.unwrap();
-    assert!(power.abs() < 2e-3 * GRAVITY * DRUM_RADIUS * speed, "{power}");
+    let value = |name| statistics.iter().find(|entry| entry.0 == name).unwrap().1.unwrap();
+    let scale = GRAVITY * orbit * speed * simulation.mass();
+    println!("{:?}", statistics);
+    for name in ["drum_power", "dissipated_normal_power", "dissipated_sliding_power"] {
+        assert!(value(name).abs() < 1e-3 * scale, "{name}: {} of {scale}", value(name));
+    }
 }
