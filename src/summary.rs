@@ -96,7 +96,7 @@ impl Table<'_> {
                 _ => after,
             }
         };
-        if times.len() < 2 || !(start < end) || nearest(start) >= nearest(end) {
+        if times.len() < 2 || start.is_nan() || nearest(start) >= nearest(end) {
             let limit = "a window that holds at least two samples of the run";
             return Err(Error::config("run.window", format!("[{start}, {end}]"), limit));
         }

@@ -71,8 +71,8 @@ impl VerletList {
         // The way is measured along the tangent; the arc departs from it by at most |x| turn² / 2.
         let arc = 0.5 * turn * turn * (self.farthest + self.skin);
         self.budget -= longest_way + arc;
-        // Written so that a way that is not a number asks, too.
-        !(self.budget > 0.0)
+        // A way that is not a number asks, too.
+        self.budget <= 0.0 || self.budget.is_nan()
     }
 
     /// Whether the list still holds for sure: nobody has moved half the skin, or close to it.
@@ -137,9 +137,9 @@ impl Search<'_> {
         let Some(found) = self.chunks.first_mut() else { return };
         found.clear();
         let start = self.first * CHUNK;
-        for i in start..(start + CHUNK).min(anchors.len()) {
+        for (i, &center) in anchors.iter().enumerate().skip(start).take(CHUNK) {
             found.add_pairs(i, around.particles, grid, skin);
-            found.add_walls(around.drum, anchors[i], around.particles.radii[i] + skin);
+            found.add_walls(around.drum, center, around.particles.radii[i] + skin);
         }
     }
 }
