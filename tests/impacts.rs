@@ -58,7 +58,7 @@ fn tangential_impulse(slip: f64, closing: f64) -> f64 {
     (2.0 / 3.0 * slip.abs()).min(2.0 * FRICTION * closing).copysign(slip)
 }
 
-/// 1. Two equal bodies head on: a half sine of the springs, and the speeds change places.
+/// Test 1: Two equal bodies head on: a half sine of the springs, and the speeds change places.
 #[test]
 fn two_bodies_exchange_their_speeds() {
     let config = elastic(free_space());
@@ -74,7 +74,7 @@ fn two_bodies_exchange_their_speeds() {
     assert!(velocities[0].y == 0.0 && velocities[1].y == 0.0);
 }
 
-/// 2. A body head on against a wall.
+/// Test 2: A body head on against a wall.
 #[test]
 fn a_wall_gives_the_speed_back() {
     let config = elastic(floor([0.0, 0.0]));
@@ -86,7 +86,7 @@ fn a_wall_gives_the_speed_back() {
     assert!(close(simulation.state().particles.velocities[0].y, 1.5, 1.5));
 }
 
-/// 3. A body head on against a wall, with every restitution. A single onset within a step errs in first order, so the
+/// Test 3: A body head on against a wall, with every restitution. A single onset within a step errs in first order, so the
 /// mean over onsets is held against the formula.
 #[test]
 fn restitutions_from_a_tenth_to_one() {
@@ -128,7 +128,7 @@ fn against_the_floor(tangential: f64, normal: f64, spin: f64) {
     assert!(last(&simulation, "energy_residual") < 1e-12);
 }
 
-/// 4. One speed at 5 … 85° from the normal.
+/// Test 4: One speed at 5 … 85° from the normal.
 #[test]
 fn oblique_impacts_at_every_angle() {
     for degrees in (5..=85).step_by(5) {
@@ -138,7 +138,7 @@ fn oblique_impacts_at_every_angle() {
     }
 }
 
-/// 5. One closing speed, tangential speeds from sticking to sliding.
+/// Test 5: One closing speed, tangential speeds from sticking to sliding.
 #[test]
 fn tangential_speeds_from_sticking_to_sliding() {
     for factor in [0.0, 0.5, 2.9, 3.1, 4.0, 5.9, 6.1, 20.0] {
@@ -146,7 +146,7 @@ fn tangential_speeds_from_sticking_to_sliding() {
     }
 }
 
-/// 6. One closing speed, spins from sticking to sliding.
+/// Test 6: One closing speed, spins from sticking to sliding.
 #[test]
 fn spins_from_sticking_to_sliding() {
     for factor in [-20.0, -4.0, -1.0, 0.5, 2.9, 3.1, 6.1, 20.0] {
@@ -199,7 +199,7 @@ fn of_two_bodies(radii: [f64; 2], spins: [f64; 2]) {
     assert!(last(&simulation, "energy_residual") < 1e-12);
 }
 
-/// 7. Two equal bodies with varied spins.
+/// Test 7: Two equal bodies with varied spins.
 #[test]
 fn equal_bodies_with_spins() {
     for spin in [-200.0, -30.0, 2.0, 9.0, 60.0] {
@@ -210,7 +210,7 @@ fn equal_bodies_with_spins() {
     }
 }
 
-/// 8. Two unequal bodies with varied spins.
+/// Test 8: Two unequal bodies with varied spins.
 #[test]
 fn unequal_bodies_with_spins() {
     for spin in [-200.0, -30.0, 2.0, 9.0, 60.0] {
