@@ -218,3 +218,24 @@ fn unequal_bodies_with_spins() {
         of_two_bodies([0.3 * RADIUS, RADIUS], [0.0, spin]);
     }
 }
+
+/// With kₛ = kₙ the tangential spring swings √3 times as fast as the normal one: the bodies part while it is stretched,
+/// and what it holds then is lost to sliding.
+#[test]
+fn a_spring_still_stretched_at_the_end_is_lost() {
+    let mut config = elastic(floor([0.0, 0.0]));
+    config.contact.drum.stiffness_ratio = 1.0;
+    config.contact.drum.friction = 1e4;
+    config.run.time_step = Some(FINE_STEP / 8.0);
+    // Gently, for the lever arm r − δ changes the tangential mass.
+    let speed = 0.02;
+    let mut simulation = start(&config, single([0.0, RADIUS + 1e-7], [speed, -0.1], 0.0));
+    watch(&mut simulation);
+    simulation.run(64).unwrap();
+    let (sin, cos) = libm::sincos(3.0_f64.sqrt() * std::f64::consts::PI);
+    let p = &simulation.state().particles;
+    let slip = p.velocities[0].x + RADIUS * p.angular_velocities[0];
+    assert!((slip - speed * cos).abs() < 0.01 * speed, "{slip}");
+    let lost = mass() * speed * speed / 6.0 * sin * sin;
+    assert!((last(&simulation, "dissipated_sliding") / lost - 1.0).abs() < 0.02, "{lost}");
+}
