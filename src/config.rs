@@ -1,7 +1,8 @@
 //! `SimulationConfig`: everything that defines a simulation, composed from the parameters of its parts.
 //!
 //! All values are SI and per metre of drum depth. Defaults live in the Python package only: here every field has to
-//! be given, and unknown fields are refused.
+//! be given, and unknown fields are refused. (Serde lets a missing `Option` pass as none, unless a field names how to read
+//! it.)
 
 use serde::{Deserialize, Serialize};
 
@@ -59,12 +60,14 @@ pub struct ContactParameters {
 #[serde(deny_unknown_fields)]
 pub struct RunParameters {
     /// Time step [s]; none takes the shortest collision time / 50.
+    #[serde(deserialize_with = "Option::deserialize")]
     pub time_step: Option<f64>,
     /// Interval between samples of the series [s].
     pub sample_every: f64,
     /// Interval between frames [s].
     pub frame_every: f64,
     /// Margin of the neighbour list [m]; none takes the measured best. It never changes a result.
+    #[serde(deserialize_with = "Option::deserialize")]
     pub skin: Option<f64>,
     /// Greatest overlap allowed, as a fraction of the smaller radius.
     pub overlap_limit: f64,
@@ -83,6 +86,7 @@ impl SimulationConfig {
     }
 
     /// The configuration as JSON; reading it back gives the same bits.
+    #[allow(clippy::missing_panics_doc)] // It cannot: the tree has string keys and plain values only.
     pub fn to_json(&self) -> String {
         serde_json::to_string(self).expect("a tree of plain structs always serializes")
     }

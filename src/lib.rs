@@ -3,16 +3,16 @@
 //! Everything is SI and per metre of drum depth. The drum turns about the origin; positive angles are
 //! counter-clockwise.
 //!
-//! | level | modules                                                           |
-//! |-------|-------------------------------------------------------------------|
-//! | 0     | [`vector`], [`error`], [`threads`]                                |
-//! | 1     | [`particles`], [`drum`], [`contact`] (laws)                       |
-//! | 2     | [`config`], [`neighbors`], [`contact::table`], [`energy`]         |
-//! | 3     | [`packing`], [`start`], [`integrator`], [`forces`], [`recorder`], [`summary`], [`state`] |
-//! | 4     | [`checkpoint`], [`simulation`]                                    |
-//! | 5     | the Python module, behind the feature `python`                    |
+//! | level | modules                                                                 |
+//! |-------|-------------------------------------------------------------------------|
+//! | 0     | [`vector`], [`lanes`], [`error`]                                        |
+//! | 1     | [`threads`], [`particles`], [`drum`], [`contact`], [`energy`]           |
+//! | 2     | [`config`], [`packing`], [`neighbors`], [`integrator`], [`recorder`]    |
+//! | 3     | [`start`], [`forces`], [`state`], [`summary`]                           |
+//! | 4     | [`simulation`]                                                          |
+//! | 5     | [`checkpoint`]; `python`, which only the feature of that name builds    |
 //!
-//! A module imports only from lower levels; `tests/architecture.rs` checks it.
+//! A module imports only from lower levels; `tests/architecture.rs` reads this table and checks it.
 
 pub mod checkpoint;
 pub mod config;

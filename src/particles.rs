@@ -150,9 +150,9 @@ mod tests {
 
     #[test]
     fn a_bundle_of_table_1_has_its_mass_and_the_inertia_of_a_disc() {
-        let particles = Particles::at_rest(vec![Vec2::zeros()], vec![0.011875], 1000.0, false);
+        let particles = Particles::at_rest(vec![Vec2::zeros()], vec![0.011_875], 1000.0, false);
         assert!((particles.masses[0] - 0.4430).abs() < 1e-4);
-        assert_eq!(particles.inertias[0], 0.5 * particles.masses[0] * 0.011875 * 0.011875);
+        assert_eq!(particles.inertias[0], 0.5 * particles.masses[0] * 0.011_875 * 0.011_875);
     }
 
     #[test]

@@ -66,7 +66,7 @@ impl InitialState {
 /// # Errors
 /// `Error::Config` naming the first of them.
 pub fn require_inside(drum: &Drum, particles: &Particles) -> Result<(), Error> {
-    match particles.positions.iter().position(|&center| !(drum.clearance(center) > 0.0)) {
+    match particles.positions.iter().position(|&center| drum.clearance(center) <= 0.0) {
         None => Ok(()),
         Some(i) => {
             let (x, y) = (particles.positions[i].x, particles.positions[i].y);

@@ -56,7 +56,7 @@ pub fn summarize(series: &Series, mass: f64, start: f64, end: f64) -> Result<Vec
         ("power_torque", Some(powers[0])),
         ("power_ledger", Some(powers[1])),
         ("power_balance", Some(powers[2])),
-        ("power_disagreement", Some(disagreement(powers))),
+        ("power_disagreement", Some(disagreement(powers, table.stored(window) / time))),
         ("center_of_mass_x", Some(mean("center_of_mass_x"))),
         ("center_of_mass_y", Some(mean("center_of_mass_y"))),
         ("coordination", Some(mean("coordination"))),
@@ -66,9 +66,11 @@ pub fn summarize(series: &Series, mass: f64, start: f64, end: f64) -> Result<Vec
     ])
 }
 
-/// Largest difference of the three powers over the greatest of their magnitudes; 0 where all vanish.
-fn disagreement(powers: [f64; 3]) -> f64 {
-    let scale = powers.iter().fold(0.0_f64, |most, power| most.max(power.abs()));
+/// Largest difference of the three powers over the greatest of their magnitudes, or over `turnover` where that is more:
+/// the power that would use up the stored energy within the window. Powers are differences of such energies, so without
+/// it the quotient would be one of rounding errors where the drum does no work. 0 where all vanish.
+fn disagreement(powers: [f64; 3], turnover: f64) -> f64 {
+    let scale = powers.iter().fold(turnover, |most, power| most.max(power.abs()));
     let (low, high) =
         powers.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &p| (low.min(p), high.max(p)));
     if scale > 0.0 { (high - low) / scale } else { 0.0 }
@@ -94,7 +96,7 @@ impl Table<'_> {
                 _ => after,
             }
         };
-        if times.len() < 2 || !(start < end) || nearest(start) >= nearest(end) {
+        if times.len() < 2 || start.is_nan() || nearest(start) >= nearest(end) {
             let limit = "a window that holds at least two samples of the run";
             return Err(Error::config("run.window", format!("[{start}, {end}]"), limit));
         }
@@ -104,6 +106,18 @@ impl Table<'_> {
     fn change(&self, name: &str, window: Window) -> f64 {
         let column = self.column(name);
         column[window.last] - column[window.first]
+    }
+
+    /// Energy stored at the end of the window, every part with its magnitude [J/m].
+    fn stored(&self, window: Window) -> f64 {
+        let parts = [
+            "kinetic_translation",
+            "kinetic_rotation",
+            "gravitational",
+            "elastic_normal",
+            "elastic_tangential",
+        ];
+        parts.iter().map(|part| self.column(part)[window.last].abs()).sum()
     }
 
     /// Mean of the samples after the window's first, which close the intervals within it.

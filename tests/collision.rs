@@ -1,7 +1,6 @@
-//! Single impacts: restitution with and without tension, its convergence, conservation, oblique impact.
+//! Single damped impacts: restitution with and without tension, its convergence, conservation, gross sliding.
 //!
-//! Formulas for discs (I = m r²/2). Sources: Schwager & Pöschel, Granular Matter 9 (2007) 465 (clipped restitution);
-//! Chung & Ooi, Granular Matter 13 (2011) 643 (the impact tests, here in their disc form).
+//! Formulas for discs (I = m r²/2). Source of the clipped restitution: Schwager & Pöschel, Granular Matter 9 (2007) 465.
 
 mod common;
 
@@ -32,9 +31,9 @@ fn restitution(phase: f64, time_step: f64, damping_ratio: Option<f64>, tension: 
 }
 
 fn mean_restitution(time_step: f64, tension: Tension, ratio: Option<f64>) -> f64 {
-    let phases = 100;
-    (0..phases).map(|k| restitution(f64::from(k) / f64::from(phases), time_step, ratio, tension)).sum::<f64>()
-        / f64::from(phases)
+    let phases = 400;
+    let phase = |k| (f64::from(k) + 0.5) / f64::from(phases);
+    (0..phases).map(|k| restitution(phase(k), time_step, ratio, tension)).sum::<f64>() / f64::from(phases)
 }
 
 #[test]
@@ -47,11 +46,10 @@ fn restitution_at_table_1s_time_step_is_within_one_per_cent() {
 #[test]
 fn mean_restitution_converges_with_second_order() {
     let error = |divisor: f64| mean_restitution(TIME_STEP / divisor, Tension::Allowed, None) - 0.1;
-    let errors = [error(0.5), error(1.0), error(2.0)];
-    for pair in errors.windows(2) {
-        let order = (pair[0] / pair[1]).abs().log2();
-        assert!(order > 1.7 && order < 2.4, "order {order} from errors {errors:?}");
-    }
+    // Over four halvings: from one to the next the number of steps in a contact makes the order wobble round 2.
+    let errors = [error(0.5), error(8.0)];
+    let order = (errors[0] / errors[1]).abs().log2() / 4.0;
+    assert!(order > 1.85 && order < 2.3, "order {order} from errors {errors:?}");
 }
 
 #[test]
@@ -83,22 +81,6 @@ fn head_on(config: &drumrs::config::SimulationConfig, phase: f64) -> f64 {
     run_through_contact(&mut simulation, 100_000);
     let velocities = &simulation.state().particles.velocities;
     velocities[1].x - velocities[0].x
-}
-
-#[test]
-fn elastic_impacts_give_the_speed_back() {
-    let mut config = free_space();
-    config.contact.bundle.restitution = Some(1.0);
-    config.run.time_step = Some(TIME_STEP / 4.0);
-    let mean = (0..50).map(|k| head_on(&config, f64::from(k) / 12.5)).sum::<f64>() / 50.0;
-    assert!((mean - 1.0).abs() < 1e-3, "{mean}");
-
-    let mut config = floor([0.0, 0.0]);
-    config.contact.drum.restitution = Some(1.0);
-    config.run.time_step = Some(TIME_STEP / 4.0);
-    let mut simulation = start(&config, single([0.0, RADIUS + 1e-6], [0.0, -1.0], 0.0));
-    run_through_contact(&mut simulation, 100_000);
-    assert!((simulation.state().particles.velocities[0].y - 1.0).abs() < 5e-3);
 }
 
 #[test]
@@ -184,8 +166,8 @@ fn oblique(normal_speed: f64, tangential_speed: f64, tension: Tension) -> [f64; 
 fn oblique_impact_in_gross_sliding() {
     let ratio = 7.74e3 / (2.0 * (9.70e7 * mass()).sqrt());
     let wild = (1.0 - ratio * ratio).sqrt();
-    let clipped = (-(ratio / wild) * (std::f64::consts::PI - 2.0 * ratio.asin())).exp();
-    let allowed = (-std::f64::consts::PI * ratio / wild).exp();
+    let clipped = libm::exp(-(ratio / wild) * (std::f64::consts::PI - 2.0 * libm::asin(ratio)));
+    let allowed = libm::exp(-std::f64::consts::PI * ratio / wild);
     // With tension, friction acts on |F_n| in the pulling phase too.
     for (tension, impulse) in
         [(Tension::Clipped, 1.0 + clipped), (Tension::Allowed, 1.0 + 2.0 * clipped - allowed)]
@@ -199,50 +181,4 @@ fn oblique_impact_in_gross_sliding() {
         let expected = mass() * change * (tangential_speed - 1.5 * change);
         assert!((loss / expected - 1.0).abs() < 0.015, "{tension:?} {loss} {expected}");
     }
-}
-
-/// Rebound over 5 … 85°: below the sliding limit the disc must leave with less slip than it came, above it by the
-/// gross-sliding formula; the ledger closes everywhere.
-#[test]
-fn oblique_impact_over_all_angles() {
-    let mut config = floor([0.0, 0.0]);
-    config.contact.drum.friction = 0.3;
-    config.contact.drum.restitution = Some(0.9);
-    config.contact.drum.tension = Tension::Clipped;
-    config.run.time_step = Some(TIME_STEP / 4.0);
-    config.run.sample_every = TIME_STEP;
-    for degrees in (5..=85).step_by(5) {
-        let (sin, cos) = f64::from(degrees).to_radians().sin_cos();
-        let mut simulation = start(&config, single([0.0, RADIUS + 1e-6], [sin, -cos], 0.0));
-        run_through_contact(&mut simulation, 100_000);
-        simulation.run(8).unwrap();
-        let p = &simulation.state().particles;
-        assert!(last(&simulation, "energy_residual") < 1e-12);
-        let change = 0.3 * 1.9 * cos;
-        if sin >= 3.0 * change {
-            assert!(
-                (sin - p.velocities[0].x - change).abs() < 0.02 * change,
-                "{degrees}°: {}",
-                p.velocities[0].x
-            );
-        }
-        let slip = p.velocities[0].x + RADIUS * p.angular_velocities[0];
-        assert!(slip.abs() < sin, "{degrees}°: slip {slip}");
-    }
-}
-
-/// Equal normal and tangential periods at kₛ/kₙ = 1/3: in an elastic impact without sliding, the tangential spring is
-/// relaxed when the bodies part, so slip is exactly reversed.
-#[test]
-fn equal_periods_reverse_the_slip() {
-    let mut config = floor([0.0, 0.0]);
-    config.contact.drum.restitution = Some(1.0);
-    config.contact.drum.stiffness_ratio = 1.0 / 3.0;
-    config.contact.drum.friction = 100.0;
-    config.run.time_step = Some(TIME_STEP / 16.0);
-    let mut simulation = start(&config, single([0.0, RADIUS + 1e-7], [0.2, -1.0], 0.0));
-    run_through_contact(&mut simulation, 100_000);
-    let p = &simulation.state().particles;
-    let slip = p.velocities[0].x + RADIUS * p.angular_velocities[0];
-    assert!((slip + 0.2).abs() < 0.01, "{slip}");
 }

@@ -6,9 +6,16 @@ use common::*;
 use drumrs::checkpoint;
 use drumrs::config::SimulationConfig;
 use drumrs::simulation::Simulation;
+use drumrs::start::InitialState;
+use drumrs::vector::Vec2;
 use proptest::prelude::*;
 
+/// Long enough for bundles to roll over each other, the rim and baffles once they lie in a bed.
 const STEPS: u64 = 6001;
+
+fn touching(simulation: &Simulation) -> (usize, usize) {
+    (simulation.contacts().pairs.touching().count(), simulation.contacts().walls.touching().count())
+}
 
 fn packed(config: &SimulationConfig, threads: usize) -> Simulation {
     Simulation::new(config.clone(), 7, threads).expect("a load that fits")
@@ -20,47 +27,100 @@ fn after(config: &SimulationConfig, threads: usize, steps: u64) -> Simulation {
     simulation
 }
 
+/// The load of `config` as a bed at the bottom of the drum before it turns, with its last swing.
+fn bed(config: &SimulationConfig) -> InitialState {
+    let mut config = config.clone();
+    config.rotation.knots = vec![[0.0, 0.0]];
+    config.run.time_step = Some(1.5e-5);
+    let mut simulation = packed(&config, 1);
+    run(&mut simulation, 0.25);
+    let p = &simulation.state().particles;
+    InitialState {
+        positions: p.positions.clone(),
+        velocities: Some(p.velocities.clone()),
+        angular_velocities: Some(p.angular_velocities.clone()),
+        ..InitialState::default()
+    }
+}
+
+/// A run of the load of `config` from its bed; it must hold contacts of both kinds.
+fn tumbled(config: &SimulationConfig, initial: InitialState, steps: u64) -> Simulation {
+    let mut simulation = start(config, initial);
+    simulation.run(steps).expect("a stable run");
+    let touching = touching(&simulation);
+    assert!(touching.0 > 15 && touching.1 > 5, "{touching:?}");
+    simulation
+}
+
 /// A drum large enough for the parallel passes.
 fn large() -> SimulationConfig {
     let mut config = baseline(4000, 3);
     config.drum.radius = Some(1.2);
     config.drum.baffles.height = 0.2;
     config.drum.baffles.base = 0.25;
-    config.load.start_speed = 2.0;
+    config.load.start_speed = 5.0;
     config
 }
 
 #[test]
 fn any_number_of_threads_gives_the_same_bits() {
     let config = large();
-    let one = after(&config, 1, 400);
-    assert!(one.contacts().pairs.touching().count() > 100, "the run must hold contacts");
+    let one = after(&config, 1, 2500);
+    let touching = touching(&one);
+    assert!(touching.0 > 200 && touching.1 > 5, "the run must hold contacts: {touching:?}");
     for threads in [2, 3, 8] {
-        let many = after(&config, threads, 400);
+        let many = after(&config, threads, 2500);
         assert_eq!(bits(&one), bits(&many), "{threads} threads");
     }
-    let small = baseline(100, 3);
-    assert_eq!(bits(&after(&small, 1, STEPS)), bits(&after(&small, 2, STEPS)));
+}
+
+/// Bundles of two sizes, whose lever arms differ.
+#[test]
+fn threads_do_not_show_in_a_mixed_load() {
+    let config = large();
+    let source = packed(&config, 1);
+    let p = &source.state().particles;
+    let run = |threads: usize| {
+        let initial = InitialState {
+            positions: p.positions.clone(),
+            velocities: Some(p.velocities.clone()),
+            radii: Some((0..p.len()).map(|i| RADIUS * (1.0 - 0.4 * (i % 2) as f64)).collect()),
+            angular_velocities: Some((0..p.len()).map(|i| 20.0 - (i % 41) as f64).collect()),
+            ..Default::default()
+        };
+        let mut config = config.clone();
+        config.run.time_step = None;
+        let mut simulation = Simulation::with_state(config, 1, threads, initial).unwrap();
+        simulation.run(2500).unwrap();
+        simulation
+    };
+    let one = run(1);
+    assert!(touching(&one).0 > 50, "the run must hold contacts: {:?}", touching(&one));
+    assert_eq!(bits(&one), bits(&run(3)));
 }
 
 #[test]
 fn any_skin_gives_the_same_bits() {
     for baffle_count in [0, 3] {
         let mut config = baseline(120, baffle_count);
-        config.load.start_speed = 1.0;
-        let reference = bits(&after(&config, 1, STEPS));
+        let bed = bed(&config);
+        let reference = bits(&tumbled(&config, bed.clone(), STEPS));
         for skin in [0.0, 1e-5, 0.1 * RADIUS, 2.0 * RADIUS] {
             config.run.skin = Some(skin);
-            assert_eq!(reference, bits(&after(&config, 1, STEPS)), "{baffle_count} baffles, skin {skin}");
+            assert_eq!(
+                reference,
+                bits(&tumbled(&config, bed.clone(), STEPS)),
+                "{baffle_count} baffles, skin {skin}"
+            );
         }
     }
 }
 
 #[test]
 fn a_restart_at_an_odd_step_gives_the_same_bits() {
-    for (config, at) in [(baseline(120, 3), 2345), (large(), 123)] {
-        let mut straight = packed(&config, 1);
-        straight.run(at).unwrap();
+    let small = baseline(120, 3);
+    for mut straight in [tumbled(&small, bed(&small), 2345), after(&large(), 1, 1723)] {
+        assert!(touching(&straight).0 > 15, "{:?}", touching(&straight));
         let saved = straight.to_checkpoint().unwrap();
         straight.run(400).unwrap();
         let mut resumed = Simulation::from_checkpoint(&saved, 2).unwrap();
@@ -112,9 +172,10 @@ fn scaling_by_powers_of_two_scales_every_bit() {
         config.contact.drum.restitution = None;
         config.contact.drum.normal_damping = Some(7.74e3);
         config.rotation.knots = vec![[0.0, SPEED], [0.01, -SPEED], [0.02, 0.5 * SPEED]];
-        let plain = after(&config, 1, STEPS);
+        let steps = 5 * STEPS;
+        let plain = after(&config, 1, steps);
         for mass_factor in [1.0, 64.0] {
-            let large = after(&scaled(&config, mass_factor), 1, STEPS);
+            let large = after(&scaled(&config, mass_factor), 1, steps);
             let (one, other) = (&plain.state().particles, &large.state().particles);
             for i in 0..one.len() {
                 assert_eq!(one.positions[i] * 4.0, other.positions[i]);
@@ -130,11 +191,16 @@ fn scaling_by_powers_of_two_scales_every_bit() {
 #[test]
 fn a_mirrored_drum_gives_the_mirrored_trajectory() {
     for baffle_count in [0, 3] {
-        let config = baseline(100, baffle_count);
+        let mut config = baseline(100, baffle_count);
+        config.load.start_speed = 1.0;
         let source = packed(&config, 1);
-        let positions: Vec<_> = source.state().particles.positions.clone();
-        let initial = |sign: f64| drumrs::start::InitialState {
-            positions: positions.iter().map(|p| drumrs::vector::Vec2::new(sign * p.x, p.y)).collect(),
+        let p = &source.state().particles;
+        let mirrored = |sign: f64, vectors: &[Vec2]| -> Vec<_> {
+            vectors.iter().map(|v| Vec2::new(sign * v.x, v.y)).collect()
+        };
+        let initial = |sign: f64| InitialState {
+            positions: mirrored(sign, &p.positions),
+            velocities: Some(mirrored(sign, &p.velocities)),
             ..Default::default()
         };
         let mut plain = start(&config, initial(1.0));
@@ -143,7 +209,7 @@ fn a_mirrored_drum_gives_the_mirrored_trajectory() {
         // The first baffle's axis at phase 0 mirrors to π.
         mirrored_config.drum.baffles.phase = std::f64::consts::PI;
         let mut mirrored = start(&mirrored_config, initial(-1.0));
-        let steps = if baffle_count == 0 { STEPS } else { 500 };
+        let steps = if baffle_count == 0 { STEPS } else { 4000 };
         plain.run(steps).unwrap();
         mirrored.run(steps).unwrap();
         let (one, other) = (&plain.state().particles, &mirrored.state().particles);
@@ -164,7 +230,7 @@ fn relabelling_permutes_the_result() {
     let source = after(&config, 1, 4000);
     let p = &source.state().particles;
     let order: Vec<usize> = (0..100).map(|k| (k * 37 + 11) % 100).collect();
-    let initial = |order: &[usize]| drumrs::start::InitialState {
+    let initial = |order: &[usize]| InitialState {
         positions: order.iter().map(|&i| p.positions[i]).collect(),
         velocities: Some(order.iter().map(|&i| p.velocities[i]).collect()),
         ..Default::default()

@@ -25,9 +25,15 @@ fn force_and_spring_survive_a_tip() {
     let velocity = [speed * along[0], speed * along[1]];
     let mut simulation = start(&config, single(center, velocity, -speed / RADIUS));
     let mut features = Vec::new();
+    // On the vertex the center's path bends, so the force changes by m v²/r, damped, over a collision time; the first
+    // step takes the dashpot's share of it: νₙ (v²/r) Δt.
+    let damping = simulation.contacts().walls.laws[0].damping;
+    let bend = damping * speed * speed / RADIUS * simulation.time_step();
     let mut last_force = None;
-    let mut last_stretch = 0.0_f64;
-    for _ in 0..20_000 {
+    let (mut last_stretch, mut greatest) = (0.0_f64, 0.0_f64);
+    // Nothing damps the tangential spring: it swings with ω² = 3 kₛ/m, and within a step by ω Δt of its amplitude.
+    let swing = (3.0 * 9.70e7 / mass()).sqrt() * simulation.time_step();
+    for _ in 0..30_000 {
         simulation.run(1).unwrap();
         let touching: Vec<_> = simulation.contacts().walls.touching().collect();
         if touching.is_empty() {
@@ -36,19 +42,51 @@ fn force_and_spring_survive_a_tip() {
         assert_eq!(touching.len(), 1, "a corner counts once");
         let (feature, history) = (touching[0].other, touching[0].history);
         let jump = last_force.map_or(0.0, |force: drumrs::vector::Vec2| (history.force() - force).norm());
-        assert!(jump < 0.02 * mass() * GRAVITY, "the force jumps by {jump} at feature {feature}");
+        assert!(jump < bend, "the force jumps by {jump} at feature {feature}, {bend} allowed");
         if features.last() != Some(&feature) {
             if !features.is_empty() {
-                assert!(history.tangential_displacement != 0.0, "the spring is lost");
                 let change = (history.tangential_displacement - last_stretch).abs();
-                assert!(change < 0.05 * last_stretch.abs(), "{change} {last_stretch}");
+                assert!(last_stretch.abs() > 2.0 * swing * greatest, "a loss of the spring would not show");
+                assert!(change < swing * greatest, "{change} {last_stretch}");
             }
             features.push(feature);
         }
         last_force = Some(history.force());
         last_stretch = history.tangential_displacement;
+        greatest = greatest.max(last_stretch.abs());
     }
     assert_eq!(features.len(), 3, "edge, vertex, edge: {features:?}");
+}
+
+/// A wall that turns towards a resting disc strikes it with the wall's own speed there: the disc leaves with (1 + e)
+/// times that, and the wall has done the work of it. A single onset within a step errs in first order; means are held
+/// against the formula.
+#[test]
+fn a_paddle_strikes_with_its_own_speed() {
+    let (speed, arm, restitution, onsets) = (1.0, 0.5, 0.5, 24);
+    let mut config = free_space();
+    config.drum.walls = vec![vec![[0.2, 0.0], [0.8, 0.0]]];
+    config.rotation.knots = vec![[0.0, speed]];
+    config.contact.drum.restitution = Some(restitution);
+    config.contact.drum.friction = 0.0;
+    config.run.time_step = Some(TIME_STEP);
+    config.run.sample_every = TIME_STEP;
+    let (mut mean, mut work, mut loss) = (0.0, 0.0, 0.0);
+    for k in 0..onsets {
+        let gap = (2.0 + (f64::from(k) + 0.5) / f64::from(onsets)) * TIME_STEP * speed * arm;
+        let mut simulation = start(&config, single([arm, RADIUS + gap], [0.0, 0.0], 0.0));
+        run_through_contact(&mut simulation, 1000);
+        simulation.run(2).unwrap();
+        mean += simulation.state().particles.velocities[0].y / f64::from(onsets);
+        work += last(&simulation, "work_wall_1") / f64::from(onsets);
+        loss += last(&simulation, "dissipated_normal") / f64::from(onsets);
+        assert!(last(&simulation, "energy_residual") < 1e-12);
+    }
+    let struck = speed * arm;
+    assert!((mean / ((1.0 + restitution) * struck) - 1.0).abs() < 3e-3, "{mean}");
+    assert!((work / (mass() * (1.0 + restitution) * struck * struck) - 1.0).abs() < 3e-3, "{work}");
+    let lost = 0.5 * mass() * (1.0 - restitution * restitution) * struck * struck;
+    assert!((loss / lost - 1.0).abs() < 1e-2, "{loss} of {lost}");
 }
 
 /// Between the foot of a baffle and the rim, a disc has two contacts.
@@ -59,9 +97,9 @@ fn a_disc_at_the_foot_has_two_contacts() {
     // The baffle stands at the bottom; the disc lies beside it.
     config.drum.baffles.phase = -std::f64::consts::FRAC_PI_2;
     config.contact.drum.friction = 0.0;
-    let angle: f64 = -std::f64::consts::FRAC_PI_2 + 0.25;
+    let angle = -std::f64::consts::FRAC_PI_2 + 0.25;
     let orbit = DRUM_RADIUS - RADIUS - 1e-4;
-    let mut simulation = start(&config, single([orbit * angle.cos(), orbit * angle.sin()], [0.0, 0.0], 0.0));
+    let mut simulation = start(&config, single(polar(orbit, angle), [0.0, 0.0], 0.0));
     run(&mut simulation, 1.0);
     let features: Vec<u32> = simulation.contacts().walls.touching().map(|contact| contact.other).collect();
     assert_eq!(features.len(), 2, "{features:?}");
@@ -75,18 +113,10 @@ fn a_lifted_bundle_gives_the_torque_of_its_weight() {
     let mut config = baseline(1, 3);
     config.rotation.knots = vec![[0.0, 0.5]];
     config.drum.baffles.phase = -1.0;
-    let initial = {
-        let source = Simulation::new(config.clone(), 1, 1).unwrap();
-        let _ = source;
-        let angle: f64 = -1.0 + 0.25;
-        let orbit = DRUM_RADIUS - RADIUS - 2e-3;
-        single([orbit * angle.cos(), orbit * angle.sin()], [0.0, 0.0], 0.0)
-    };
-    let mut simulation = start(&config, initial);
+    let at = polar(DRUM_RADIUS - RADIUS - 2e-3, -1.0 + 0.25);
+    let mut simulation = start(&config, single(at, [0.0, 0.0], 0.0));
     run(&mut simulation, 1.0);
-    let statistics =
-        drumrs::summary::summarize(&simulation.state().series, simulation.mass(), 0.9, 1.0).unwrap();
-    let value = |name: &str| statistics.iter().find(|entry| entry.0 == name).unwrap().1.unwrap();
+    let value = |name| statistic(&simulation, name, 0.9, 1.0);
     let expected = mass() * GRAVITY * value("center_of_mass_x");
     assert!((value("drum_torque") / expected - 1.0).abs() < 0.02, "{} {expected}", value("drum_torque"));
 }

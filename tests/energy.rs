@@ -6,13 +6,6 @@ use common::*;
 use drumrs::config::SimulationConfig;
 use drumrs::contact::linear::Tension;
 use drumrs::simulation::Simulation;
-use drumrs::summary::summarize;
-
-fn statistic(simulation: &Simulation, name: &str, start: f64) -> f64 {
-    let (series, mass) = (&simulation.state().series, simulation.mass());
-    let statistics = summarize(series, mass, start, simulation.time()).expect("a window of samples");
-    statistics.iter().find(|entry| entry.0 == name).expect("a known statistic").1.expect("a defined value")
-}
 
 fn tumbled(config: &SimulationConfig, seconds: f64) -> Simulation {
     let mut simulation = Simulation::new(config.clone(), 3, 1).expect("a load that fits");
@@ -34,7 +27,7 @@ fn cases() -> Vec<(&'static str, SimulationConfig)> {
         law.normal_damping = Some(2.0e4);
     }
     let mut washing = baseline(160, 3);
-    washing.rotation.knots = vec![[0.0, 0.0], [0.2, SPEED], [0.4, SPEED], [0.7, -SPEED]];
+    washing.rotation.knots = vec![[0.0, 0.0], [0.1, SPEED], [0.3, SPEED], [0.5, -SPEED]];
     let mut coarse = baseline(100, 3);
     coarse.run.time_step = Some(1.5e-5);
     let mut locked = baseline(100, 3);
@@ -54,31 +47,14 @@ fn cases() -> Vec<(&'static str, SimulationConfig)> {
 #[test]
 fn the_ledger_closes_and_three_powers_agree() {
     for (name, config) in cases() {
-        let simulation = tumbled(&config, 1.0);
-        let residual = statistic(&simulation, "energy_residual", 0.5);
+        let simulation = tumbled(&config, 0.6);
+        let residual = statistic(&simulation, "energy_residual", 0.3, simulation.time());
         assert!(residual < 1e-11, "{name}: {residual:e}");
-        let disagreement = statistic(&simulation, "power_disagreement", 0.5);
+        let disagreement = statistic(&simulation, "power_disagreement", 0.3, simulation.time());
         assert!(disagreement < 1e-9, "{name}: {disagreement:e}");
-    }
-}
-
-#[test]
-fn dissipation_never_runs_backwards() {
-    for (name, config) in cases() {
-        let simulation = tumbled(&config, 0.3);
         for quantity in ["dissipated_normal", "dissipated_sliding"] {
-            assert!(column(&simulation, quantity).is_sorted(), "{name}: {quantity}");
+            assert!(column(&simulation, quantity).is_sorted(), "{name}: {quantity} runs backwards");
         }
-    }
-}
-
-#[test]
-fn power_is_bounded_by_the_whole_load_at_the_rim() {
-    for baffle_count in [0, 3] {
-        let simulation = tumbled(&baseline(100, baffle_count), 4.0);
-        let scaled = statistic(&simulation, "specific_power", 2.0) / (GRAVITY * DRUM_RADIUS * SPEED);
-        assert!(scaled > 0.05 && scaled < 1.0, "{scaled}");
-        assert!(statistic(&simulation, "max_overlap_ratio", 2.0) < 0.02);
     }
 }
 
@@ -106,10 +82,12 @@ fn the_numerical_column_falls_with_the_time_step() {
     assert!(fine.abs() < 0.25 * coarse.abs(), "{fine} against {coarse}");
 }
 
+/// Averaged over seconds the drum carries the weight, and its power lies between none and the whole load lifted at the
+/// rim.
 #[test]
-fn forces_on_the_drum_carry_the_weight() {
+fn forces_and_power_are_those_of_the_weight() {
     for baffle_count in [0, 3] {
-        let simulation = tumbled(&baseline(100, baffle_count), 4.0);
+        let simulation = tumbled(&baseline(100, baffle_count), 3.0);
         let mut vertical = 0.0;
         for part in ["rim", "baffle_1", "baffle_2", "baffle_3"].iter().take(1 + baffle_count) {
             let forces = column(&simulation, &format!("force_{part}_y"));
@@ -118,12 +96,16 @@ fn forces_on_the_drum_carry_the_weight() {
         }
         let weight = 100.0 * mass() * GRAVITY;
         assert!((vertical / weight + 1.0).abs() < 0.02, "{}", vertical / weight);
+        let value = |name| statistic(&simulation, name, 1.5, simulation.time());
+        let scaled = value("specific_power") / (GRAVITY * DRUM_RADIUS * SPEED);
+        assert!(scaled > 0.05 && scaled < 1.0, "{scaled}");
+        assert!(value("max_overlap_ratio") < 0.02);
     }
 }
 
 #[test]
 fn the_drums_work_is_the_sum_of_its_parts() {
-    let simulation = tumbled(&baseline(100, 3), 1.0);
+    let simulation = tumbled(&baseline(100, 3), 0.5);
     let parts: f64 = ["work_rim", "work_baffle_1", "work_baffle_2", "work_baffle_3"]
         .map(|p| last(&simulation, p))
         .iter()

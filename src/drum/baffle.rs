@@ -23,6 +23,7 @@ pub struct BaffleParameters {
     pub tip: f64,
     /// Polygon: its corners in order, each as (distance [m] inwards from the rim along the baffle's axis,
     /// distance [m] across, positive towards growing angle). They may reach through the rim.
+    #[serde(deserialize_with = "Option::deserialize")]
     pub points: Option<Vec<[f64; 2]>>,
     /// Angle [rad] of the first baffle's axis when the drum's angle is 0, counter-clockwise from +x.
     pub phase: f64,

@@ -35,6 +35,7 @@ pub const RIM: FeatureId = 0;
 #[serde(deny_unknown_fields)]
 pub struct DrumParameters {
     /// Radius of the rim [m]; none leaves the drum without a rim.
+    #[serde(deserialize_with = "Option::deserialize")]
     pub radius: Option<f64>,
     /// The baffles.
     pub baffles: BaffleParameters,

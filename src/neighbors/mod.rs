@@ -75,8 +75,8 @@ impl VerletList {
         let arc = 0.5 * turn * turn * (self.farthest + self.skin);
         self.budget -= longest_way + arc;
         self.way += longest_way + arc;
-        // Written so that a way that is not a number asks, too.
-        !(self.budget > 0.0)
+        // A way that is not a number asks, too.
+        self.budget <= 0.0 || self.budget.is_nan()
     }
 
     /// How far anyone can have moved since the last build, as seen from the drum [m].
@@ -155,9 +155,9 @@ impl Search<'_> {
         let Some(found) = self.chunks.first_mut() else { return };
         found.clear();
         let start = self.first * CHUNK;
-        for i in start..(start + CHUNK).min(anchors.len()) {
+        for (i, &center) in anchors.iter().enumerate().skip(start).take(CHUNK) {
             found.add_pairs(i, around.particles, grid, skin);
-            found.add_walls(around.drum, anchors[i], around.particles.radii[i] + skin);
+            found.add_walls(around.drum, center, around.particles.radii[i] + skin);
         }
     }
 }

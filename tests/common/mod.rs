@@ -9,6 +9,7 @@ use drumrs::drum::baffle::{BaffleParameters, BaffleShape};
 use drumrs::drum::rotation::RotationSchedule;
 use drumrs::simulation::Simulation;
 use drumrs::start::InitialState;
+use drumrs::summary::summarize;
 use drumrs::vector::Vec2;
 
 pub const DRUM_RADIUS: f64 = 0.2375;
@@ -67,6 +68,11 @@ pub fn baseline(count: usize, baffle_count: usize) -> SimulationConfig {
             overlap_limit: 0.5,
         },
     }
+}
+
+/// The point at `radius` from the axis in the direction `angle` [rad].
+pub fn polar(radius: f64, angle: f64) -> [f64; 2] {
+    [radius * libm::cos(angle), radius * libm::sin(angle)]
 }
 
 /// Bundles of Table 1 in free space without gravity: no drum, no walls.
@@ -147,6 +153,13 @@ pub fn bits(simulation: &Simulation) -> Vec<u64> {
         all.extend(numbers(&simulation.state().series.column(index)));
     }
     all
+}
+
+/// A statistic over the samples from `start` to `end` [s].
+pub fn statistic(simulation: &Simulation, name: &str, start: f64, end: f64) -> f64 {
+    let statistics = summarize(&simulation.state().series, simulation.mass(), start, end);
+    let statistics = statistics.expect("a window of samples");
+    statistics.iter().find(|entry| entry.0 == name).expect("a known statistic").1.expect("a defined value")
 }
 
 /// The last value of a recorded quantity.

@@ -1,0 +1,35 @@
+//! One rebuild of the neighbour list: cells, search, and the merge that carries contacts over.
+
+mod scenes;
+
+use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use drumrs::contact::laws::Laws;
+use drumrs::neighbors::{Surroundings, VerletList};
+use drumrs::threads::Threads;
+use drumrs::vector::Rotation;
+
+fn rebuilds(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("rebuild");
+    let threads = Threads::new(1).expect("one thread");
+    for count in [1_000, 10_000] {
+        group.throughput(Throughput::Elements(count as u64));
+        group.bench_function(BenchmarkId::from_parameter(count), |bencher| {
+            let simulation = scenes::tumbling(count, 3);
+            let config = simulation.config();
+            let laws = Laws::new(&config.contact.bundle, &config.contact.drum);
+            let around = Surroundings {
+                particles: &simulation.state().particles,
+                drum: simulation.drum(),
+                laws: &laws,
+                rotation: Rotation::new(simulation.drum_angle()),
+            };
+            let mut table = simulation.contacts().clone();
+            let mut list = VerletList::new(0.3 * scenes::common::RADIUS, count);
+            bencher.iter(|| list.rebuild(around, &mut table, &threads));
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(benches, rebuilds);
+criterion_main!(benches);

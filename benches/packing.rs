@@ -1,0 +1,23 @@
+//! The start: random insertion into a loose bed, a shuffled pattern in a dense one.
+
+mod scenes;
+
+use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use drumrs::drum::Drum;
+use drumrs::packing::pack;
+
+fn beds(criterion: &mut Criterion) {
+    let drum = Drum::new(&scenes::common::baseline(1, 0).drum).expect("a valid drum");
+    let mut group = criterion.benchmark_group("packing");
+    group.sample_size(10);
+    for count in [100, 300] {
+        group.throughput(Throughput::Elements(count as u64));
+        group.bench_function(BenchmarkId::from_parameter(count), |bencher| {
+            bencher.iter(|| pack(&drum, count, scenes::common::RADIUS, 1).expect("a load that fits"));
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(benches, beds);
+criterion_main!(benches);

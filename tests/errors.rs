@@ -1,0 +1,171 @@
+//! Every message that a user may meet, and the initial states that are refused.
+
+mod common;
+
+use common::*;
+use drumrs::error::Error;
+use drumrs::simulation::Simulation;
+use drumrs::start::InitialState;
+use drumrs::vector::Vec2;
+
+fn refusal(config: &drumrs::config::SimulationConfig, initial: InitialState) -> String {
+    Simulation::with_state(config.clone(), 1, 1, initial).unwrap_err().to_string()
+}
+
+#[test]
+fn every_variant_has_its_message() {
+    let config = Error::config("load.density", -1.0, "a positive finite number");
+    assert_eq!(config.to_string(), "load.density is -1, but must be a positive finite number");
+    let packing = Error::Packing { requested: 400, fits: 361, diameter: 0.02375 };
+    assert_eq!(
+        packing.to_string(),
+        "load.count is 400, but must be at most 361: no more bundles of diameter 0.02375 m fit into this drum"
+    );
+    let non_finite = Error::NonFinite { step: 7, particle: 3 };
+    assert_eq!(
+        non_finite.to_string(),
+        "the state of bundle 3 is no longer finite at step 7; shorten run.time_step"
+    );
+    let overlap = Error::Overlap { step: 40_210, particle: 812, ratio: 0.61, limit: 0.5 };
+    assert_eq!(
+        overlap.to_string(),
+        "the overlap of bundle 812 reached 0.610 of its radius at step 40210, beyond run.overlap_limit = 0.5; \
+         shorten run.time_step or raise the stiffness"
+    );
+    let escaped = Error::Escaped { step: 9, particle: 1 };
+    assert_eq!(escaped.to_string(), "bundle 1 left the drum at step 9; shorten run.time_step");
+    let checkpoint = Error::Checkpoint { reason: "it is damaged".into() };
+    assert_eq!(checkpoint.to_string(), "cannot use this checkpoint: it is damaged");
+    let system = Error::System { action: "reading run.ckpt".into(), reason: "no such file".into() };
+    assert_eq!(system.to_string(), "reading run.ckpt: no such file");
+}
+
+/// A simulation ends in each of the errors that a simulation can end in.
+#[test]
+fn failures_carry_step_and_bundle() {
+    let overfull = Simulation::new(baseline(5000, 0), 1, 1).unwrap_err();
+    assert!(matches!(overfull, Error::Packing { requested: 5000, fits: 300..=400, .. }), "{overfull}");
+
+    // 300 m/s go a bundle's radius deep into the rim in ten steps; 6 km/s pass through it in one.
+    let at_speed = |speed: f64| {
+        let mut simulation = start(&baseline(1, 0), single([0.2, 0.0], [speed, 0.0], 0.0));
+        simulation.run(1000).unwrap_err()
+    };
+    let deep = at_speed(300.0);
+    assert!(matches!(deep, Error::Overlap { particle: 0, ratio, .. } if ratio > 0.5), "{deep}");
+    let through = at_speed(3e4);
+    assert!(matches!(through, Error::Escaped { step: 1, particle: 0 }), "{through}");
+}
+
+#[test]
+fn files_that_cannot_be_used_are_named() {
+    let folder = std::env::temp_dir().join(format!("drumrs-errors-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let path = folder.join("good.ckpt");
+    let mut simulation = Simulation::new(baseline(5, 3), 1, 1).unwrap();
+    simulation.run(10).unwrap();
+    simulation.save(&path).unwrap();
+    assert_eq!(bits(&Simulation::load(&path, 1).unwrap()), bits(&simulation));
+    let names: Vec<_> = std::fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+    assert_eq!(names, ["good.ckpt"], "nothing but the checkpoint is left");
+
+    let missing = folder.join("missing.ckpt");
+    let error = Simulation::load(&missing, 1).unwrap_err();
+    assert!(
+        matches!(&error, Error::System { action, .. } if *action == format!("reading {}", missing.display()))
+    );
+    let nowhere = folder.join("nowhere").join("x.ckpt");
+    let error = simulation.save(&nowhere).unwrap_err();
+    assert!(
+        matches!(&error, Error::System { action, .. } if *action == format!("writing {}", nowhere.display()))
+    );
+    std::fs::remove_dir_all(&folder).unwrap();
+}
+
+#[test]
+fn a_simulation_needs_a_thread() {
+    let error = Simulation::new(baseline(5, 0), 1, 0).unwrap_err();
+    assert_eq!(error.to_string(), "threads is 0, but must be at least 1");
+}
+
+#[test]
+fn bundles_start_inside_the_drum_and_outside_of_its_baffles() {
+    let config = baseline(1, 3);
+    let outside = single([0.3, 0.0], [0.0, 0.0], 0.0);
+    assert_eq!(
+        refusal(&config, outside),
+        "state.positions[0] is [0.3, 0], but must be inside the drum and outside of its baffles"
+    );
+    let inside_a_baffle = several(&[([0.0, 0.0], [0.0, 0.0], 0.0), ([0.22, 0.0], [0.0, 0.0], 0.0)]);
+    assert!(refusal(&config, inside_a_baffle).starts_with("state.positions[1] is [0.22, 0]"));
+    // The same place is free where there are no baffles, but for the overlap with the rim.
+    assert!(Simulation::with_state(baseline(1, 0), 1, 1, single([0.22, 0.0], [0.0, 0.0], 0.0)).is_ok());
+}
+
+#[test]
+fn states_that_overlap_too_deeply_are_refused() {
+    let twice = several(&[([0.0, 0.0], [0.0, 0.0], 0.0), ([0.01, 0.0], [0.0, 0.0], 0.0)]);
+    assert!(
+        refusal(&baseline(1, 0), twice).contains("overlap of bundle 0 reached 1.158 of its radius at step 0")
+    );
+}
+
+#[test]
+fn numbers_that_are_not_finite_are_refused() {
+    let config = free_space();
+    let states = [
+        InitialState { positions: vec![Vec2::zeros(), Vec2::new(f64::NAN, 0.0)], ..Default::default() },
+        single([1.0, 0.0], [0.0, f64::INFINITY], 0.0),
+        single([1.0, 0.0], [0.0, 0.0], f64::NAN),
+        InitialState { positions: vec![Vec2::zeros()], angles: Some(vec![f64::NAN]), ..Default::default() },
+    ];
+    for (bundle, state) in [1, 0, 0, 0].into_iter().zip(states) {
+        assert_eq!(
+            refusal(&config, state),
+            format!("state of bundle {bundle} is not finite, but must be finite")
+        );
+    }
+    for radius in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let state =
+            InitialState { positions: vec![Vec2::zeros()], radii: Some(vec![radius]), ..Default::default() };
+        let expected = format!("state.radii[0] is {radius}, but must be a positive finite number");
+        assert_eq!(refusal(&config, state), expected);
+    }
+}
+
+#[test]
+fn fields_of_a_wrong_length_are_refused() {
+    let config = free_space();
+    let state = || InitialState { positions: vec![Vec2::zeros(), Vec2::new(1.0, 0.0)], ..Default::default() };
+    let states = [
+        ("velocities", InitialState { velocities: Some(vec![Vec2::zeros()]), ..state() }),
+        ("angles", InitialState { angles: Some(vec![0.0]), ..state() }),
+        ("angular_velocities", InitialState { angular_velocities: Some(vec![0.0]), ..state() }),
+        ("radii", InitialState { radii: Some(vec![RADIUS]), ..state() }),
+    ];
+    for (field, state) in states {
+        assert_eq!(refusal(&config, state), format!("state.{field} is of length 1, but must be of length 2"));
+    }
+    let empty = InitialState::default();
+    assert_eq!(refusal(&config, empty), "state.positions is empty, but must be of at least one bundle");
+}
+
+#[test]
+fn locked_spins_start_at_zero() {
+    let mut config = free_space();
+    config.load.spin_locked = true;
+    let message = "state.angular_velocities is not 0, but must be 0 while load.spin_locked is true";
+    assert_eq!(refusal(&config, single([0.0, 0.0], [1.0, 0.0], 2.0)), message);
+    let mut simulation = start(&config, single([0.0, 0.0], [1.0, 0.0], 0.0));
+    simulation.run(10).unwrap();
+    assert_eq!(simulation.state().particles.angular_velocities[0], 0.0);
+}
+
+#[test]
+fn a_step_that_cannot_resolve_a_contact_is_refused() {
+    let mut config = baseline(5, 0);
+    config.run.time_step = Some(1e-4);
+    let message = Simulation::new(config, 1, 1).unwrap_err().to_string();
+    assert!(message.starts_with("run.time_step is 0.0001, but must be at most 1.9"), "{message}");
+    assert!(message.ends_with("a tenth of the shortest collision time"), "{message}");
+}
