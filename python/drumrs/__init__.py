@@ -5,7 +5,7 @@
 >>> config.bundle_count
 100
 
-All values are in SI units and per metre of drum depth, but for rpm and degrees in configurations.
+All values are in SI units and per meter of drum depth, but for rpm and degrees in configurations.
 """
 
 from importlib.metadata import version

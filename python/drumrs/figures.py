@@ -59,7 +59,7 @@ def write(figure: Figure, path: str | Path) -> None:
 
 
 def snapshot(frames: Frames, index: int = -1, label: str = "") -> Figure:
-    """Draw one frame: bundles coloured by speed, a radius on each to show its spin, rim, baffles, rotation.
+    """Draw one frame: bundles colored by speed, a radius on each to show its spin, rim, baffles, rotation.
 
     Parameters
     ----------
@@ -173,7 +173,7 @@ def _draw_bundles(axes: "Axes", frames: Frames, index: int, norm: Normalize) -> 
 
 
 def _contrast(colors: Colormap, norm: Normalize, values: Array) -> list[str]:
-    """Choose black or white marks, whichever shows on the disc's colour."""
+    """Choose black or white marks, whichever shows on the disc's color."""
     luminance = colors(norm(values))[:, :3] @ np.array([0.2126, 0.7152, 0.0722])
     return ["black" if light > _LIGHT else "white" for light in luminance]
 
@@ -183,7 +183,7 @@ def _rotation(angle: float) -> Array:
 
 
 def time_series(series: "pl.DataFrame", window: tuple[float, float] | None = None) -> Figure:
-    """Draw a run's history: power, energies, residual of the energy ledger, centre of mass.
+    """Draw a run's history: power, energies, residual of the energy ledger, center of mass.
 
     Parameters
     ----------
@@ -257,7 +257,7 @@ def _ledger(axes: "Axes", columns: dict[str, Array]) -> None:
 
 
 def _center_of_mass(axes: "Axes", columns: dict[str, Array]) -> None:
-    axes.set_title("Centre of mass from the axis [mm]")
+    axes.set_title("Center of mass from the axis [mm]")
     for name, label in (("center_of_mass_x", "x"), ("center_of_mass_y", "y")):
         time, smooth = _thinned(columns["time"], columns[name])
         axes.plot(time, 1e3 * smooth, label=label)
@@ -290,7 +290,7 @@ def _thinned(time: Array, values: Array, most: int = 600) -> tuple[Array, Array]
 
 
 def _label_lines(axes: "Axes") -> None:
-    """Write each line's name at its right end, in its colour, kept apart from the others."""
+    """Write each line's name at its right end, in its color, kept apart from the others."""
     ends: list[tuple[float, Any]] = []
     # Asking for the limits settles them; until then the transform is not the final one.
     axes.get_ylim()

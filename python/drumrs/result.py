@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Summary:
-    """Averages over a window of the run; powers, torques and forces are per metre of drum depth.
+    """Averages over a window of the run; powers, torques and forces are per meter of drum depth.
 
     Attributes
     ----------
@@ -34,7 +34,7 @@ class Summary:
     window_start, window_end
         The window [s].
     drum_torque
-        Torque of the drum on the load about its axis [N m/m].
+        Torque of the drum on the load about its axis [N m/m]; `None` where the drum does not turn.
     drum_power
         Power of the drum [W/m], positive where it does work on the load.
     specific_power
@@ -46,7 +46,7 @@ class Summary:
     normal_tangential_ratio
         `normal_power` over `tangential_power`; `None` where that is 0.
     center_of_mass
-        Centre of mass of the load [m, m].
+        Center of mass of the load [m, m].
     coordination
         Contacts per bundle.
     max_overlap_ratio
@@ -79,7 +79,7 @@ class Summary:
     time_step: float
     window_start: float
     window_end: float
-    drum_torque: float
+    drum_torque: float | None
     drum_power: float
     specific_power: float
     specific_power_error: float | None

@@ -24,8 +24,6 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-# Wall seconds between looks at the clock and at the stop flag; the core answers Ctrl-C more often.
-_SLICE = 0.25
 _MOST_THREADS = 1024
 _PAIRS_OF_NUMBERS = {"positions", "velocities"}
 
@@ -37,7 +35,7 @@ class State:
     Attributes
     ----------
     positions
-        Centres [m], shape (n, 2). Their number takes the place of ``load.count``.
+        Centers [m], shape (n, 2). Their number takes the place of ``load.count``.
     velocities
         Velocities [m/s], shape (n, 2).
     angles, angular_velocities
@@ -143,7 +141,7 @@ class Simulation:
         steps
             Number of steps.
         progress
-            Called with the step number, some ten times a second.
+            Called with the step number, some thirty times a second and at the end.
 
         Raises
         ------
@@ -171,34 +169,33 @@ class Simulation:
         wall_limit
             Time [s] after which to return where the step is not reached yet.
         progress
-            Called with the step number, some ten times a second.
+            Called with the step number, some thirty times a second and at the end.
 
         Returns
         -------
         bool
             False where `stop` ended the call.
         """
-        began = time.perf_counter()
-        piece = 1
-        while self.step < step and not self._stop.is_set() and time.perf_counter() - began < wall_limit:
-            piece = self._run_piece(min(piece, step - self.step), progress)
-        stopped = self._stop.is_set()
-        self._stop.clear()
+        first, began = self.step, time.perf_counter()
+
+        def after_slice(now: int) -> None:
+            # A stop asked for before the core was under way is seen here, at the end of its first slice.
+            if self._stop.is_set() or time.perf_counter() - began >= wall_limit:
+                self._core.stop()
+            if progress is not None:
+                progress(now)
+
+        try:
+            self._core.run(max(step - first, 0), after_slice)
+        finally:
+            self._wall_time += time.perf_counter() - began
+            self._steps_timed += self.step - first
+            stopped = self._stop.is_set()
+            self._stop.clear()
         return not stopped
 
-    def _run_piece(self, steps: int, progress: Callable[[int], None] | None) -> int:
-        """Step, keep the time, and return how many steps the next slice should have."""
-        first, began = self.step, time.perf_counter()
-        try:
-            self._core.run(steps, progress)
-        finally:
-            elapsed = time.perf_counter() - began
-            self._wall_time += elapsed
-            self._steps_timed += self.step - first
-        return max(1, min(round(steps * _SLICE / max(elapsed, 1e-6)), 4 * steps + 1000))
-
     def stop(self) -> None:
-        """End a `run` that another thread is in; safe from any thread."""
+        """End the `run` that another thread is in, or is about to enter; safe from any thread."""
         self._stop.set()
         self._core.stop()
 
@@ -259,7 +256,7 @@ class Simulation:
 
     @property
     def positions(self) -> Array:
-        """Centres of the bundles [m], shape (n, 2)."""
+        """Centers of the bundles [m], shape (n, 2)."""
         return self._core.positions
 
     @property
@@ -284,7 +281,7 @@ class Simulation:
 
     @property
     def masses(self) -> Array:
-        """Masses of the bundles per metre of depth [kg/m], shape (n,)."""
+        """Masses of the bundles per meter of depth [kg/m], shape (n,)."""
         return self._core.masses
 
     @property
@@ -334,9 +331,33 @@ class Simulation:
             raise ConfigError(
                 f"the window is [{start}, {end}], but must lie within the {self.time} s simulated so far"
             )
+        means = self._core.summary(start, end)
+        # The window as the samples allow it.
+        first, last = (means[name] or 0.0 for name in ("window_start", "window_end"))
+        known = {**self._known(), **self._timing(), **self._mean_force(first, last)}
+        return Summary.from_mapping({**known, **means})
+
+    def _known(self) -> dict[str, float]:
+        """Return what no average is needed for."""
+        filled = float(np.sum((2.0 * self.radii / self._config.drum.diameter) ** 2))
+        counts = {"bundle_count": self.count, "steps": self.step}
+        return {**counts, "fill": filled, "time_step": self.time_step}
+
+    def _mean_force(self, start: float, end: float) -> dict[str, float]:
+        """Return the force of the load on all parts of the drum, a mean over the interval between two samples."""
+        series = self._core.series()
+        times = series["time"]
+        # A row holds the mean over the interval that it closes; all intervals are equally long.
+        inside = (times > start) & (times <= end)
+        forces = {name: float(series[name][inside].mean()) for name in series if name.startswith("force_")}
+        return {
+            f"force_{axis}": sum(force for name, force in forces.items() if name.endswith(f"_{axis}"))
+            for axis in "xy"
+        }
+
+    def _timing(self) -> dict[str, float | None]:
         rate = self.count * self._steps_timed / self._wall_time if self._wall_time else None
-        timing = {"wall_time": self._wall_time, "particle_steps_per_second": rate}
-        return Summary.from_mapping({**self._core.summary(start, end), **timing})
+        return {"wall_time": self._wall_time, "particle_steps_per_second": rate}
 
     def result(self) -> Result:
         """Return the run so far as a `Result`."""
@@ -393,14 +414,14 @@ class Quantity(NamedTuple):
     meaning: str
 
 
-def quantities(baffles: int = 0) -> Mapping[str, Quantity]:
-    """Return the columns of the series of a drum with so many baffles, with units and meanings."""
-    listed = _core.Simulation.quantities(baffles)
+def quantities(baffles: int = 0, walls: int = 0) -> Mapping[str, Quantity]:
+    """Return the columns of the series of a drum with so many baffles and walls, with units and meanings."""
+    listed = _core.Simulation.quantities(baffles, walls)
     return MappingProxyType({name: Quantity(unit, meaning) for name, unit, meaning in listed})
 
 
 def units(column: str) -> str:
-    """Return the unit of a column of the series, "" where it is a plain number.
+    """Return the unit of a column of the series, "1" where it is a plain number.
 
     Examples
     --------
@@ -408,12 +429,11 @@ def units(column: str) -> str:
     >>> drumrs.units("specific_power"), drumrs.units("work_baffle_2")
     ('W/kg', 'J/m')
     """
-    # Baffles and walls are numbered from 1 and share their units.
-    pattern = "_".join("1" if part.isdecimal() else part for part in column.split("_"))
-    known = quantities(1)
-    for name in (column, pattern, pattern.replace("_wall_", "_baffle_")):
-        if name in known:
-            return known[name].unit
+    # Baffles and walls are numbered from 1, and all of a kind share their units.
+    first = "_".join("1" if part.isdecimal() else part for part in column.split("_"))
+    known = quantities(baffles=1, walls=1)
+    if first in known:
+        return known[first].unit
     raise KeyError(f"{column!r} is not a column of the series; drumrs.QUANTITIES lists them")
 
 

@@ -50,7 +50,7 @@ VALUES = {
     "run.time_step": positive | st.just("auto"),
     "run.duration": st.floats(30.0, 1e6),
     "run.window": st.just((10.0, 20.0)),
-    "run.sample_every": positive,
+    "run.sample_every": st.floats(1e-300, 5.0),
     "run.frame_every": positive,
     "run.checkpoint_every": positive,
     "run.seed": st.integers(0, 2**63 - 1),
@@ -61,7 +61,7 @@ VALUES = {
     for kind in ("bundle", "drum")
     for key, strategy in {
         "normal_stiffness": positive,
-        "stiffness_ratio": non_negative,
+        "stiffness_ratio": positive,
         "restitution": st.floats(0.001, 1.0),
         "normal_damping": non_negative,
         "friction": non_negative,
