@@ -175,7 +175,7 @@ class Result:
     def _draw(self, folder: Path) -> list[Path]:
         from drumrs import figures
 
-        start, end = self.summary.window_start, self.summary.window_end
+        start, end = self.config.run.averaging_window
         indices = (
             sorted({self.frames.nearest(time) for time in (0.0, start, end)}) if len(self.frames) else []
         )

@@ -1,6 +1,7 @@
 """`Simulation`: one drum, step by step; the only module that talks to the compiled core."""
 
 import math
+import re
 import threading
 import time
 from collections.abc import Callable, Mapping
@@ -25,6 +26,8 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 _MOST_THREADS = 1024
+# Beyond this, step × time step is no longer exact to a step.
+_MOST_STEPS = 2**53
 _PAIRS_OF_NUMBERS = {"positions", "velocities"}
 
 
@@ -109,12 +112,15 @@ class Simulation:
     ) -> None:
         _check_threads(threads)
         config = config if seed is None else config.replace({"run.seed": seed})
+        if state is None and not config.drum.rim:
+            raise ConfigError("drum.rim is false, but must be true where no initial state is given")
         arrays = None if state is None else state.arrays()
         try:
             core = _core.Simulation(config.to_core_json(), config.run.seed, threads, arrays)
         except ConfigError as error:
             raise _in_terms_of_fill(config, error) from None
         self._start(config, core)
+        self._require_samples()
 
     def _start(self, config: Config, core: _core.Simulation) -> None:
         self._config = config
@@ -122,6 +128,17 @@ class Simulation:
         self._stop = threading.Event()
         self._wall_time = 0.0
         self._steps_timed = 0
+
+    def _require_samples(self) -> None:
+        """Refuse a window in which the averages would lack samples: now, not at the end of a long run."""
+        run, (start, end) = self._config.run, self._config.run.averaging_window
+        interval = self.time_step * max(1, round(run.sample_every / self.time_step))
+        last = math.floor(self.last_step * self.time_step / interval)
+        if math.floor(start / interval + 0.5) >= min(math.floor(end / interval + 0.5), last):
+            raise ConfigError(
+                f"run.sample_every is {run.sample_every}, but must be at most {(end - start) / 2.0:.4g}, "
+                f"half the length of the window [{start:.4g}, {end:.4g}]"
+            )
 
     def run(
         self,
@@ -153,7 +170,7 @@ class Simulation:
         if duration is not None:
             if not 0.0 <= duration < math.inf:
                 raise ConfigError(f"duration is {duration}, but must be a finite number of at least 0")
-            steps = math.ceil(duration / self.time_step)
+            steps = _step_count("duration", duration, self.time_step)
         end = self.last_step if steps is None else self.step + _check_steps(steps)
         self.run_until(end, progress=progress)
 
@@ -227,7 +244,7 @@ class Simulation:
     @property
     def last_step(self) -> int:
         """Step number at which the configuration's duration is reached."""
-        return math.ceil(self._config.run.duration / self.time_step)
+        return _step_count("run.duration", self._config.run.duration, self.time_step)
 
     @property
     def time(self) -> float:
@@ -395,16 +412,30 @@ def _check_threads(threads: int) -> None:
 
 
 def _check_steps(steps: int) -> int:
-    if isinstance(steps, bool) or not isinstance(steps, int) or steps < 0:
-        raise ConfigError(f"steps is {steps!r}, but must be a whole number of at least 0")
+    if isinstance(steps, bool) or not isinstance(steps, int) or not 0 <= steps <= _MOST_STEPS:
+        raise ConfigError(f"steps is {steps!r}, but must be a whole number from 0 to {_MOST_STEPS}")
     return steps
+
+
+def _step_count(name: str, duration: float, time_step: float) -> int:
+    """Return the number of steps that a time takes, rounded up."""
+    if not duration / time_step <= _MOST_STEPS:
+        greatest = f"{_MOST_STEPS * time_step:.4g}, {_MOST_STEPS} time steps of {time_step:.4g} s"
+        raise ConfigError(f"{name} is {duration}, but must be at most {greatest}")
+    return math.ceil(duration / time_step)
 
 
 def _in_terms_of_fill(config: Config, error: ConfigError) -> ConfigError:
     """Name the fill, which the user wrote, where the core refuses the count that follows from it."""
-    if config.load.fill is None or not str(error).startswith("load.count"):
+    refused = re.fullmatch(r"load\.count is (\d+), but must be at most (\d+): (.*)", str(error))
+    if config.load.fill is None or refused is None:
         return error
-    return ConfigError(f"load.fill is {config.load.fill}, too much: {error}")
+    count, most, why = refused.groups()
+    greatest = int(most) * (config.load.diameter / config.drum.diameter) ** 2
+    return ConfigError(
+        f"load.fill is {config.load.fill} ({count} bundles), but must be at most {greatest:.4g} "
+        f"({most} bundles): {why}"
+    )
 
 
 class Quantity(NamedTuple):

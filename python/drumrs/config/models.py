@@ -154,12 +154,6 @@ class Run(Part):
                 f"{{at}}window is {show(self.window)}, but must be a pair [start, end] with "
                 f"0 <= start < end <= {{at}}duration = {self.duration}"
             )
-        if self.sample_every > (end - start) / 2.0:
-            # Known only at the end of a long run otherwise: no averages without samples in the window.
-            raise relation(
-                f"{{at}}sample_every is {self.sample_every}, but must be at most {(end - start) / 2.0:.6g}, "
-                f"half the length of the window [{start:.6g}, {end:.6g}]"
-            )
         return self
 
     @property
