@@ -17,7 +17,8 @@ from drumrs.errors import CheckpointError, ConfigError, DrumrsError, UnstableErr
 from drumrs.frames import Frames
 from drumrs.protocol import run
 from drumrs.result import Result, Summary, load
-from drumrs.simulation import Simulation, State, info, quantities, units
+from drumrs.simulation import Simulation, info, quantities, units
+from drumrs.state import State
 
 __version__ = version("drumrs")
 

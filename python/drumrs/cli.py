@@ -4,6 +4,7 @@ import math
 import os
 import sys
 from collections.abc import Sequence
+from importlib.metadata import version
 from pathlib import Path
 from typing import Annotated
 
@@ -171,6 +172,8 @@ def info() -> None:
         shown = " ".join(map(str, value)) if isinstance(value, (list, tuple)) else value
         sys.stdout.write(f"{key}: {shown}\n")
     sys.stdout.write(f"python: {sys.version.split()[0]}\n")
+    for library in ("numpy", "polars", "matplotlib", "pydantic"):
+        sys.stdout.write(f"{library}: {version(library)}\n")
 
 
 def _layered(case: Path | None, settings: Sequence[str] | None, seed: int | None) -> Config:

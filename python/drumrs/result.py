@@ -122,7 +122,7 @@ def _finite(value: Any) -> Any:
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Result:
     """A finished run.
 
@@ -145,6 +145,12 @@ class Result:
     series: "pl.DataFrame"
     frames: Frames
     units: "Mapping[str, str]"
+
+    def __repr__(self) -> str:
+        """Say what was run, and its main number."""
+        summary = self.summary
+        window = f"t = {summary.window_start:.6g} to {summary.window_end:.6g} s"
+        return f"<Result of {summary.bundle_count} bundles: {summary.specific_power:.4g} W/kg over {window}>"
 
     def save(self, folder: str | Path, *, pictures: bool = True) -> list[Path]:
         """Write config.toml, series.parquet, frames.parquet, the pictures and, last, summary.json.

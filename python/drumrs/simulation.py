@@ -5,13 +5,13 @@ import re
 import threading
 import time
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, fields
+from dataclasses import fields
 from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from drumrs import _core
 from drumrs.checkpoint import read_checkpoint, write_checkpoint
@@ -19,6 +19,7 @@ from drumrs.config import Config
 from drumrs.errors import CheckpointError, ConfigError
 from drumrs.frames import Frames
 from drumrs.result import Result, Summary
+from drumrs.state import State
 
 if TYPE_CHECKING:
     import polars as pl
@@ -28,55 +29,6 @@ Array = NDArray[np.float64]
 _MOST_THREADS = 1024
 # Beyond this, step × time step is no longer exact to a step.
 _MOST_STEPS = 2**53
-_PAIRS_OF_NUMBERS = {"positions", "velocities"}
-
-
-@dataclass(frozen=True, eq=False)
-class State:
-    """Where the bundles are and how they move; what is not given is 0, or the configuration's radius.
-
-    Attributes
-    ----------
-    positions
-        Centers [m], shape (n, 2). Their number takes the place of ``load.count``.
-    velocities
-        Velocities [m/s], shape (n, 2).
-    angles, angular_velocities
-        Angles [rad] and spins [rad/s], counter-clockwise, shape (n,).
-    radii
-        Radii [m], shape (n,).
-    """
-
-    positions: ArrayLike
-    velocities: ArrayLike | None = None
-    angles: ArrayLike | None = None
-    angular_velocities: ArrayLike | None = None
-    radii: ArrayLike | None = None
-
-    def arrays(self) -> dict[str, Array]:
-        """Return the given arrays as the core reads them.
-
-        Raises
-        ------
-        ConfigError
-            Where an array has another shape or holds something but numbers.
-        """
-        given = {field.name: getattr(self, field.name) for field in fields(self)}
-        arrays = {name: _floats(name, value) for name, value in given.items() if value is not None}
-        count = len(arrays["positions"]) if arrays["positions"].ndim else 0
-        for name, array in arrays.items():
-            pairs = name in _PAIRS_OF_NUMBERS
-            if array.shape != ((count, 2) if pairs else (count,)) or not count:
-                wanted = f"{'(n, 2)' if pairs else '(n,)'} with n = {count or 'at least 1'}"
-                raise ConfigError(f"state.{name} is of shape {array.shape}, but must be of shape {wanted}")
-        return arrays
-
-
-def _floats(name: str, value: ArrayLike) -> Array:
-    try:
-        return np.ascontiguousarray(value, dtype=np.float64)
-    except (TypeError, ValueError):
-        raise ConfigError(f"state.{name} is {value!r:.60}, but must be an array of numbers") from None
 
 
 class Simulation:
@@ -128,6 +80,10 @@ class Simulation:
         self._stop = threading.Event()
         self._wall_time = 0.0
         self._steps_timed = 0
+
+    def __repr__(self) -> str:
+        """Say how large and how far the simulation is."""
+        return f"<Simulation of {self.count} bundles at step {self.step}, t = {self.time:.6g} s>"
 
     def _require_samples(self) -> None:
         """Refuse a window in which the averages would lack samples: now, not at the end of a long run."""
@@ -356,7 +312,7 @@ class Simulation:
 
     def _known(self) -> dict[str, float]:
         """Return what no average is needed for."""
-        filled = float(np.sum((2.0 * self.radii / self._config.drum.diameter) ** 2))
+        filled = math.fsum((2.0 * self.radii) ** 2) / self._config.drum.diameter**2
         counts = {"bundle_count": self.count, "steps": self.step}
         return {**counts, "fill": filled, "time_step": self.time_step}
 

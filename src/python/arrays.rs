@@ -16,14 +16,14 @@ pub fn vectors<'py>(py: Python<'py>, vectors: &[Vec2]) -> Bound<'py, PyArray2<f6
     array.expect("two numbers a vector").into_pyarray(py)
 }
 
-/// Values as an array of shape (frames, values a frame), or (frames, particles, 2) where `pairs`.
-pub fn frames<'py>(py: Python<'py>, values: Vec<f32>, count: usize) -> Bound<'py, PyArray2<f32>> {
+/// Values as an array of shape (frames, particles).
+pub fn frames(py: Python<'_>, values: Vec<f32>, count: usize) -> Bound<'_, PyArray2<f32>> {
     let rows = values.len().checked_div(count).unwrap_or(0);
     Array2::from_shape_vec((rows, count), values).expect("whole frames").into_pyarray(py)
 }
 
 /// Positions as an array of shape (frames, particles, 2).
-pub fn frame_positions<'py>(py: Python<'py>, values: Vec<f32>, count: usize) -> Bound<'py, PyArray3<f32>> {
+pub fn frame_positions(py: Python<'_>, values: Vec<f32>, count: usize) -> Bound<'_, PyArray3<f32>> {
     let rows = values.len().checked_div(2 * count).unwrap_or(0);
     Array3::from_shape_vec((rows, count, 2), values).expect("whole frames").into_pyarray(py)
 }
