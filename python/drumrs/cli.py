@@ -114,7 +114,7 @@ def run(
             )
         out = resume
         simulation = Simulation.load(out / _CHECKPOINT, threads)
-        _check_folder(out)
+        _check_folder(out, "--resume")
     else:
         config = _layered(case, set_, seed)
         if out is not None:
@@ -188,13 +188,13 @@ def _layered(case: Path | None, settings: Sequence[str] | None, seed: int | None
     return Config.model_validate(values)
 
 
-def _check_folder(folder: Path) -> None:
+def _check_folder(folder: Path, option: str = "--out") -> None:
     """Refuse a folder that cannot be written, before anything is simulated or created."""
     existing = next(path for path in (folder.absolute(), *folder.absolute().parents) if path.exists())
     if not existing.is_dir():
-        raise ConfigError(f"--out is {str(folder)!r}, but must be a folder: {str(existing)!r} is a file")
+        raise ConfigError(f"{option} is {str(folder)!r}, but must be a folder: {str(existing)!r} is a file")
     if not os.access(existing, os.W_OK | os.X_OK):
-        raise ConfigError(f"--out is {str(folder)!r}, but must be a folder that can be written")
+        raise ConfigError(f"{option} is {str(folder)!r}, but must be a folder that can be written")
 
 
 def _open_folder(folder: Path | None, config: Config) -> None:

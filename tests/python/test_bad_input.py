@@ -161,6 +161,7 @@ DAMAGE = {
     "empty": lambda data: data[:0],
     "another file": lambda data: b"PK" + data,
     "another version": lambda data: resealed(data[:-32].replace(b"checkpoint 1\n", b"checkpoint 2\n", 1)),
+    "a core of another version": lambda data: resealed(_core_of_version_2(data[:-32])),
     "half": lambda data: data[: len(data) // 2],
     "last byte missing": lambda data: data[:-1],
     **{
@@ -168,6 +169,12 @@ DAMAGE = {
         for where in (0.0, 0.01, 0.3, 0.6, 0.99, 1.0)
     },
 }
+
+
+def _core_of_version_2(data: bytes) -> bytes:
+    magic = b"DRUMRS\r\n"
+    assert magic + b"\x01" in data
+    return data.replace(magic + b"\x01", magic + b"\x02", 1)
 
 
 def _flipped(data: bytes, index: int) -> bytes:
