@@ -23,7 +23,7 @@ run: develop ## run the paper's drum without and with baffles; results and pictu
 	$(BIN)/drumrs baseline --out $(OUT)
 
 test: develop ## test the physics, the package and the documentation
-	@if command -v cargo-nextest >/dev/null; then cargo nextest run; else cargo test --lib --tests; fi
+	@if command -v cargo-nextest >/dev/null; then cargo nextest run --no-fail-fast; else cargo test --lib --tests --no-fail-fast; fi
 	cargo test --doc
 	$(BIN)/python -m pytest
 

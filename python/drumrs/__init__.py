@@ -5,7 +5,7 @@
 >>> config.bundle_count
 100
 
-All values are in SI units and per metre of drum depth, but for rpm and degrees in configurations.
+All values are in SI units and per meter of drum depth, but for rpm and degrees in configurations.
 """
 
 from importlib.metadata import version
@@ -17,7 +17,8 @@ from drumrs.errors import CheckpointError, ConfigError, DrumrsError, UnstableErr
 from drumrs.frames import Frames
 from drumrs.protocol import run
 from drumrs.result import Result, Summary, load
-from drumrs.simulation import Simulation, State, info, quantities, units
+from drumrs.simulation import Simulation, info, quantities, units
+from drumrs.state import State
 
 __version__ = version("drumrs")
 

@@ -1,11 +1,12 @@
 """The command line: `drumrs run`, `drumrs baseline`, `drumrs config`, `drumrs info`."""
 
+import math
 import os
 import sys
 from collections.abc import Sequence
-from dataclasses import asdict
+from importlib.metadata import version
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 from cyclopts import App, CycloptsError, Parameter
 
@@ -14,7 +15,7 @@ from drumrs.config import Config, merge, nest, parse_settings, read_toml_file
 from drumrs.errors import CheckpointError, ConfigError, UnstableError
 from drumrs.progress import board
 from drumrs.protocol import announce, finish, run_side_by_side
-from drumrs.result import Result
+from drumrs.result import Result, Summary
 from drumrs.simulation import Simulation
 
 _BAD_INPUT = 2
@@ -113,7 +114,7 @@ def run(
             )
         out = resume
         simulation = Simulation.load(out / _CHECKPOINT, threads)
-        _check_folder(out)
+        _check_folder(out, "--resume")
     else:
         config = _layered(case, set_, seed)
         if out is not None:
@@ -171,6 +172,8 @@ def info() -> None:
         shown = " ".join(map(str, value)) if isinstance(value, (list, tuple)) else value
         sys.stdout.write(f"{key}: {shown}\n")
     sys.stdout.write(f"python: {sys.version.split()[0]}\n")
+    for library in ("numpy", "polars", "matplotlib", "pydantic"):
+        sys.stdout.write(f"{library}: {version(library)}\n")
 
 
 def _layered(case: Path | None, settings: Sequence[str] | None, seed: int | None) -> Config:
@@ -185,13 +188,13 @@ def _layered(case: Path | None, settings: Sequence[str] | None, seed: int | None
     return Config.model_validate(values)
 
 
-def _check_folder(folder: Path) -> None:
+def _check_folder(folder: Path, option: str = "--out") -> None:
     """Refuse a folder that cannot be written, before anything is simulated or created."""
     existing = next(path for path in (folder.absolute(), *folder.absolute().parents) if path.exists())
     if not existing.is_dir():
-        raise ConfigError(f"--out is {str(folder)!r}, but must be a folder: {str(existing)!r} is a file")
+        raise ConfigError(f"{option} is {str(folder)!r}, but must be a folder: {str(existing)!r} is a file")
     if not os.access(existing, os.W_OK | os.X_OK):
-        raise ConfigError(f"--out is {str(folder)!r}, but must be a folder that can be written")
+        raise ConfigError(f"{option} is {str(folder)!r}, but must be a folder that can be written")
 
 
 def _open_folder(folder: Path | None, config: Config) -> None:
@@ -220,40 +223,52 @@ def _finish(simulation: Simulation, out: Path | None) -> None:
         raise KeyboardInterrupt(f"interrupted at t = {simulation.time:.3f} s; {hint}") from None
 
 
-_SHOWN = {
-    "bundle_count": "bundles",
-    "fill": "fill",
-    "drum_torque": "torque [N m/m]",
-    "drum_power": "drum power [W/m]",
-    "specific_power": "specific power [W/kg]",
-    "specific_power_error": "  standard error [W/kg]",
-    "normal_tangential_ratio": "normal / tangential power",
-    "coordination": "contacts per bundle",
-    "max_overlap_ratio": "greatest overlap / radius",
-    "energy_residual": "energy residual",
-    "power_disagreement": "disagreement of three powers",
-    "wall_time": "wall time [s]",
-    "particle_steps_per_second": "particle-steps per second",
-}
-
-
 def _print_table(results: dict[str, Result]) -> None:
     from rich.console import Console
     from rich.markup import escape
     from rich.table import Table
 
-    table = Table(box=None, show_header=len(results) > 1)
+    columns = [_rows(result.summary) for result in results.values()]
+    table = Table(box=None, show_header=len(results) > 1, highlight=False)
     table.add_column("")
     for name in results:
-        table.add_column(name, justify="right")
-    summaries = [asdict(result.summary) for result in results.values()]
-    for key, label in _SHOWN.items():
-        table.add_row(escape(label), *(_number(summary[key]) for summary in summaries))
+        table.add_column(name, justify="right", no_wrap=True)
+    for label in columns[0]:
+        table.add_row(escape(label), *(column[label] for column in columns))
     Console(highlight=False).print(table)
 
 
-def _number(value: Any) -> str:
-    return "–" if value is None else f"{value:.4g}" if isinstance(value, float) else str(value)
+def _rows(summary: Summary) -> dict[str, str]:
+    """Return what the table shows of a summary, by label."""
+    window = f"{summary.window_start:.4g}–{summary.window_end:.4g}"
+    x, y = (f"{1e3 * value:.1f}" for value in summary.center_of_mass)
+    return {
+        "bundles": str(summary.bundle_count),
+        "averages over t = [s]": window,
+        "specific power [W/kg]": _with_error(summary.specific_power, summary.specific_power_error),
+        "drum power [W/m]": _number(summary.drum_power),
+        "torque [N m/m]": _number(summary.drum_torque),
+        "normal / tangential power": _number(summary.normal_tangential_ratio),
+        "center of mass [mm]": f"({x}, {y})",
+        "contacts per bundle": _number(summary.coordination),
+        "greatest overlap / radius": _number(summary.max_overlap_ratio),
+        "energy residual": f"{summary.energy_residual:.1e}",
+        "disagreement of three powers": f"{summary.power_disagreement:.1e}",
+        "wall time [s]": f"{summary.wall_time:.1f}",
+        "million particle-steps per second": _number(summary.particle_steps_per_second, 1e-6),
+    }
+
+
+def _number(value: float | None, scale: float = 1.0) -> str:
+    return "–" if value is None else f"{scale * value:.4g}"
+
+
+def _with_error(value: float, error: float | None) -> str:
+    """Show a value with its standard error, both to the error's second digit."""
+    if not error:
+        return _number(value)
+    digits = max(0, 1 - math.floor(math.log10(error)))
+    return f"{value:.{digits}f} ± {error:.{digits}f}"
 
 
 def _print_paths(paths: Sequence[Path]) -> None:

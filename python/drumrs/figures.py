@@ -59,7 +59,7 @@ def write(figure: Figure, path: str | Path) -> None:
 
 
 def snapshot(frames: Frames, index: int = -1, label: str = "") -> Figure:
-    """Draw one frame: bundles coloured by speed, a radius on each to show its spin, rim, baffles, rotation.
+    """Draw one frame: bundles colored by speed, a radius on each to show its spin, rim, baffles, rotation.
 
     Parameters
     ----------
@@ -94,7 +94,7 @@ def snapshots(views: Sequence[View]) -> Figure:
     fastest = max((float(view.speeds.max(initial=0.0)) for view in views), default=0.0)
     with _drumrs_style():
         norm = Normalize(0.0, fastest or 1.0)
-        figure = Figure(figsize=(_PANEL * len(views) + 0.9, _PANEL + 0.4))
+        figure = Figure(figsize=(_PANEL * len(views) + 0.9, _PANEL + 0.45))
         row = figure.subplots(1, len(views), squeeze=False)[0]
         for axes, view in zip(row, views, strict=True):
             discs = _draw_view(axes, view, norm)
@@ -173,7 +173,7 @@ def _draw_bundles(axes: "Axes", frames: Frames, index: int, norm: Normalize) -> 
 
 
 def _contrast(colors: Colormap, norm: Normalize, values: Array) -> list[str]:
-    """Choose black or white marks, whichever shows on the disc's colour."""
+    """Choose black or white marks, whichever shows on the disc's color."""
     luminance = colors(norm(values))[:, :3] @ np.array([0.2126, 0.7152, 0.0722])
     return ["black" if light > _LIGHT else "white" for light in luminance]
 
@@ -183,7 +183,7 @@ def _rotation(angle: float) -> Array:
 
 
 def time_series(series: "pl.DataFrame", window: tuple[float, float] | None = None) -> Figure:
-    """Draw a run's history: power, energies, residual of the energy ledger, centre of mass.
+    """Draw a run's history: power, energies, residual of the energy ledger, center of mass.
 
     Parameters
     ----------
@@ -199,6 +199,7 @@ def time_series(series: "pl.DataFrame", window: tuple[float, float] | None = Non
         _center_of_mass,
     )
     columns = {name: series[name].to_numpy() for name in series.columns}
+    begin, end = float(columns["time"][0]), float(columns["time"][-1])
     with _drumrs_style():
         figure = Figure(figsize=(11.0, 5.6))
         grid = figure.subplots(2, 2, sharex=True)
@@ -206,9 +207,10 @@ def time_series(series: "pl.DataFrame", window: tuple[float, float] | None = Non
             draw(axes, columns)
             if window is not None:
                 axes.axvspan(*window, color="0.94", zorder=0, linewidth=0)
-            axes.margins(x=0)
+            # The last sample may fall just short of the window's end, which deserves its tick.
+            axes.set_xlim(begin, max(end, window[1] if window is not None else end) or 1.0)
         if window is not None:
-            grid[0, 0].text(sum(window) / 2.0, 1.0, "averages", **_over_the_window(grid[0, 0]))
+            grid[0, 0].text(sum(window) / 2.0, 0.985, "averages", **_over_the_window(grid[0, 0]))
         for axes in grid[1]:
             axes.set_xlabel("time [s]")
         for axes in grid.flat:
@@ -225,13 +227,20 @@ def _over_the_window(axes: "Axes") -> dict[str, Any]:
 def _power(axes: "Axes", columns: dict[str, Array]) -> None:
     time = columns["time"]
     long = _averaging_time(time)
-    axes.set_title(f"Power, means over {long:.2g} s [W/m]")
+    axes.set_title(f"Power of the drum and losses, means over {long:.2g} s [W/m]")
+    steady = [0.0]
     for name, label in (
-        ("work_drum", "of the drum"),
-        ("dissipated_normal", "lost in normal\ndamping"),
-        ("dissipated_sliding", "lost in sliding"),
+        ("work_drum", "drum"),
+        ("dissipated_normal", "normal damping"),
+        ("dissipated_sliding", "sliding"),
     ):
-        axes.plot(*_mean_rate(time, columns[name], long), label=label)
+        middle, power = _thinned(*_mean_rate(time, columns[name], long))
+        axes.plot(middle, power, label=label)
+        steady.extend(power[len(power) // 10 :][np.isfinite(power[len(power) // 10 :])])
+    # From zero, so that heights compare; the first moments, when the load drops, may leave the picture.
+    lowest, highest = min(steady), max(steady)
+    room = 0.08 * (highest - lowest) or 1.0
+    axes.set_ylim(lowest - room if lowest < 0.0 else 0.0, highest + room)
 
 
 def _energies(axes: "Axes", columns: dict[str, Array]) -> None:
@@ -239,9 +248,9 @@ def _energies(axes: "Axes", columns: dict[str, Array]) -> None:
     axes.set_yscale("log")
     elastic = columns["elastic_normal"] + columns["elastic_tangential"]
     for values, label in (
-        (columns["kinetic_translation"], "moving"),
-        (columns["kinetic_rotation"], "spinning"),
-        (elastic, "in contacts"),
+        (columns["kinetic_translation"], "translation"),
+        (columns["kinetic_rotation"], "rotation"),
+        (elastic, "contacts"),
     ):
         time, smooth = _thinned(columns["time"], values)
         axes.plot(time, np.where(smooth > 0.0, smooth, np.nan), label=label)
@@ -257,7 +266,7 @@ def _ledger(axes: "Axes", columns: dict[str, Array]) -> None:
 
 
 def _center_of_mass(axes: "Axes", columns: dict[str, Array]) -> None:
-    axes.set_title("Centre of mass from the axis [mm]")
+    axes.set_title("Center of mass from the axis [mm]")
     for name, label in (("center_of_mass_x", "x"), ("center_of_mass_y", "y")):
         time, smooth = _thinned(columns["time"], columns[name])
         axes.plot(time, 1e3 * smooth, label=label)
@@ -290,7 +299,7 @@ def _thinned(time: Array, values: Array, most: int = 600) -> tuple[Array, Array]
 
 
 def _label_lines(axes: "Axes") -> None:
-    """Write each line's name at its right end, in its colour, kept apart from the others."""
+    """Write each line's name at its right end, in its color, kept apart from the others."""
     ends: list[tuple[float, Any]] = []
     # Asking for the limits settles them; until then the transform is not the final one.
     axes.get_ylim()
@@ -301,15 +310,18 @@ def _label_lines(axes: "Axes") -> None:
             shown = axes.transData.transform((0.0, finite[-max(1, len(finite) // 20) :].mean()))
             ends.append((float(axes.transAxes.inverted().transform(shown)[1]), line))
     ends.sort(key=lambda end: end[0])
-    lowest = -0.05
-    for height, line in ends:
-        lines = str(line.get_label()).count("\n") + 1
-        place = max(height, lowest + 0.05 * lines)
-        lowest = place + 0.05 * lines
-        axes.annotate(
-            str(line.get_label()),
-            (1.01, place),
-            xycoords="axes fraction",
-            color=line.get_color(),
-            va="center",
-        )
+    for place, (_, line) in zip(_apart([height for height, _ in ends]), ends, strict=True):
+        name, color = str(line.get_label()), line.get_color()
+        axes.annotate(name, (1.01, place), xycoords="axes fraction", color=color, va="center")
+
+
+def _apart(heights: Sequence[float], gap: float = 0.075) -> list[float]:
+    """Move sorted heights away from each other until none is nearer than `gap` to the next."""
+    places = list(heights)
+    for _ in range(100):
+        for below in range(len(places) - 1):
+            lacking = gap - (places[below + 1] - places[below])
+            if lacking > 0.0:
+                places[below] -= lacking / 2.0
+                places[below + 1] += lacking / 2.0
+    return places

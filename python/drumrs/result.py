@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Summary:
-    """Averages over a window of the run; powers, torques and forces are per metre of drum depth.
+    """Averages over a window of the run; powers, torques and forces are per meter of drum depth.
 
     Attributes
     ----------
@@ -34,7 +34,7 @@ class Summary:
     window_start, window_end
         The window [s].
     drum_torque
-        Torque of the drum on the load about its axis [N m/m].
+        Torque of the drum on the load about its axis [N m/m]; `None` where the drum does not turn.
     drum_power
         Power of the drum [W/m], positive where it does work on the load.
     specific_power
@@ -46,7 +46,7 @@ class Summary:
     normal_tangential_ratio
         `normal_power` over `tangential_power`; `None` where that is 0.
     center_of_mass
-        Centre of mass of the load [m, m].
+        Center of mass of the load [m, m].
     coordination
         Contacts per bundle.
     max_overlap_ratio
@@ -80,7 +80,7 @@ class Summary:
     time_step: float
     window_start: float
     window_end: float
-    drum_torque: float
+    drum_torque: float | None
     drum_power: float
     specific_power: float
     specific_power_error: float | None
@@ -123,7 +123,7 @@ def _finite(value: Any) -> Any:
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Result:
     """A finished run.
 
@@ -146,6 +146,12 @@ class Result:
     series: "pl.DataFrame"
     frames: Frames
     units: "Mapping[str, str]"
+
+    def __repr__(self) -> str:
+        """Say what was run, and its main number."""
+        summary = self.summary
+        window = f"t = {summary.window_start:.6g} to {summary.window_end:.6g} s"
+        return f"<Result of {summary.bundle_count} bundles: {summary.specific_power:.4g} W/kg over {window}>"
 
     def save(self, folder: str | Path, *, pictures: bool = True) -> list[Path]:
         """Write config.toml, series.parquet, frames.parquet, the pictures and, last, summary.json.
@@ -176,7 +182,7 @@ class Result:
     def _draw(self, folder: Path) -> list[Path]:
         from drumrs import figures
 
-        start, end = self.summary.window_start, self.summary.window_end
+        start, end = self.config.run.averaging_window
         indices = (
             sorted({self.frames.nearest(time) for time in (0.0, start, end)}) if len(self.frames) else []
         )

@@ -1,16 +1,17 @@
 """`Simulation`: one drum, step by step; the only module that talks to the compiled core."""
 
 import math
+import re
 import threading
 import time
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, fields
+from dataclasses import fields
 from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from drumrs import _core
 from drumrs.checkpoint import read_checkpoint, write_checkpoint
@@ -18,64 +19,16 @@ from drumrs.config import Config
 from drumrs.errors import CheckpointError, ConfigError
 from drumrs.frames import Frames
 from drumrs.result import Result, Summary
+from drumrs.state import State
 
 if TYPE_CHECKING:
     import polars as pl
 
 Array = NDArray[np.float64]
 
-# Wall seconds between looks at the clock and at the stop flag; the core answers Ctrl-C more often.
-_SLICE = 0.25
 _MOST_THREADS = 1024
-_PAIRS_OF_NUMBERS = {"positions", "velocities"}
-
-
-@dataclass(frozen=True, eq=False)
-class State:
-    """Where the bundles are and how they move; what is not given is 0, or the configuration's radius.
-
-    Attributes
-    ----------
-    positions
-        Centres [m], shape (n, 2). Their number takes the place of ``load.count``.
-    velocities
-        Velocities [m/s], shape (n, 2).
-    angles, angular_velocities
-        Angles [rad] and spins [rad/s], counter-clockwise, shape (n,).
-    radii
-        Radii [m], shape (n,).
-    """
-
-    positions: ArrayLike
-    velocities: ArrayLike | None = None
-    angles: ArrayLike | None = None
-    angular_velocities: ArrayLike | None = None
-    radii: ArrayLike | None = None
-
-    def arrays(self) -> dict[str, Array]:
-        """Return the given arrays as the core reads them.
-
-        Raises
-        ------
-        ConfigError
-            Where an array has another shape or holds something but numbers.
-        """
-        given = {field.name: getattr(self, field.name) for field in fields(self)}
-        arrays = {name: _floats(name, value) for name, value in given.items() if value is not None}
-        count = len(arrays["positions"]) if arrays["positions"].ndim else 0
-        for name, array in arrays.items():
-            pairs = name in _PAIRS_OF_NUMBERS
-            if array.shape != ((count, 2) if pairs else (count,)) or not count:
-                wanted = f"{'(n, 2)' if pairs else '(n,)'} with n = {count or 'at least 1'}"
-                raise ConfigError(f"state.{name} is of shape {array.shape}, but must be of shape {wanted}")
-        return arrays
-
-
-def _floats(name: str, value: ArrayLike) -> Array:
-    try:
-        return np.ascontiguousarray(value, dtype=np.float64)
-    except (TypeError, ValueError):
-        raise ConfigError(f"state.{name} is {value!r:.60}, but must be an array of numbers") from None
+# Beyond this, step × time step is no longer exact to a step.
+_MOST_STEPS = 2**53
 
 
 class Simulation:
@@ -111,12 +64,15 @@ class Simulation:
     ) -> None:
         _check_threads(threads)
         config = config if seed is None else config.replace({"run.seed": seed})
+        if state is None and not config.drum.rim:
+            raise ConfigError("drum.rim is false, but must be true where no initial state is given")
         arrays = None if state is None else state.arrays()
         try:
             core = _core.Simulation(config.to_core_json(), config.run.seed, threads, arrays)
         except ConfigError as error:
             raise _in_terms_of_fill(config, error) from None
         self._start(config, core)
+        self._require_samples()
 
     def _start(self, config: Config, core: _core.Simulation) -> None:
         self._config = config
@@ -124,6 +80,21 @@ class Simulation:
         self._stop = threading.Event()
         self._wall_time = 0.0
         self._steps_timed = 0
+
+    def __repr__(self) -> str:
+        """Say how large and how far the simulation is."""
+        return f"<Simulation of {self.count} bundles at step {self.step}, t = {self.time:.6g} s>"
+
+    def _require_samples(self) -> None:
+        """Refuse a window in which the averages would lack samples: now, not at the end of a long run."""
+        run, (start, end) = self._config.run, self._config.run.averaging_window
+        interval = self.time_step * max(1, round(run.sample_every / self.time_step))
+        last = math.floor(self.last_step * self.time_step / interval)
+        if math.floor(start / interval + 0.5) >= min(math.floor(end / interval + 0.5), last):
+            raise ConfigError(
+                f"run.sample_every is {run.sample_every}, but must be at most {(end - start) / 2.0:.4g}, "
+                f"half the length of the window [{start:.4g}, {end:.4g}]"
+            )
 
     def run(
         self,
@@ -143,7 +114,7 @@ class Simulation:
         steps
             Number of steps.
         progress
-            Called with the step number, some ten times a second.
+            Called with the step number, some thirty times a second and at the end.
 
         Raises
         ------
@@ -155,7 +126,7 @@ class Simulation:
         if duration is not None:
             if not 0.0 <= duration < math.inf:
                 raise ConfigError(f"duration is {duration}, but must be a finite number of at least 0")
-            steps = math.ceil(duration / self.time_step)
+            steps = _step_count("duration", duration, self.time_step)
         end = self.last_step if steps is None else self.step + _check_steps(steps)
         self.run_until(end, progress=progress)
 
@@ -171,34 +142,33 @@ class Simulation:
         wall_limit
             Time [s] after which to return where the step is not reached yet.
         progress
-            Called with the step number, some ten times a second.
+            Called with the step number, some thirty times a second and at the end.
 
         Returns
         -------
         bool
             False where `stop` ended the call.
         """
-        began = time.perf_counter()
-        piece = 1
-        while self.step < step and not self._stop.is_set() and time.perf_counter() - began < wall_limit:
-            piece = self._run_piece(min(piece, step - self.step), progress)
-        stopped = self._stop.is_set()
-        self._stop.clear()
+        first, began = self.step, time.perf_counter()
+
+        def after_slice(now: int) -> None:
+            # A stop asked for before the core was under way is seen here, at the end of its first slice.
+            if self._stop.is_set() or time.perf_counter() - began >= wall_limit:
+                self._core.stop()
+            if progress is not None:
+                progress(now)
+
+        try:
+            self._core.run(max(step - first, 0), after_slice)
+        finally:
+            self._wall_time += time.perf_counter() - began
+            self._steps_timed += self.step - first
+            stopped = self._stop.is_set()
+            self._stop.clear()
         return not stopped
 
-    def _run_piece(self, steps: int, progress: Callable[[int], None] | None) -> int:
-        """Step, keep the time, and return how many steps the next slice should have."""
-        first, began = self.step, time.perf_counter()
-        try:
-            self._core.run(steps, progress)
-        finally:
-            elapsed = time.perf_counter() - began
-            self._wall_time += elapsed
-            self._steps_timed += self.step - first
-        return max(1, min(round(steps * _SLICE / max(elapsed, 1e-6)), 4 * steps + 1000))
-
     def stop(self) -> None:
-        """End a `run` that another thread is in; safe from any thread."""
+        """End the `run` that another thread is in, or is about to enter; safe from any thread."""
         self._stop.set()
         self._core.stop()
 
@@ -230,7 +200,7 @@ class Simulation:
     @property
     def last_step(self) -> int:
         """Step number at which the configuration's duration is reached."""
-        return math.ceil(self._config.run.duration / self.time_step)
+        return _step_count("run.duration", self._config.run.duration, self.time_step)
 
     @property
     def time(self) -> float:
@@ -259,7 +229,7 @@ class Simulation:
 
     @property
     def positions(self) -> Array:
-        """Centres of the bundles [m], shape (n, 2)."""
+        """Centers of the bundles [m], shape (n, 2)."""
         return self._core.positions
 
     @property
@@ -284,7 +254,7 @@ class Simulation:
 
     @property
     def masses(self) -> Array:
-        """Masses of the bundles per metre of depth [kg/m], shape (n,)."""
+        """Masses of the bundles per meter of depth [kg/m], shape (n,)."""
         return self._core.masses
 
     @property
@@ -334,9 +304,33 @@ class Simulation:
             raise ConfigError(
                 f"the window is [{start}, {end}], but must lie within the {self.time} s simulated so far"
             )
+        means = self._core.summary(start, end)
+        # The window as the samples allow it.
+        first, last = (means[name] or 0.0 for name in ("window_start", "window_end"))
+        known = {**self._known(), **self._timing(), **self._mean_force(first, last)}
+        return Summary.from_mapping({**known, **means})
+
+    def _known(self) -> dict[str, float]:
+        """Return what no average is needed for."""
+        filled = math.fsum((2.0 * self.radii) ** 2) / self._config.drum.diameter**2
+        counts = {"bundle_count": self.count, "steps": self.step}
+        return {**counts, "fill": filled, "time_step": self.time_step}
+
+    def _mean_force(self, start: float, end: float) -> dict[str, float]:
+        """Return the force of the load on all parts of the drum, a mean over the interval between two samples."""
+        series = self._core.series()
+        times = series["time"]
+        # A row holds the mean over the interval that it closes; all intervals are equally long.
+        inside = (times > start) & (times <= end)
+        forces = {name: float(series[name][inside].mean()) for name in series if name.startswith("force_")}
+        return {
+            f"force_{axis}": sum(force for name, force in forces.items() if name.endswith(f"_{axis}"))
+            for axis in "xy"
+        }
+
+    def _timing(self) -> dict[str, float | None]:
         rate = self.count * self._steps_timed / self._wall_time if self._wall_time else None
-        timing = {"wall_time": self._wall_time, "particle_steps_per_second": rate}
-        return Summary.from_mapping({**self._core.summary(start, end), **timing})
+        return {"wall_time": self._wall_time, "particle_steps_per_second": rate}
 
     def result(self) -> Result:
         """Return the run so far as a `Result`."""
@@ -374,16 +368,30 @@ def _check_threads(threads: int) -> None:
 
 
 def _check_steps(steps: int) -> int:
-    if isinstance(steps, bool) or not isinstance(steps, int) or steps < 0:
-        raise ConfigError(f"steps is {steps!r}, but must be a whole number of at least 0")
+    if isinstance(steps, bool) or not isinstance(steps, int) or not 0 <= steps <= _MOST_STEPS:
+        raise ConfigError(f"steps is {steps!r}, but must be a whole number from 0 to {_MOST_STEPS}")
     return steps
+
+
+def _step_count(name: str, duration: float, time_step: float) -> int:
+    """Return the number of steps that a time takes, rounded up."""
+    if not duration / time_step <= _MOST_STEPS:
+        greatest = f"{_MOST_STEPS * time_step:.4g}, {_MOST_STEPS} time steps of {time_step:.4g} s"
+        raise ConfigError(f"{name} is {duration}, but must be at most {greatest}")
+    return math.ceil(duration / time_step)
 
 
 def _in_terms_of_fill(config: Config, error: ConfigError) -> ConfigError:
     """Name the fill, which the user wrote, where the core refuses the count that follows from it."""
-    if config.load.fill is None or not str(error).startswith("load.count"):
+    refused = re.fullmatch(r"load\.count is (\d+), but must be at most (\d+): (.*)", str(error))
+    if config.load.fill is None or refused is None:
         return error
-    return ConfigError(f"load.fill is {config.load.fill}, too much: {error}")
+    count, most, why = refused.groups()
+    greatest = int(most) * (config.load.diameter / config.drum.diameter) ** 2
+    return ConfigError(
+        f"load.fill is {config.load.fill} ({count} bundles), but must be at most {greatest:.4g} "
+        f"({most} bundles): {why}"
+    )
 
 
 class Quantity(NamedTuple):
@@ -393,14 +401,14 @@ class Quantity(NamedTuple):
     meaning: str
 
 
-def quantities(baffles: int = 0) -> Mapping[str, Quantity]:
-    """Return the columns of the series of a drum with so many baffles, with units and meanings."""
-    listed = _core.Simulation.quantities(baffles)
+def quantities(baffles: int = 0, walls: int = 0) -> Mapping[str, Quantity]:
+    """Return the columns of the series of a drum with so many baffles and walls, with units and meanings."""
+    listed = _core.Simulation.quantities(baffles, walls)
     return MappingProxyType({name: Quantity(unit, meaning) for name, unit, meaning in listed})
 
 
 def units(column: str) -> str:
-    """Return the unit of a column of the series, "" where it is a plain number.
+    """Return the unit of a column of the series, "1" where it is a plain number.
 
     Examples
     --------
@@ -408,12 +416,11 @@ def units(column: str) -> str:
     >>> drumrs.units("specific_power"), drumrs.units("work_baffle_2")
     ('W/kg', 'J/m')
     """
-    # Baffles and walls are numbered from 1 and share their units.
-    pattern = "_".join("1" if part.isdecimal() else part for part in column.split("_"))
-    known = quantities(1)
-    for name in (column, pattern, pattern.replace("_wall_", "_baffle_")):
-        if name in known:
-            return known[name].unit
+    # Baffles and walls are numbered from 1, and all of a kind share their units.
+    first = "_".join("1" if part.isdecimal() else part for part in column.split("_"))
+    known = quantities(baffles=1, walls=1)
+    if first in known:
+        return known[first].unit
     raise KeyError(f"{column!r} is not a column of the series; drumrs.QUANTITIES lists them")
 
 

@@ -1,7 +1,8 @@
 //! `drumrs._core.Simulation`: the one class.
 //!
 //! The simulation sits behind a lock that is only ever waited for with the interpreter released, so that other Python
-//! threads may look at it, or stop it, between two slices of a run.
+//! threads may look at it, or stop it, between two slices of a run. The lock is taken behind a turnstile: who waits for
+//! the simulation holds the turnstile, so a run cannot take the next slice before its reader.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -26,15 +27,17 @@ const SLICE: Duration = Duration::from_millis(30);
 #[pyclass(frozen, module = "drumrs._core")]
 pub struct Simulation {
     core: Mutex<Core>,
+    turnstile: Mutex<()>,
     stop: AtomicBool,
 }
 
 impl Simulation {
     fn around(core: Core) -> Self {
-        Self { core: Mutex::new(core), stop: AtomicBool::new(false) }
+        Self { core: Mutex::new(core), turnstile: Mutex::new(()), stop: AtomicBool::new(false) }
     }
 
     fn lock(&self) -> MutexGuard<'_, Core> {
+        let _next = self.turnstile.lock().unwrap_or_else(PoisonError::into_inner);
         self.core.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
@@ -62,7 +65,8 @@ struct Pace {
 
 impl Pace {
     fn adapt(&mut self, elapsed: Duration) {
-        let factor = (SLICE.as_secs_f64() / elapsed.as_secs_f64().max(1e-6)).clamp(0.25, 2.0);
+        // The first steps are slower than the rest, and few: slices grow fast, but not at one bound.
+        let factor = (SLICE.as_secs_f64() / elapsed.as_secs_f64().max(1e-6)).min(4.0);
         self.steps = ((self.steps as f64 * factor) as u64).max(1);
     }
 }
@@ -108,7 +112,8 @@ impl Simulation {
     #[pyo3(signature = (steps, progress = None))]
     fn run(&self, py: Python<'_>, steps: u64, progress: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
         self.stop.store(false, Ordering::Relaxed);
-        let mut pace = Pace { steps: 64 };
+        // A single step of the largest loads fills a slice.
+        let mut pace = Pace { steps: 1 };
         let mut done = 0;
         while done < steps && !self.stop.load(Ordering::Relaxed) {
             done += self.slice(py, steps - done, &mut pace).map_err(|error| to_python(py, &error))?;

@@ -32,7 +32,7 @@ SETTINGS = [
     ("contact.drum.restitution=nan", "above 0 and at most 1"),
     ("contact.bundle.friction=-0.1", "at least 0"),
     ("contact.drum.tension=perhaps", "'allowed' or 'clipped'"),
-    ("load.fill=1.2", "load.count"),
+    ("load.fill=1.2", "load.fill is 1.2 (480 bundles), but must be at most 0.825 (330 bundles)"),
     ("load.count=500", "load.count is 500, but must be at most"),
     ("load.count=0", "from 1"),
     ("load.diameter=0.5", "load.diameter"),
@@ -40,7 +40,14 @@ SETTINGS = [
     ("run.window=[7, 7]", "start < end"),
     ("run.window=[-1, 7]", "run.window"),
     ("run.window=[5", "run.window"),
-    ("run.time_step=2e-5", "run.time_step"),
+    ("run.window=[5]", "run.window is [5], but must be a pair"),
+    ("run.window=[]", "run.window is [], but must be a pair"),
+    ("run.sample_every=20", "run.sample_every is 20.0, but must be at most 5,"),
+    ("run.duration=0.001", "run.sample_every is 0.002, but must be at most 0.0001667"),
+    ("contact.drum.stiffness_ratio=0", "contact.drum.stiffness_ratio is 0, but must be a positive"),
+    ("run.time_step=2e-5", "a tenth of the shortest collision time"),
+    ("run.time_step=1e-300", "9007199254740992 time steps of 1e-300 s"),
+    ("run.duration=1e300", "run.duration is 1e+300, but must be at most"),
     ("run.seed=-1", "run.seed"),
     ("run.skin=-1", "run.skin"),
     ("run.overlap_limit=1", "run.overlap_limit"),
@@ -49,6 +56,8 @@ SETTINGS = [
     ("rotation.program=[[0, nan]]", "rotation.program"),
     ("rotation.rpm=nan", "rotation.rpm"),
     ("gravity=[0]", "gravity"),
+    ("drum.rim=false", "drum.rim is false, but must be true where no initial state is given"),
+    ("drum.walls=[[[0, 0], [0, 0]]]", "drum.walls"),
     ("drum.baffles.shape=round", "drum.baffles.shape"),
     ("load=3", "load is 3"),
 ]
@@ -152,6 +161,7 @@ DAMAGE = {
     "empty": lambda data: data[:0],
     "another file": lambda data: b"PK" + data,
     "another version": lambda data: resealed(data[:-32].replace(b"checkpoint 1\n", b"checkpoint 2\n", 1)),
+    "a core of another version": lambda data: resealed(_core_of_version_2(data[:-32])),
     "half": lambda data: data[: len(data) // 2],
     "last byte missing": lambda data: data[:-1],
     **{
@@ -159,6 +169,12 @@ DAMAGE = {
         for where in (0.0, 0.01, 0.3, 0.6, 0.99, 1.0)
     },
 }
+
+
+def _core_of_version_2(data: bytes) -> bytes:
+    magic = b"DRUMRS\r\n"
+    assert magic + b"\x01" in data
+    return data.replace(magic + b"\x01", magic + b"\x02", 1)
 
 
 def _flipped(data: bytes, index: int) -> bytes:
@@ -200,7 +216,15 @@ def test_bad_threads(short, threads):
 
 
 @pytest.mark.parametrize(
-    "arguments", [{"steps": -1}, {"duration": float("nan")}, {"duration": -1.0}, {"duration": 1, "steps": 1}]
+    "arguments",
+    [
+        {"steps": -1},
+        {"steps": 2**60},
+        {"duration": float("nan")},
+        {"duration": -1.0},
+        {"duration": 1e300},
+        {"duration": 1, "steps": 1},
+    ],
 )
 def test_bad_length_of_run(short, arguments):
     with pytest.raises(ConfigError):

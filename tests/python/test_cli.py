@@ -1,7 +1,6 @@
 """The command line: JSON, folders, layers, checkpoints, Ctrl-C."""
 
 import json
-import os
 import signal
 import subprocess
 import sys
@@ -108,31 +107,36 @@ def test_resume_is_byte_identical(drum, tmp_path):
     assert summary(whole) == summary(broken)
 
 
-def test_checkpoints_are_written_while_running(tmp_path):
-    out = tmp_path / "out"
-    words = ["--set", "run.duration=600", "--set", "run.checkpoint_every=0.2", "--out", str(out)]
-    process = subprocess.Popen(
-        [sys.executable, "-m", "drumrs", "run", *words], stderr=subprocess.PIPE, text=True, env=os.environ
-    )
-    path = out / "checkpoint.bin"
-    steps = {_wait_for_newer(path, process, 0.0)}
-    steps.add(_wait_for_newer(path, process, path.stat().st_mtime))
-    process.send_signal(signal.SIGINT)
+@pytest.mark.parametrize("blow", [signal.SIGKILL, signal.SIGINT])
+def test_resume_after_a_blow_is_byte_identical(drum, tmp_path, blow):
+    whole, broken = tmp_path / "whole", tmp_path / "broken"
+    words = [*SHORT, "--set", "run.duration=3", "--set", "run.frame_every=0.5", "--out"]
+    command = [sys.executable, "-m", "drumrs", "run", "--set", "run.checkpoint_every=0.02", *words, broken]
+    process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
+    seen = _wait_for_checkpoint(broken, process)
+    process.send_signal(blow)
     _, complaint = process.communicate(timeout=20)
-    assert process.returncode == 130
-    assert f"drumrs run --resume {out}" in complaint
+    assert not (broken / "summary.json").exists(), "the blow came too late to test anything"
     assert "Traceback" not in complaint
-    assert len(steps) == 2
-    assert drumrs.Simulation.load(path).step >= max(steps)
-    assert not (out / "summary.json").exists()
+    if blow == signal.SIGINT:
+        assert process.returncode == 130
+        assert f"drumrs run --resume {broken}" in complaint
+    assert drumrs.Simulation.load(broken / "checkpoint.bin").step >= seen
+    assert drum("run", "--resume", broken)[0] == 0
+    assert drum("run", "--set", "run.checkpoint_every=0.02", *words, whole)[0] == 0
+    for name in ("series.parquet", "frames.parquet", "config.toml"):
+        assert (whole / name).read_bytes() == (broken / name).read_bytes(), name
+    assert summary(whole) == summary(broken)
 
 
-def _wait_for_newer(path, process, since: float) -> int:
-    end = time.monotonic() + 20
+def _wait_for_checkpoint(folder, process) -> int:
+    """Wait for a checkpoint of a run under way, and return its step."""
+    path, end = folder / "checkpoint.bin", time.monotonic() + 20
     while time.monotonic() < end and process.poll() is None:
-        if path.exists() and path.stat().st_mtime > since:
-            return drumrs.Simulation.load(path).step
-        time.sleep(0.02)
+        step = drumrs.Simulation.load(path).step if path.exists() else 0
+        if step > 0:
+            return step
+        time.sleep(0.01)
     raise AssertionError("no checkpoint came")
 
 

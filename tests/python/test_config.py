@@ -61,7 +61,7 @@ VALUES = {
     for kind in ("bundle", "drum")
     for key, strategy in {
         "normal_stiffness": positive,
-        "stiffness_ratio": non_negative,
+        "stiffness_ratio": positive,
         "restitution": st.floats(0.001, 1.0),
         "normal_damping": non_negative,
         "friction": non_negative,

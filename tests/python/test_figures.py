@@ -93,3 +93,10 @@ def test_frames_survive_a_file(tmp_path):
     assert np.array_equal(again.baffles[0], TRIANGLE)
     units = pl.read_parquet_metadata(tmp_path / "frames.parquet")["units"]
     assert '"speed": "m/s"' in units
+
+
+def test_labels_are_kept_apart():
+    places = figures._apart([0.1, 0.1, 0.12, 0.8])
+    assert np.diff(places).min() > 0.0749
+    assert places[3] == 0.8
+    assert np.mean(places[:3]) == pytest.approx(0.32 / 3.0)

@@ -3,6 +3,8 @@
 import math
 import pickle
 import signal
+import subprocess
+import sys
 import threading
 import time
 
@@ -150,6 +152,51 @@ def test_ctrl_c_leaves_a_valid_simulation(short):
     assert same_bits(simulation, other)
 
 
+INTERRUPTED = """
+import time, drumrs
+simulation = drumrs.Simulation(drumrs.baseline(0.5).replace({"run.duration": 600.0}))
+for _ in range(3):
+    try:
+        print("running", flush=True)
+        simulation.run()
+    except KeyboardInterrupt:
+        print(time.monotonic(), simulation.step, flush=True)
+"""
+
+
+def test_ctrl_c_is_answered_within_a_tenth_of_a_second():
+    child = subprocess.Popen([sys.executable, "-c", INTERRUPTED], stdout=subprocess.PIPE, text=True)
+    waits, steps = [], []
+    for _ in range(3):
+        assert child.stdout.readline() == "running\n"
+        time.sleep(0.3)
+        asked = time.monotonic()
+        child.send_signal(signal.SIGINT)
+        answered, step = child.stdout.readline().split()
+        waits.append(float(answered) - asked)
+        steps.append(int(step))
+    assert child.wait(timeout=10) == 0
+    child.stdout.close()
+    # The best of three, for a busy machine may keep any process waiting.
+    assert min(waits) < 0.1
+    assert 0 < steps[0] < steps[1] < steps[2]
+
+
+def test_a_run_lets_readers_in(short):
+    simulation = drumrs.Simulation(short.replace({"run.duration": 60.0}))
+    thread = threading.Thread(target=simulation.run)
+    thread.start()
+    time.sleep(0.1)
+    waits = []
+    for _ in range(20):
+        asked = time.perf_counter()
+        assert simulation.positions.shape == (40, 2)
+        waits.append(time.perf_counter() - asked)
+    simulation.stop()
+    thread.join()
+    assert sorted(waits)[10] < 0.1
+
+
 def test_the_gil_is_released(short):
     simulation = drumrs.Simulation(short.replace({"run.duration": 60.0}))
     thread = threading.Thread(target=simulation.run)
@@ -178,7 +225,7 @@ def test_series_has_the_listed_quantities(short):
     assert all(drumrs.units(column) == listed[column].unit for column in listed)
     assert drumrs.units("specific_power") == "W/kg"
     with pytest.raises(KeyError, match="not a column"):
-        drumrs.units("colour")
+        drumrs.units("color")
     assert "work_drum" in drumrs.QUANTITIES
 
 
@@ -215,8 +262,10 @@ def test_summary_is_consistent(short):
     summary = result.summary
     assert summary.bundle_count == 40
     assert summary.fill == pytest.approx(0.1)
-    assert (summary.window_start, summary.window_end) == pytest.approx((0.04, 0.06))
+    # The window snaps to the samples nearest to it.
+    assert (summary.window_start, summary.window_end) == pytest.approx((0.04, 0.06), abs=0.0005)
     assert summary.energy_residual < 1e-9
     assert summary.particle_steps_per_second == pytest.approx(40 * summary.steps / summary.wall_time)
-    assert len(result.frames) == 7
+    # Frames fall on whole steps, so that the last may fall just beyond the end.
+    assert len(result.frames) in {6, 7}
     assert len(result.frames.baffles) == 3

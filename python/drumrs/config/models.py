@@ -64,14 +64,14 @@ class Drum(Part):
 
 
 class Rotation(Part):
-    """How the drum turns, counter-clockwise positive: one speed, or a programme."""
+    """How the drum turns, counter-clockwise positive: one speed, or a program."""
 
     pair: ClassVar[tuple[str, str] | None] = ("rpm", "program")
 
     rpm: Real | None = _key(None, "Constant speed [rpm]", 54.0)
     program: fields.Program | None = _key(
         None,
-        "Knots [s, rpm] of a programme: linear between them, constant beyond the first and last",
+        "Knots [s, rpm] of a program: linear between them, constant beyond the first and last",
         [[0.0, 0.0], [2.0, 54.0], [20.0, 54.0], [22.0, -54.0]],
     )
 
@@ -93,7 +93,7 @@ class Load(Part):
 
     diameter: Positive = _key(0.02375, "Diameter d of a bundle [m]")
     density: Positive = _key(
-        1000.0, "Density of a bundle [kg/m³]; its mass is density · π d²/4 per metre of depth"
+        1000.0, "Density of a bundle [kg/m³]; its mass is density · π d²/4 per meter of depth"
     )
     fill: Positive | None = _key(None, "Fill N d²/D², a fraction of the bare drum's area", 0.25)
     count: fields.BundleCount | None = _key(None, "Number N of bundles, instead of fill", 100)
@@ -107,7 +107,7 @@ class LinearContact(Part):
     pair: ClassVar[tuple[str, str] | None] = ("restitution", "normal_damping")
 
     normal_stiffness: Positive = Field(description="Stiffness of the normal spring [N/m].")
-    stiffness_ratio: NonNegative = _key(1.0, "Tangential stiffness over normal stiffness")
+    stiffness_ratio: Positive = _key(1.0, "Tangential stiffness over normal stiffness")
     restitution: fields.Restitution | None = _key(
         None, "Coefficient of restitution; the damping follows from it", 0.1
     )
@@ -141,7 +141,7 @@ class Run(Part):
     frame_every: Positive = _key(0.04, "Interval between frames (positions, angles, speeds) [s]")
     checkpoint_every: Positive = _key(60.0, "Interval between checkpoints [s], in time of the wall clock")
     seed: fields.Seed = _key(1, "Seed of the random start")
-    skin: Skin = _key("auto", "Margin of the neighbour lists [m]; it changes the speed, never a result")
+    skin: Skin = _key("auto", "Margin of the neighbor lists [m]; it changes the speed, never a result")
     overlap_limit: fields.OpenFraction = _key(
         0.5, "Greatest overlap, over the smaller radius, before the run is given up as unstable"
     )

@@ -71,7 +71,12 @@ def _unknown_key(root: type[BaseModel], path: Sequence[str]) -> str:
 
 
 def _refused_value(root: type[BaseModel], problem: ErrorDetails) -> str:
-    key, limit = _locate(root, problem["loc"])
+    path = problem["loc"]
+    if problem["type"] == "missing" and isinstance(path[-1], int):
+        # A list that is too short: it is the list that is wrong, not the element it lacks.
+        key, limit = _locate(root, path[:-1])
+        return f"{key} is {show(problem['input'])}, but must be {limit}"
+    key, limit = _locate(root, path)
     if problem["type"] == "missing":
         return f"{key} is missing, but must be {limit}"
     return f"{key or 'the configuration'} is {show(problem['input'])}, but must be {limit}"
