@@ -3,11 +3,13 @@
 mod common;
 
 use common::*;
+use drumrs::config::SimulationConfig;
 use drumrs::contact::laws::Laws;
 use drumrs::contact::table::ContactTable;
 use drumrs::drum::{Drum, RIM};
 use drumrs::neighbors::{Surroundings, VerletList};
 use drumrs::particles::Particles;
+use drumrs::start::InitialState;
 use drumrs::threads::Threads;
 use drumrs::vector::{Rotation, Vec2};
 use proptest::prelude::*;
@@ -53,6 +55,39 @@ proptest! {
                     prop_assert!(listed.contains(&feature));
                 }
             }
+        }
+    }
+}
+
+/// Two bundles, or a bundle and a turning wall, that approach from just beyond the margin: the list must be made anew
+/// before they meet, whoever moves.
+#[test]
+fn nothing_meets_unseen() {
+    let skin = 0.3 * RADIUS;
+    let ending = |config: &SimulationConfig, skin: f64, initial: &InitialState| {
+        let mut config = config.clone();
+        config.run.skin = Some(skin);
+        let mut simulation = start(&config, initial.clone());
+        simulation.run(3000).unwrap();
+        bits(&simulation)
+    };
+    for margins in [1.01, 1.3, 1.6, 1.99] {
+        let gap = margins * skin;
+        let half = RADIUS + 0.5 * gap;
+        let paddle = {
+            let mut config = free_space();
+            config.drum.walls = vec![vec![[0.2, 0.0], [0.8, 0.0]]];
+            config.rotation.knots = vec![[0.0, 2.0]];
+            config
+        };
+        let cases = [
+            (free_space(), several(&[([-half, 0.0], [0.5, 0.0], 0.0), ([half, 0.0], [-0.5, 0.0], 0.0)])),
+            (free_space(), several(&[([-half, 0.0], [1.0, 0.0], 0.0), ([half, 0.0], [0.0, 0.0], 0.0)])),
+            (paddle, single([0.5, RADIUS + gap], [0.0, 0.0], 0.0)),
+        ];
+        for (config, initial) in cases {
+            let seen = ending(&config, 0.0, &initial);
+            assert_eq!(ending(&config, skin, &initial), seen, "{margins} margins");
         }
     }
 }

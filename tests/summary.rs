@@ -76,6 +76,20 @@ fn powers_are_differences_of_energies() {
 }
 
 #[test]
+fn the_greatest_overlap_is_that_of_its_interval() {
+    let mut config = free_space();
+    config.run.sample_every = 1e-4;
+    let half = RADIUS + 1e-4;
+    let bodies = [([-half, 0.0], [0.5, 0.0], 0.0), ([half, 0.0], [-0.5, 0.0], 0.0)];
+    let mut simulation = start(&config, several(&bodies));
+    run(&mut simulation, 1e-3);
+    // They meet after 0.2 ms and part within another 0.2 ms.
+    let ratios = column(&simulation, "max_overlap_ratio");
+    assert!(ratios[..2].iter().chain(&ratios[5..]).all(|&ratio| ratio == 0.0), "{ratios:?}");
+    assert!(ratios[3] > 0.0, "{ratios:?}");
+}
+
+#[test]
 fn what_is_not_defined_is_none() {
     let mut config = free_space();
     config.run.sample_every = 1e-3;
