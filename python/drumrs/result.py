@@ -54,7 +54,8 @@ class Summary:
     energy_residual
         What the energy ledger fails to account for, relative, over the whole run.
     power_disagreement
-        Largest difference of the three powers over the largest of them.
+        Largest difference of the three powers over the largest of them, or over the stored energy by the window's
+        length where that is more.
     power_torque, power_ledger, power_balance
         The three powers [W/m]: torque times speed; energy stored and dissipated; gravity and angular momentum.
     force_x, force_y
