@@ -1,0 +1,37 @@
+//! One turn of the paper's drum, from Rust: 100 bundles, three baffles. Run it with
+//! `cargo run --release --example one_turn`.
+
+use drumrs::config::SimulationConfig;
+use drumrs::error::Error;
+use drumrs::simulation::Simulation;
+use drumrs::summary::summarize;
+
+/// Table 1 of Park & Wassgren (the baffles' size is an assumption), SI, 54 rpm.
+const CONFIG: &str = r#"{
+  "drum": {
+    "radius": 0.2375,
+    "baffles": {"count": 3, "shape": "triangle", "height": 0.05, "base": 0.06, "tip": 0.02, "points": null, "phase": 0.0},
+    "walls": []
+  },
+  "rotation": {"knots": [[0.0, 5.6548667764616276]]},
+  "load": {"count": 100, "diameter": 0.02375, "density": 1000.0, "start_speed": 0.0, "spin_locked": false},
+  "contact": {
+    "bundle": {"normal_stiffness": 9.25e7, "stiffness_ratio": 1.0, "restitution": 0.1, "normal_damping": null,
+               "friction": 0.5, "tension": "allowed"},
+    "drum": {"normal_stiffness": 9.70e7, "stiffness_ratio": 1.0, "restitution": 0.1, "normal_damping": null,
+             "friction": 0.5, "tension": "allowed"}
+  },
+  "gravity": [0.0, -9.81],
+  "run": {"time_step": 3.7e-6, "sample_every": 0.002, "frame_every": 0.04, "skin": null, "overlap_limit": 0.5}
+}"#;
+
+fn main() -> Result<(), Error> {
+    let mut simulation = Simulation::new(SimulationConfig::from_json(CONFIG)?, 1, 1)?;
+    let turn = std::f64::consts::TAU / 5.654_866_776_461_627_6;
+    simulation.run((turn / simulation.time_step()).ceil() as u64)?;
+    let series = &simulation.state().series;
+    for (name, value) in summarize(series, simulation.mass(), 0.5 * turn, turn)? {
+        println!("{name:26} {}", value.map_or("-".to_owned(), |value| format!("{value:.6e}")));
+    }
+    Ok(())
+}
