@@ -79,12 +79,11 @@ impl Laws {
     }
 }
 
-/// Four slots mostly have one law, which is then read once.
+/// A load of one material has one law, which is then read once.
 #[inline(always)]
 fn of_slots(laws: &[LinearLaw], slots: [SlotLaw; LANES]) -> LinearLanes {
-    let first = slots[0].law;
-    if slots.iter().all(|slot| slot.law == first) {
-        LinearLanes::splat(&laws[first as usize])
+    if let [law] = laws {
+        LinearLanes::splat(law)
     } else {
         LinearLanes::new(|lane| &laws[slots[lane].law as usize])
     }

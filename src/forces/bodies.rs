@@ -4,7 +4,7 @@ use crate::contact::linear::LinearLanes;
 use crate::contact::{Displacement, Encounter, HistoryLanes};
 use crate::energy::StepFlows;
 use crate::integrator::Motion;
-use crate::lanes::{LANES, Lanes, Vec2Lanes, lanes};
+use crate::lanes::{LANES, Lanes, Vec2Lanes, columns};
 
 /// Where bodies meet now.
 #[derive(Debug, Clone, Copy)]
@@ -26,9 +26,23 @@ pub trait Bodies {
     fn radius(&self) -> Lanes;
 }
 
+/// The first half of a motion, as it lies in memory.
+#[inline(always)]
+fn place(motion: &Motion) -> [f64; LANES] {
+    [motion.position.x, motion.position.y, motion.displacement.x, motion.displacement.y]
+}
+
+/// The second half of a motion.
+#[inline(always)]
+fn pace(motion: &Motion) -> [f64; LANES] {
+    [motion.velocity.x, motion.velocity.y, motion.turn, motion.radius]
+}
+
 /// Particles in pairs; they touch halfway into the overlap.
 #[derive(Debug, Clone, Copy)]
 pub struct Pairs {
+    /// From the owners' centers to the others' [m].
+    gap: Vec2Lanes,
     /// Relative displacement of the step [m].
     apart: Vec2Lanes,
     /// Relative velocity at the time of the force [m/s].
@@ -43,22 +57,27 @@ impl Pairs {
     /// Particles given as (owner, other) for each index.
     #[inline(always)]
     pub fn new(pair: [(&Motion, &Motion); LANES]) -> Self {
+        let [own_x, own_y, own_dx, own_dy] = columns(|lane| place(pair[lane].0));
+        let [x, y, dx, dy] = columns(|lane| place(pair[lane].1));
+        let [own_vx, own_vy, own_turn, own_radius] = columns(|lane| pace(pair[lane].0));
+        let [vx, vy, other_turn, other_radius] = columns(|lane| pace(pair[lane].1));
         Self {
-            apart: Vec2Lanes::new(|lane| pair[lane].1.displacement - pair[lane].0.displacement),
-            velocity: Vec2Lanes::new(|lane| pair[lane].1.velocity - pair[lane].0.velocity),
-            own_turn: lanes(|lane| pair[lane].0.turn),
-            other_turn: lanes(|lane| pair[lane].1.turn),
-            own_radius: lanes(|lane| pair[lane].0.radius),
-            other_radius: lanes(|lane| pair[lane].1.radius),
+            gap: Vec2Lanes { x: x - own_x, y: y - own_y },
+            apart: Vec2Lanes { x: dx - own_dx, y: dy - own_dy },
+            velocity: Vec2Lanes { x: vx - own_vx, y: vy - own_vy },
+            own_turn,
+            other_turn,
+            own_radius,
+            other_radius,
         }
     }
 
-    /// Where they meet, from the vectors between their centers.
+    /// Where they meet.
     #[inline(always)]
-    pub fn meet(&self, gap: Vec2Lanes) -> Meeting {
-        let distance = gap.dot(gap).sqrt();
+    pub fn meet(&self) -> Meeting {
+        let distance = self.gap.dot(self.gap).sqrt();
         let overlap = self.own_radius + self.other_radius - distance;
-        Meeting { overlap, normal: gap * (Lanes::ONE / distance) }
+        Meeting { overlap, normal: self.gap * (Lanes::ONE / distance) }
     }
 
     /// From the owners' centers to the points of contact [m].
@@ -113,12 +132,14 @@ impl Walls {
     /// A particle for each index, and how the drum turns.
     #[inline(always)]
     pub fn new(own: [&Motion; LANES], drum_turn: f64, angular_velocity: f64) -> Self {
+        let [x, y, dx, dy] = columns(|lane| place(own[lane]));
+        let [vx, vy, turn, radius] = columns(|lane| pace(own[lane]));
         Self {
-            position: Vec2Lanes::new(|lane| own[lane].position),
-            displacement: Vec2Lanes::new(|lane| own[lane].displacement),
-            velocity: Vec2Lanes::new(|lane| own[lane].velocity),
-            turn: lanes(|lane| own[lane].turn),
-            radius: lanes(|lane| own[lane].radius),
+            position: Vec2Lanes { x, y },
+            displacement: Vec2Lanes { x: dx, y: dy },
+            velocity: Vec2Lanes { x: vx, y: vy },
+            turn,
+            radius,
             drum_turn,
             angular_velocity,
         }

@@ -10,7 +10,7 @@ use super::{Scene, Sink};
 use crate::contact::HistoryLanes;
 use crate::energy::StepFlows;
 use crate::integrator::Motion;
-use crate::lanes::{LANES, Vec2Lanes, lanes};
+use crate::lanes::{LANES, lanes};
 use crate::vector::{dot, larger};
 
 /// Slots searched at a time.
@@ -89,7 +89,7 @@ impl<'a> Pass<'a> {
         let slots = batch.slots;
         let bodies = slots.map(|slot| self.motions(slot));
         let pairs = Pairs::new(bodies);
-        let meeting = pairs.meet(Vec2Lanes::new(|lane| bodies[lane].1.position - bodies[lane].0.position));
+        let meeting = pairs.meet();
         let history = HistoryLanes::new(|lane| &self.slots.histories[slots[lane]]);
         let keys = slots.map(|slot| self.slots.laws[slot]);
         let law = self.scene.laws.pair_lanes(keys);
