@@ -84,7 +84,7 @@ class _Lines(Board):
         def report(step: int) -> None:
             nonlocal due
             if time.perf_counter() >= due:
-                due += _MINUTE
+                due = time.perf_counter() + _MINUTE
                 sys.stderr.write(f"{meter.line(step)}\n")
                 sys.stderr.flush()
 
