@@ -1,42 +1,49 @@
-//! One call of the contact law, over contacts that press, pull, slide, stick, open and close.
+//! One call of the contact law, for four contacts at once, over contacts that press, pull, slide, stick, open and close.
 
 mod scenes;
 
 use std::hint::black_box;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use drumrs::contact::linear::LinearLaw;
-use drumrs::contact::{Displacement, Encounter, History};
+use drumrs::contact::linear::{LinearLanes, LinearLaw};
+use drumrs::contact::{Displacement, Encounter, History, HistoryLanes};
+use drumrs::lanes::{LANES, Lanes, lanes};
 
-fn encounters(law: &LinearLaw, count: i32) -> Vec<(Encounter, History)> {
-    let wave = |k: i32, n: i32| f64::from((k * n) % 31 - 15) / 15.0;
-    (0..count)
-        .map(|k| {
-            let displacement = Displacement { approach: 1e-7 * wave(k, 3), slip: 1e-7 * wave(k, 7) };
-            let overlap = 1e-6 * (1.0 + 1.1 * wave(k, 5));
-            let past = (overlap - displacement.approach).max(0.0);
-            let history = History {
-                overlap: past,
-                tangential_displacement: 0.5 * past * wave(k, 11),
-                normal_force: law.normal_stiffness * past,
-                ..History::default()
-            };
-            let step_rate = 1.0 / scenes::common::TIME_STEP;
-            let closing_speed = displacement.approach * step_rate;
-            (Encounter { overlap, displacement, closing_speed, damping: 5.35e3, step_rate }, history)
-        })
-        .collect()
+/// Numbers within ±1.
+fn wave(first: usize, pace: usize) -> Lanes {
+    lanes(|lane| ((first + lane) * pace % 31) as f64 / 15.0 - 1.0)
+}
+
+fn encounters(law: &LinearLaw, count: usize) -> Vec<(Encounter, HistoryLanes)> {
+    let none = History::default();
+    let encounter = |first: usize| {
+        let displacement = Displacement { approach: wave(first, 3) * 1e-7, slip: wave(first, 7) * 1e-7 };
+        let overlap = (wave(first, 5) * 1.1 + 1.0) * 1e-6;
+        let past = (overlap - displacement.approach).fast_max(Lanes::ZERO);
+        let history = HistoryLanes {
+            overlap: past,
+            tangential_displacement: past * wave(first, 11) * 0.5,
+            normal_force: past * law.normal_stiffness,
+            ..HistoryLanes::new(|_| &none)
+        };
+        let step_rate = 1.0 / scenes::common::TIME_STEP;
+        let closing_speed = displacement.approach * step_rate;
+        let damping = Lanes::splat(5.35e3);
+        (Encounter { overlap, displacement, closing_speed, damping, step_rate }, history)
+    };
+    (0..count).step_by(LANES).map(encounter).collect()
 }
 
 fn responses(criterion: &mut Criterion) {
     let law = LinearLaw::from(&scenes::common::law(9.25e7));
     let contacts = encounters(&law, 1024);
+    let laws = LinearLanes::splat(&law);
     let mut group = criterion.benchmark_group("law");
-    group.throughput(Throughput::Elements(contacts.len() as u64));
+    group.throughput(Throughput::Elements((contacts.len() * LANES) as u64));
     group.bench_function("linear", |bencher| {
         bencher.iter(|| {
             for (encounter, history) in &contacts {
-                black_box(law.respond(black_box(encounter), black_box(history)));
+                black_box(laws.respond(black_box(encounter), black_box(history)));
             }
         });
     });

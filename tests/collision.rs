@@ -5,8 +5,8 @@
 mod common;
 
 use common::*;
+use drumrs::contact::History;
 use drumrs::contact::linear::{LinearLaw, Tension};
-use drumrs::contact::{Displacement, Encounter, History};
 use drumrs::simulation::Simulation;
 use drumrs::vector::cross;
 
@@ -124,14 +124,7 @@ fn friction_accounts_for_its_own_work() {
             tangential_force: law.tangential_stiffness * stretch,
             ..History::default()
         };
-        let encounter = Encounter {
-            overlap: 1e-6,
-            displacement: Displacement { approach: 0.0, slip },
-            closing_speed: 0.0,
-            damping: 5e3,
-            step_rate: 2.7e5,
-        };
-        let response = law.respond(&encounter, &history);
+        let response = respond(&law, 1e-6, (0.0, slip), &history);
         let work = 0.5 * (history.tangential_force + response.tangential_force) * slip;
         let after = History { tangential_displacement: response.tangential_displacement, ..history };
         let gained = law.stored(&after).1 - law.stored(&history).1;

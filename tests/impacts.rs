@@ -9,8 +9,8 @@ mod common;
 
 use common::*;
 use drumrs::config::SimulationConfig;
+use drumrs::contact::History;
 use drumrs::contact::linear::LinearLaw;
-use drumrs::contact::{Displacement, Encounter, History};
 use drumrs::simulation::Simulation;
 use drumrs::start::InitialState;
 use drumrs::vector::Vec2;
@@ -246,14 +246,7 @@ fn a_spring_still_stretched_at_the_end_is_lost() {
 #[test]
 fn a_step_before_first_touch_does_not_stretch_the_spring() {
     let law = LinearLaw::from(&common::law(9.25e7));
-    let encounter = |overlap: f64| Encounter {
-        overlap,
-        displacement: Displacement { approach: 4e-6, slip: 1e-8 },
-        closing_speed: 1.0,
-        damping: 0.0,
-        step_rate: 2.5e5,
-    };
-    let stretch = |overlap, history| law.respond(&encounter(overlap), &history).tangential_displacement;
+    let stretch = |overlap, history| respond(&law, overlap, (4e-6, 1e-8), &history).tangential_displacement;
     assert_eq!(stretch(1e-6, History::default()), 0.25 * 1e-8);
     assert_eq!(stretch(4e-6, History::default()), 1e-8);
     let touching = History { overlap: 1e-6, tangential_displacement: 2e-8, ..History::default() };

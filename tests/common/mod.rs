@@ -3,10 +3,12 @@
 #![allow(dead_code)] // Each test binary uses its own part.
 
 use drumrs::config::{ContactParameters, LoadParameters, RunParameters, SimulationConfig};
-use drumrs::contact::linear::{LinearParameters, Tension};
+use drumrs::contact::linear::{LinearLanes, LinearLaw, LinearParameters, Tension};
+use drumrs::contact::{Displacement, Encounter, History, HistoryLanes};
 use drumrs::drum::DrumParameters;
 use drumrs::drum::baffle::{BaffleParameters, BaffleShape};
 use drumrs::drum::rotation::RotationSchedule;
+use drumrs::lanes::Lanes;
 use drumrs::simulation::Simulation;
 use drumrs::start::InitialState;
 use drumrs::summary::summarize;
@@ -73,6 +75,30 @@ pub fn baseline(count: usize, baffle_count: usize) -> SimulationConfig {
 /// The point at `radius` from the axis in the direction `angle` [rad].
 pub fn polar(radius: f64, angle: f64) -> [f64; 2] {
     [radius * libm::cos(angle), radius * libm::sin(angle)]
+}
+
+/// What a law answers for one contact.
+pub struct Answer {
+    pub tangential_force: f64,
+    pub tangential_displacement: f64,
+    pub dissipated_sliding: f64,
+}
+
+/// A step without damping that ends at `overlap`, with the displacement (approach, slip).
+pub fn respond(law: &LinearLaw, overlap: f64, (approach, slip): (f64, f64), history: &History) -> Answer {
+    let encounter = Encounter {
+        overlap: Lanes::splat(overlap),
+        displacement: Displacement { approach: Lanes::splat(approach), slip: Lanes::splat(slip) },
+        closing_speed: Lanes::ZERO,
+        damping: Lanes::ZERO,
+        step_rate: 1.0 / TIME_STEP,
+    };
+    let response = LinearLanes::splat(law).respond(&encounter, &HistoryLanes::new(|_| history));
+    Answer {
+        tangential_force: response.tangential_force.to_array()[0],
+        tangential_displacement: response.tangential_displacement.to_array()[0],
+        dissipated_sliding: response.dissipated_sliding.to_array()[0],
+    }
 }
 
 /// Bundles of Table 1 in free space without gravity: no drum, no walls.
