@@ -162,9 +162,10 @@ fn check(state: &State, contacts: &TouchingContacts, config: &SimulationConfig) 
     }
     let known = |contacts: &[Contact], others: u32| {
         contacts.iter().all(|contact| contact.particle < count && contact.other < others)
-            && contacts.is_sorted_by_key(|contact| (contact.particle, contact.other))
+            && contacts.is_sorted_by(|a, b| (a.particle, a.other) < (b.particle, b.other))
     };
-    if known(&contacts.pairs, count) && known(&contacts.walls, drum.feature_count()) {
+    let ordered = contacts.pairs.iter().all(|contact| contact.particle < contact.other);
+    if ordered && known(&contacts.pairs, count) && known(&contacts.walls, drum.feature_count()) {
         Ok(())
     } else {
         Err(refuse("its contacts are not those of its bundles"))

@@ -52,6 +52,7 @@ impl Vec2Lanes {
     }
 
     /// Turned by +90°.
+    #[must_use]
     #[inline(always)]
     pub fn perpendicular(self) -> Self {
         Self { x: -self.y, y: self.x }

@@ -244,7 +244,7 @@ pub fn settle(
     // The division waits for an overlap deeper than any before.
     let deepest = flows.overlap_ratio * bodies.radius();
     if (in_use & overlap.simd_gt(deepest)).any() {
-        flows.overlap_ratio = flows.overlap_ratio.fast_max(in_use & overlap / bodies.radius());
+        flows.overlap_ratio = flows.overlap_ratio.fast_max(in_use & (overlap / bodies.radius()));
     }
     HistoryLanes {
         overlap: touching & overlap,
