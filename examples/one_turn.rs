@@ -27,7 +27,8 @@ const CONFIG: &str = r#"{
 
 fn main() -> Result<(), Error> {
     let mut simulation = Simulation::new(SimulationConfig::from_json(CONFIG)?, 1, 1)?;
-    let turn = std::f64::consts::TAU / 5.654_866_776_461_627_6;
+    let speed = simulation.config().rotation.angular_velocity(0.0);
+    let turn = std::f64::consts::TAU / speed;
     simulation.run((turn / simulation.time_step()).ceil() as u64)?;
     let series = &simulation.state().series;
     for (name, value) in summarize(series, simulation.mass(), 0.5 * turn, turn)? {

@@ -77,22 +77,50 @@ impl Integrator {
         }
     }
 
-    /// Half a kick, then the drift, while the drum turns by `turn` [rad].
+    /// Half a kick with the known accelerations, then the drift, while the drum turns by `turn` [rad].
     pub fn drift(&mut self, particles: &mut Particles, turn: f64, threads: &Threads) -> DriftSums {
-        let count = particles.len();
-        let (time_step, half_step) = (self.time_step, 0.5 * self.time_step);
-        let work = Drift {
+        let known =
+            Known { accelerations: &particles.accelerations, spin_rates: &particles.angular_accelerations };
+        let moved = Moved {
             positions: &mut particles.positions,
             velocities: &mut particles.velocities,
             angles: &mut particles.angles,
             spins: &mut particles.angular_velocities,
-            accelerations: &particles.accelerations,
-            spin_rates: &particles.angular_accelerations,
-            masses: &particles.masses,
-            motions: &mut self.motions,
-            sums: &mut self.chunks,
         };
-        threads.for_each_chunk(count, work, &|chunk: Drift| chunk.run(time_step, half_step, turn));
+        let (time_step, masses) = (self.time_step, &particles.masses);
+        let work = Drift { pull: known, moved, masses, motions: &mut self.motions, sums: &mut self.chunks };
+        threads.for_each_chunk(masses.len(), work, &|chunk: Drift<Known>| chunk.run(time_step, turn));
+        self.sum()
+    }
+
+    /// The second half of a kick and a `drift` in one pass over the particles, for steps between which nobody looks:
+    /// the same operations, but accelerations are not kept.
+    pub fn kick_and_drift(
+        &mut self,
+        particles: &mut Particles,
+        loads: &[Load],
+        turn: f64,
+        threads: &Threads,
+    ) -> DriftSums {
+        let fresh = Fresh {
+            loads,
+            inverse_masses: &self.inverse_masses,
+            inverse_inertias: &self.inverse_inertias,
+            gravity: self.gravity,
+        };
+        let moved = Moved {
+            positions: &mut particles.positions,
+            velocities: &mut particles.velocities,
+            angles: &mut particles.angles,
+            spins: &mut particles.angular_velocities,
+        };
+        let (time_step, masses) = (self.time_step, &particles.masses);
+        let work = Drift { pull: fresh, moved, masses, motions: &mut self.motions, sums: &mut self.chunks };
+        threads.for_each_chunk(masses.len(), work, &|chunk: Drift<Fresh>| chunk.run(time_step, turn));
+        self.sum()
+    }
+
+    fn sum(&self) -> DriftSums {
         let start = (Vec2::zeros(), 0.0_f64);
         let (mass_moment, longest_squared) =
             self.chunks.iter().fold(start, |sum, chunk| (sum.0 + chunk.0, sum.1.max(chunk.1)));
@@ -124,36 +152,130 @@ impl Integrator {
     }
 }
 
-struct Drift<'a> {
+/// Where a drift takes its accelerations from.
+trait Pull: Send + Sized {
+    /// Whether the velocities still lack the second half of the last kick.
+    const UNFINISHED: bool;
+    /// Acceleration and angular acceleration of a particle of the chunk.
+    fn of(&self, i: usize) -> (Vec2, f64);
+    fn split(self, at: usize) -> (Self, Self);
+}
+
+/// The accelerations that the particles carry.
+struct Known<'a> {
+    accelerations: &'a [Vec2],
+    spin_rates: &'a [f64],
+}
+
+impl Pull for Known<'_> {
+    const UNFINISHED: bool = false;
+
+    #[inline]
+    fn of(&self, i: usize) -> (Vec2, f64) {
+        (self.accelerations[i], self.spin_rates[i])
+    }
+
+    fn split(self, at: usize) -> (Self, Self) {
+        let (accelerations, more_accelerations) = self.accelerations.split_at(at);
+        let (spin_rates, more_spin_rates) = self.spin_rates.split_at(at);
+        (
+            Self { accelerations, spin_rates },
+            Self { accelerations: more_accelerations, spin_rates: more_spin_rates },
+        )
+    }
+}
+
+/// Accelerations from the loads of the last force pass.
+struct Fresh<'a> {
+    loads: &'a [Load],
+    inverse_masses: &'a [f64],
+    inverse_inertias: &'a [f64],
+    gravity: Vec2,
+}
+
+impl Pull for Fresh<'_> {
+    const UNFINISHED: bool = true;
+
+    #[inline]
+    fn of(&self, i: usize) -> (Vec2, f64) {
+        let load = &self.loads[i];
+        (load.force * self.inverse_masses[i] + self.gravity, load.moment * self.inverse_inertias[i])
+    }
+
+    fn split(self, at: usize) -> (Self, Self) {
+        let (loads, more_loads) = self.loads.split_at(at);
+        let (inverse_masses, more_inverse_masses) = self.inverse_masses.split_at(at);
+        let (inverse_inertias, more_inverse_inertias) = self.inverse_inertias.split_at(at);
+        let gravity = self.gravity;
+        (
+            Self { loads, inverse_masses, inverse_inertias, gravity },
+            Self {
+                loads: more_loads,
+                inverse_masses: more_inverse_masses,
+                inverse_inertias: more_inverse_inertias,
+                gravity,
+            },
+        )
+    }
+}
+
+/// What a drift changes.
+struct Moved<'a> {
     positions: &'a mut [Vec2],
     velocities: &'a mut [Vec2],
     angles: &'a mut [f64],
     spins: &'a mut [f64],
-    accelerations: &'a [Vec2],
-    spin_rates: &'a [f64],
+}
+
+impl Moved<'_> {
+    fn split(self, at: usize) -> (Self, Self) {
+        let (positions, more_positions) = self.positions.split_at_mut(at);
+        let (velocities, more_velocities) = self.velocities.split_at_mut(at);
+        let (angles, more_angles) = self.angles.split_at_mut(at);
+        let (spins, more_spins) = self.spins.split_at_mut(at);
+        (
+            Self { positions, velocities, angles, spins },
+            Self {
+                positions: more_positions,
+                velocities: more_velocities,
+                angles: more_angles,
+                spins: more_spins,
+            },
+        )
+    }
+}
+
+struct Drift<'a, P> {
+    pull: P,
+    moved: Moved<'a>,
     masses: &'a [f64],
     motions: &'a mut [Motion],
     sums: &'a mut [(Vec2, f64)],
 }
 
-impl Drift<'_> {
-    fn run(self, time_step: f64, half_step: f64, turn: f64) {
+impl<P: Pull> Drift<'_, P> {
+    fn run(self, time_step: f64, turn: f64) {
+        let half_step = 0.5 * time_step;
         let mut mass_moment = Vec2::zeros();
         let mut longest_squared = 0.0_f64;
         let n = self.motions.len();
         // Slices of one known length let the compiler drop the bounds checks.
-        let (positions, velocities) = (&mut self.positions[..n], &mut self.velocities[..n]);
-        let (angles, spins) = (&mut self.angles[..n], &mut self.spins[..n]);
-        let (accelerations, spin_rates) = (&self.accelerations[..n], &self.spin_rates[..n]);
+        let (positions, velocities) = (&mut self.moved.positions[..n], &mut self.moved.velocities[..n]);
+        let (angles, spins) = (&mut self.moved.angles[..n], &mut self.moved.spins[..n]);
         let masses = &self.masses[..n];
         for (i, motion) in self.motions.iter_mut().enumerate() {
-            let kick = accelerations[i] * half_step;
-            let velocity = velocities[i] + kick;
+            let (acceleration, spin_rate) = self.pull.of(i);
+            let (kick, twist) = (acceleration * half_step, spin_rate * half_step);
+            let (mut velocity, mut spin) = (velocities[i], spins[i]);
+            if P::UNFINISHED {
+                velocity += kick;
+                spin += twist;
+            }
+            velocity += kick;
+            spin += twist;
             let displacement = velocity * time_step;
             let way = displacement - perpendicular(positions[i]) * turn;
             let position = positions[i] + displacement;
-            let twist = spin_rates[i] * half_step;
-            let spin = spins[i] + twist;
             let own_turn = spin * time_step;
             velocities[i] = velocity;
             positions[i] = position;
@@ -172,34 +294,26 @@ impl Drift<'_> {
     }
 }
 
-impl Chunked for Drift<'_> {
+impl<P: Pull> Chunked for Drift<'_, P> {
     fn chunks(&self) -> usize {
         self.sums.len()
     }
 
     fn split(self, chunks: usize) -> (Self, Self) {
         let at = chunks * CHUNK;
-        let (positions, positions_rest) = self.positions.split_at_mut(at);
-        let (velocities, velocities_rest) = self.velocities.split_at_mut(at);
-        let (angles, angles_rest) = self.angles.split_at_mut(at);
-        let (spins, spins_rest) = self.spins.split_at_mut(at);
-        let (accelerations, accelerations_rest) = self.accelerations.split_at(at);
-        let (spin_rates, spin_rates_rest) = self.spin_rates.split_at(at);
-        let (masses, masses_rest) = self.masses.split_at(at);
-        let (motions, motions_rest) = self.motions.split_at_mut(at);
-        let (sums, sums_rest) = self.sums.split_at_mut(chunks);
+        let (pull, more_pull) = self.pull.split(at);
+        let (moved, more_moved) = self.moved.split(at);
+        let (masses, more_masses) = self.masses.split_at(at);
+        let (motions, more_motions) = self.motions.split_at_mut(at);
+        let (sums, more_sums) = self.sums.split_at_mut(chunks);
         (
-            Self { positions, velocities, angles, spins, accelerations, spin_rates, masses, motions, sums },
+            Self { pull, moved, masses, motions, sums },
             Self {
-                positions: positions_rest,
-                velocities: velocities_rest,
-                angles: angles_rest,
-                spins: spins_rest,
-                accelerations: accelerations_rest,
-                spin_rates: spin_rates_rest,
-                masses: masses_rest,
-                motions: motions_rest,
-                sums: sums_rest,
+                pull: more_pull,
+                moved: more_moved,
+                masses: more_masses,
+                motions: more_motions,
+                sums: more_sums,
             },
         )
     }

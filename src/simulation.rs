@@ -7,7 +7,7 @@ use crate::drum::Drum;
 use crate::energy::{Balance, EnergyLedger, StoredEnergy};
 use crate::error::Error;
 use crate::forces::{ForcePass, Scene};
-use crate::integrator::Integrator;
+use crate::integrator::{DriftSums, Integrator};
 use crate::neighbors::{Surroundings, VerletList};
 use crate::packing::pack;
 use crate::particles::Particles;
@@ -32,6 +32,8 @@ pub struct Simulation {
     integrator: Integrator,
     forces: ForcePass,
     threads: Threads,
+    /// Whether the second half of the last kick is still to come; never between two runs.
+    kick_waits: bool,
     failure: Option<Error>,
 }
 
@@ -144,6 +146,7 @@ impl Simulation {
             table,
             fixed,
             threads,
+            kick_waits: false,
             failure: None,
         }
     }
@@ -174,23 +177,26 @@ impl Simulation {
     /// `Error::NonFinite`, `Error::Overlap` or `Error::Escaped`; the simulation then stays as it is and answers every
     /// further run with the same error.
     pub fn run(&mut self, steps: u64) -> Result<(), Error> {
-        for _ in 0..steps {
+        for left in (0..steps).rev() {
             if let Some(failure) = &self.failure {
                 return Err(failure.clone());
             }
-            if let Err(failure) = self.step() {
+            if let Err(failure) = self.step(left == 0) {
+                self.finish_kick();
                 self.failure = Some(failure);
             }
         }
         self.failure.clone().map_or(Ok(()), Err)
     }
 
-    fn step(&mut self) -> Result<(), Error> {
+    /// One step. The second half of its kick waits for the next step's drift where nobody looks in between; `last`
+    /// says that somebody will.
+    fn step(&mut self, last: bool) -> Result<(), Error> {
         let (from, to) = (self.time(), self.time_at(self.state.step + 1));
         let schedule = &self.config.rotation;
         let (angle, angular_velocity) = (schedule.angle(to), schedule.angular_velocity(to));
         let turn = schedule.angle_increment(from, to);
-        let sums = self.integrator.drift(&mut self.state.particles, turn, &self.threads);
+        let sums = self.drift(turn);
         self.state.step += 1;
         if !(sums.mass_moment.x + sums.mass_moment.y).is_finite() {
             let particle = self.state.particles.first_non_finite().unwrap_or(0);
@@ -202,11 +208,34 @@ impl Simulation {
             self.rebuild(rotation);
         }
         self.evaluate(Instant { rotation, angular_velocity, turn });
-        self.integrator.kick(&mut self.state.particles, &self.forces.loads, &self.threads);
+        self.kick_waits = true;
+        if last || self.fixed.steady_speed.is_none() || self.is_record_due() {
+            self.finish_kick();
+        }
         self.charge(sums.mass_moment, turn);
         self.guard()?;
         self.record();
         Ok(())
+    }
+
+    fn drift(&mut self, turn: f64) -> DriftSums {
+        let (particles, threads) = (&mut self.state.particles, &self.threads);
+        if std::mem::take(&mut self.kick_waits) {
+            self.integrator.kick_and_drift(particles, &self.forces.loads, turn, threads)
+        } else {
+            self.integrator.drift(particles, turn, threads)
+        }
+    }
+
+    fn finish_kick(&mut self) {
+        if std::mem::take(&mut self.kick_waits) {
+            self.integrator.kick(&mut self.state.particles, &self.forces.loads, &self.threads);
+        }
+    }
+
+    fn is_record_due(&self) -> bool {
+        let step = self.state.step;
+        step.is_multiple_of(self.fixed.sample_steps) || step.is_multiple_of(self.fixed.frame_steps)
     }
 
     /// Whether the drum has anything but a rim, for which its rotation matters.

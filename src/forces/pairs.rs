@@ -10,7 +10,7 @@ use super::{Scene, Sink};
 use crate::contact::HistoryLanes;
 use crate::energy::StepFlows;
 use crate::integrator::Motion;
-use crate::lanes::{LANES, lanes};
+use crate::lanes::{LANES, Lanes, lanes};
 use crate::vector::{dot, larger};
 
 /// Slots searched at a time.
@@ -19,7 +19,7 @@ const BLOCK: usize = 128;
 /// Evaluates the slots in their order.
 pub fn evaluate(scene: Scene, slots: SlotSlice, sink: &mut impl Sink) -> StepFlows {
     let mut pass = Pass { scene, slots, flows: FlowLanes::zero() };
-    let mut awake = [0_u32; BLOCK];
+    let mut awake = [0_u32; BLOCK + LANES];
     // Contacts wait here until there are four of them.
     let mut waiting = [0_u32; 2 * BLOCK];
     let mut count = 0;
@@ -39,6 +39,24 @@ pub fn evaluate(scene: Scene, slots: SlotSlice, sink: &mut impl Sink) -> StepFlo
     pass.flows.total()
 }
 
+/// For each set of lanes, as bits: its lanes in front, in their order.
+const IN_FRONT: [[u32; LANES]; 1 << LANES] = {
+    let mut table = [[0; LANES]; 1 << LANES];
+    let mut set = 0;
+    while set < table.len() {
+        let (mut lane, mut count) = (0, 0);
+        while lane < LANES {
+            if set >> lane & 1 == 1 {
+                table[set][count] = lane as u32;
+                count += 1;
+            }
+            lane += 1;
+        }
+        set += 1;
+    }
+    table
+};
+
 struct Pass<'a> {
     scene: Scene<'a>,
     slots: SlotSlice<'a>,
@@ -55,12 +73,25 @@ impl<'a> Pass<'a> {
     /// Lists the slots of a block that may matter at this step: a slot sleeps until the particles could have closed
     /// its gap.
     #[inline(always)]
-    fn find_awake(&self, start: usize, awake: &mut [u32; BLOCK]) -> usize {
+    fn find_awake(&self, start: usize, awake: &mut [u32; BLOCK + LANES]) -> usize {
         let end = (start + BLOCK).min(self.slots.wake.len());
-        let mut count = 0;
-        for (offset, &due) in self.slots.wake[start..end].iter().enumerate() {
-            awake[count & (BLOCK - 1)] = (start + offset) as u32;
+        let (fours, rest) = self.slots.wake[start..end].as_chunks::<LANES>();
+        let way = Lanes::splat(self.scene.way);
+        let (mut first, mut count) = (start as u32, 0);
+        for &four in fours {
+            let due = Lanes::new(four).simd_le(way).to_bitmask() as usize;
+            // All four are written, those awake in front; the next four overwrite the others.
+            let front = &IN_FRONT[due & 15];
+            for lane in 0..LANES {
+                awake[(count & (BLOCK - 1)) + lane] = first + front[lane];
+            }
+            count += due.count_ones() as usize;
+            first += LANES as u32;
+        }
+        for &due in rest {
+            awake[count & (BLOCK - 1)] = first;
             count += usize::from(due <= self.scene.way);
+            first += 1;
         }
         count
     }
