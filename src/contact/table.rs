@@ -22,8 +22,8 @@ pub struct SlotRows {
     pub laws: Vec<SlotLaw>,
     /// Everything that survives a step.
     pub histories: Vec<History>,
-    /// A slot sleeps until the way that the list counts reaches this [m]: before, no contact can have formed. Scratch
-    /// that saves work and changes no result.
+    /// A slot sleeps until the way that the list counts reaches this [m]: before, no contact can have formed. Below zero
+    /// while the bodies touch, so that a search need not read histories. Scratch that saves work and changes no result.
     pub wake: Vec<f64>,
 }
 
@@ -76,6 +76,12 @@ impl SlotRows {
         })
     }
 
+    /// When a slot wakes whose gap is not known.
+    #[inline]
+    pub fn wake_of(history: &History) -> f64 {
+        if history.is_touching() { -1.0 } else { 0.0 }
+    }
+
     /// Forgets all slots and starts anew with row 0.
     fn clear(&mut self) {
         self.starts.clear();
@@ -92,7 +98,7 @@ impl SlotRows {
         self.other.push(other);
         self.laws.push(law);
         self.histories.push(history);
-        self.wake.push(0.0);
+        self.wake.push(Self::wake_of(&history));
     }
 
     fn end_row(&mut self) {

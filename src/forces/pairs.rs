@@ -8,6 +8,7 @@ use super::bodies::{FlowLanes, Pairs, settle};
 use super::slots::SlotSlice;
 use super::{Scene, Sink};
 use crate::contact::HistoryLanes;
+use crate::contact::table::SlotRows;
 use crate::energy::StepFlows;
 use crate::integrator::Motion;
 use crate::lanes::{LANES, Lanes, lanes};
@@ -106,7 +107,7 @@ impl<'a> Pass<'a> {
             let reach = own.radius + other.radius;
             // Each of the two has to go half of the gap, which is (distance² − reach²) / (distance + reach).
             let excess = dot(gap, gap) - reach * reach;
-            let in_contact = (excess < 0.0) | self.slots.histories[slot as usize].is_touching();
+            let in_contact = (excess < 0.0) | (self.slots.wake[slot as usize] < 0.0);
             self.slots.wake[slot as usize] = self.scene.way + self.scene.half_gap * larger(excess, 0.0);
             waiting[count & (2 * BLOCK - 1)] = slot;
             count += usize::from(in_contact);
@@ -133,6 +134,7 @@ impl<'a> Pass<'a> {
         let histories = now.to_array();
         for lane in 0..batch.count {
             let slot = slots[lane];
+            self.slots.wake[slot] = SlotRows::wake_of(&histories[lane]);
             self.slots.histories[slot] = histories[lane];
             sink.add(self.slots.owner[slot] as usize, forces[lane], own_moments[lane]);
             sink.add(self.slots.other[slot] as usize, -forces[lane], other_moments[lane]);
