@@ -21,13 +21,6 @@ pub fn lanes(number: impl Fn(usize) -> f64) -> Lanes {
     Lanes::new([number(0), number(1), number(2), number(3)])
 }
 
-/// The columns of four rows of four numbers that lie next to each other in memory: two shuffles a number less than
-/// picking them one by one.
-#[inline(always)]
-pub fn columns(row: impl Fn(usize) -> [f64; LANES]) -> [Lanes; LANES] {
-    Lanes::transpose([row(0).into(), row(1).into(), row(2).into(), row(3).into()])
-}
-
 /// Four vectors.
 #[derive(Debug, Clone, Copy)]
 pub struct Vec2Lanes {

@@ -16,7 +16,7 @@ pub mod table;
 
 use serde::{Deserialize, Serialize};
 
-use crate::lanes::{LANES, Lanes, Vec2Lanes, columns};
+use crate::lanes::{LANES, Lanes, Vec2Lanes, lanes};
 use crate::vector::{Vec2, perpendicular};
 
 /// What must survive a step, and nothing else: the tangential spring, and the force with the frame it acted in,
@@ -69,12 +69,13 @@ impl HistoryLanes {
     /// A history for each index.
     #[inline(always)]
     pub fn new<'a>(history: impl Fn(usize) -> &'a History) -> Self {
-        let [overlap, tangential_displacement, normal_force, tangential_force] = columns(|lane| {
-            let past = history(lane);
-            [past.overlap, past.tangential_displacement, past.normal_force, past.tangential_force]
-        });
-        let normal = Vec2Lanes::new(|lane| history(lane).normal);
-        Self { overlap, tangential_displacement, normal_force, tangential_force, normal }
+        Self {
+            overlap: lanes(|lane| history(lane).overlap),
+            tangential_displacement: lanes(|lane| history(lane).tangential_displacement),
+            normal_force: lanes(|lane| history(lane).normal_force),
+            tangential_force: lanes(|lane| history(lane).tangential_force),
+            normal: Vec2Lanes::new(|lane| history(lane).normal),
+        }
     }
 
     /// The forces on the owners.
@@ -86,16 +87,16 @@ impl HistoryLanes {
     /// The histories, one by one.
     #[inline(always)]
     pub fn to_array(self) -> [History; LANES] {
-        let rows = Lanes::transpose([
-            self.overlap,
-            self.tangential_displacement,
-            self.normal_force,
-            self.tangential_force,
-        ]);
+        let (overlap, stretch) = (self.overlap.to_array(), self.tangential_displacement.to_array());
+        let (normal_force, tangential_force) =
+            (self.normal_force.to_array(), self.tangential_force.to_array());
         let normal = self.normal.to_array();
-        std::array::from_fn(|lane| {
-            let [overlap, tangential_displacement, normal_force, tangential_force] = rows[lane].to_array();
-            History { overlap, tangential_displacement, normal_force, tangential_force, normal: normal[lane] }
+        std::array::from_fn(|lane| History {
+            overlap: overlap[lane],
+            tangential_displacement: stretch[lane],
+            normal_force: normal_force[lane],
+            tangential_force: tangential_force[lane],
+            normal: normal[lane],
         })
     }
 }

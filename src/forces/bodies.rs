@@ -4,7 +4,8 @@ use crate::contact::linear::LinearLanes;
 use crate::contact::{Displacement, Encounter, HistoryLanes};
 use crate::energy::StepFlows;
 use crate::integrator::Motion;
-use crate::lanes::{LANES, Lanes, Vec2Lanes, columns};
+use crate::lanes::{LANES, Lanes, Vec2Lanes, lanes};
+use crate::vector::Vec2;
 
 /// Where bodies meet now.
 #[derive(Debug, Clone, Copy)]
@@ -26,18 +27,6 @@ pub trait Bodies {
     fn radius(&self) -> Lanes;
 }
 
-/// The first half of a motion, as it lies in memory.
-#[inline(always)]
-fn place(motion: &Motion) -> [f64; LANES] {
-    [motion.position.x, motion.position.y, motion.displacement.x, motion.displacement.y]
-}
-
-/// The second half of a motion.
-#[inline(always)]
-fn pace(motion: &Motion) -> [f64; LANES] {
-    [motion.velocity.x, motion.velocity.y, motion.turn, motion.radius]
-}
-
 /// Particles in pairs; they touch halfway into the overlap.
 #[derive(Debug, Clone, Copy)]
 pub struct Pairs {
@@ -57,18 +46,15 @@ impl Pairs {
     /// Particles given as (owner, other) for each index.
     #[inline(always)]
     pub fn new(pair: [(&Motion, &Motion); LANES]) -> Self {
-        let [own_x, own_y, own_dx, own_dy] = columns(|lane| place(pair[lane].0));
-        let [x, y, dx, dy] = columns(|lane| place(pair[lane].1));
-        let [own_vx, own_vy, own_turn, own_radius] = columns(|lane| pace(pair[lane].0));
-        let [vx, vy, other_turn, other_radius] = columns(|lane| pace(pair[lane].1));
+        let between = |of: fn(&Motion) -> Vec2| Vec2Lanes::new(|lane| of(pair[lane].1) - of(pair[lane].0));
         Self {
-            gap: Vec2Lanes { x: x - own_x, y: y - own_y },
-            apart: Vec2Lanes { x: dx - own_dx, y: dy - own_dy },
-            velocity: Vec2Lanes { x: vx - own_vx, y: vy - own_vy },
-            own_turn,
-            other_turn,
-            own_radius,
-            other_radius,
+            gap: between(|motion| motion.position),
+            apart: between(|motion| motion.displacement),
+            velocity: between(|motion| motion.velocity),
+            own_turn: lanes(|lane| pair[lane].0.turn),
+            other_turn: lanes(|lane| pair[lane].1.turn),
+            own_radius: lanes(|lane| pair[lane].0.radius),
+            other_radius: lanes(|lane| pair[lane].1.radius),
         }
     }
 
@@ -132,14 +118,12 @@ impl Walls {
     /// A particle for each index, and how the drum turns.
     #[inline(always)]
     pub fn new(own: [&Motion; LANES], drum_turn: f64, angular_velocity: f64) -> Self {
-        let [x, y, dx, dy] = columns(|lane| place(own[lane]));
-        let [vx, vy, turn, radius] = columns(|lane| pace(own[lane]));
         Self {
-            position: Vec2Lanes { x, y },
-            displacement: Vec2Lanes { x: dx, y: dy },
-            velocity: Vec2Lanes { x: vx, y: vy },
-            turn,
-            radius,
+            position: Vec2Lanes::new(|lane| own[lane].position),
+            displacement: Vec2Lanes::new(|lane| own[lane].displacement),
+            velocity: Vec2Lanes::new(|lane| own[lane].velocity),
+            turn: lanes(|lane| own[lane].turn),
+            radius: lanes(|lane| own[lane].radius),
             drum_turn,
             angular_velocity,
         }
