@@ -125,10 +125,8 @@ pub fn mass_moment(particles: &Particles) -> Vec2 {
 /// Energy in all springs [J/m]: (normal, tangential).
 pub fn elastic_energies(table: &ContactTable, laws: &Laws) -> (f64, f64) {
     let mut sums = (0.0, 0.0);
-    let pairs =
-        table.pairs.histories.iter().zip(&table.pairs.laws).map(|(past, &slot)| (past, laws.pair(slot)));
-    let walls =
-        table.walls.histories.iter().zip(&table.walls.laws).map(|(past, &slot)| (past, laws.wall(slot)));
+    let pairs = table.pairs.records.iter().map(|record| (&record.history, laws.pair(record.law)));
+    let walls = table.walls.records.iter().map(|record| (&record.history, laws.wall(record.law)));
     for (history, law) in pairs.chain(walls).filter(|(history, _)| history.is_touching()) {
         let (normal, tangential) = law.stored(history);
         sums.0 += normal;

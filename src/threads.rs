@@ -6,7 +6,7 @@
 use crate::error::Error;
 
 /// Particles per chunk.
-pub const CHUNK: usize = 256;
+pub const CHUNK: usize = 512;
 
 /// Number of chunks that `count` particles make.
 pub fn chunk_count(count: usize) -> usize {

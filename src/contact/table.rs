@@ -18,13 +18,21 @@ pub struct SlotRows {
     pub owner: Vec<u32>,
     /// The other side: a particle of higher id, or a feature of the drum.
     pub other: Vec<u32>,
-    /// Law and damping of each slot.
-    pub laws: Vec<SlotLaw>,
-    /// Everything that survives a step.
-    pub histories: Vec<History>,
+    /// Law, damping and history of each slot.
+    pub records: Vec<Record>,
     /// A slot sleeps until the way that the list counts reaches this [m]: before, no contact can have formed. Below zero
     /// while the bodies touch, so that a search need not read histories. Scratch that saves work and changes no result.
     pub wake: Vec<f64>,
+}
+
+/// What a slot needs only while its bodies touch; one cache line.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[repr(C, align(64))]
+pub struct Record {
+    /// Everything that survives a step.
+    pub history: History,
+    /// Law and damping.
+    pub law: SlotLaw,
 }
 
 /// One contact that has a history: its owner, its other side, and what it remembers.
@@ -45,8 +53,7 @@ impl SlotRows {
             starts: vec![0; count + 1],
             owner: Vec::new(),
             other: Vec::new(),
-            laws: Vec::new(),
-            histories: Vec::new(),
+            records: Vec::new(),
             wake: Vec::new(),
         }
     }
@@ -69,10 +76,10 @@ impl SlotRows {
 
     /// The contacts that have a history, in key order.
     pub fn touching(&self) -> impl Iterator<Item = Contact> + '_ {
-        (0..self.len()).filter(|&slot| self.histories[slot].is_touching()).map(|slot| Contact {
+        (0..self.len()).filter(|&slot| self.records[slot].history.is_touching()).map(|slot| Contact {
             particle: self.owner[slot],
             other: self.other[slot],
-            history: self.histories[slot],
+            history: self.records[slot].history,
         })
     }
 
@@ -88,16 +95,14 @@ impl SlotRows {
         self.starts.push(0);
         self.owner.clear();
         self.other.clear();
-        self.laws.clear();
-        self.histories.clear();
+        self.records.clear();
         self.wake.clear();
     }
 
     fn push(&mut self, other: u32, law: SlotLaw, history: History) {
         self.owner.push(self.starts.len() as u32 - 1);
         self.other.push(other);
-        self.laws.push(law);
-        self.histories.push(history);
+        self.records.push(Record { history, law });
         self.wake.push(Self::wake_of(&history));
     }
 
@@ -109,19 +114,19 @@ impl SlotRows {
     /// have a history, which is carried over.
     pub fn merge_row(&mut self, old: &Self, candidates: &[u32], law_of: impl Fn(u32) -> SlotLaw) {
         let row = self.starts.len() - 1;
-        let mut kept = old.row(row).filter(|&slot| old.histories[slot].is_touching()).peekable();
+        let mut kept = old.row(row).filter(|&slot| old.records[slot].history.is_touching()).peekable();
         for &candidate in candidates {
             while let Some(slot) = kept.next_if(|&slot| old.other[slot] < candidate) {
-                self.push(old.other[slot], old.laws[slot], old.histories[slot]);
+                self.push(old.other[slot], old.records[slot].law, old.records[slot].history);
             }
             let history = match kept.next_if(|&slot| old.other[slot] == candidate) {
-                Some(slot) => old.histories[slot],
+                Some(slot) => old.records[slot].history,
                 None => History::default(),
             };
             self.push(candidate, law_of(candidate), history);
         }
         for slot in kept {
-            self.push(old.other[slot], old.laws[slot], old.histories[slot]);
+            self.push(old.other[slot], old.records[slot].law, old.records[slot].history);
         }
         self.end_row();
     }
@@ -196,7 +201,7 @@ mod tests {
     #[test]
     fn a_slot_without_history_is_dropped() {
         let mut old = SlotRows::from_contacts(1, &[contact(0, 1, 0.1)], |_, _| SlotLaw::default());
-        old.histories[0] = History::default();
+        old.records[0].history = History::default();
         let mut new = SlotRows::empty(0);
         new.clear();
         new.merge_row(&old, &[], law);

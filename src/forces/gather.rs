@@ -1,5 +1,6 @@
 //! The gather of a parallel pass: each particle's contacts in key order, read from their histories.
 
+use crate::contact::History;
 use crate::contact::table::{ContactTable, SlotRows};
 use crate::integrator::{Load, Motion};
 use crate::threads::{CHUNK, Chunked, chunk_count};
@@ -72,20 +73,23 @@ impl<'a> Gather<'a> {
                 sum.moment += moment;
             };
             for &slot in incidence.of(i) {
-                let history = &table.pairs.histories[slot as usize];
+                let history = &table.pairs.records[slot as usize].history;
                 if history.is_touching() {
                     add(-history.force(), half_way(history.overlap) * history.tangential_force);
                 }
             }
-            for history in table.pairs.histories[table.pairs.row(i)].iter().filter(|past| past.is_touching())
-            {
+            for history in touching(&table.pairs, i) {
                 add(history.force(), half_way(history.overlap) * history.tangential_force);
             }
-            for history in table.walls.histories[table.walls.row(i)].iter().filter(|past| past.is_touching())
-            {
+            for history in touching(&table.walls, i) {
                 add(history.force(), (own.radius - history.overlap) * history.tangential_force);
             }
             *load = sum;
         }
     }
+}
+
+/// Histories of the contacts that particle `i` owns, in key order.
+fn touching(rows: &SlotRows, i: usize) -> impl Iterator<Item = &History> {
+    rows.records[rows.row(i)].iter().map(|record| &record.history).filter(|history| history.is_touching())
 }

@@ -122,8 +122,8 @@ impl<'a> Pass<'a> {
         let bodies = slots.map(|slot| self.motions(slot));
         let pairs = Pairs::new(bodies);
         let meeting = pairs.meet();
-        let history = HistoryLanes::new(|lane| &self.slots.histories[slots[lane]]);
-        let keys = slots.map(|slot| self.slots.laws[slot]);
+        let history = HistoryLanes::new(|lane| &self.slots.records[slots[lane]].history);
+        let keys = slots.map(|slot| self.slots.records[slot].law);
         let law = self.scene.laws.pair_lanes(keys);
         let law = (&law, lanes(|lane| keys[lane].damping), self.scene.step_rate);
         let now = settle(&pairs, (meeting, &history), law, in_use(batch.count), &mut self.flows);
@@ -135,7 +135,7 @@ impl<'a> Pass<'a> {
         for lane in 0..batch.count {
             let slot = slots[lane];
             self.slots.wake[slot] = SlotRows::wake_of(&histories[lane]);
-            self.slots.histories[slot] = histories[lane];
+            self.slots.records[slot].history = histories[lane];
             sink.add(self.slots.owner[slot] as usize, forces[lane], own_moments[lane]);
             sink.add(self.slots.other[slot] as usize, -forces[lane], other_moments[lane]);
         }

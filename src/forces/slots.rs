@@ -1,8 +1,6 @@
 //! The slots that one task evaluates: shared keys and laws, histories of its own.
 
-use crate::contact::History;
-use crate::contact::laws::SlotLaw;
-use crate::contact::table::SlotRows;
+use crate::contact::table::{Record, SlotRows};
 use crate::threads::CHUNK;
 
 /// One kind of slots of whole chunks of particles.
@@ -14,10 +12,8 @@ pub struct SlotSlice<'a> {
     pub owner: &'a [u32],
     /// The other sides.
     pub other: &'a [u32],
-    /// Laws and dampings.
-    pub laws: &'a [SlotLaw],
-    /// What survives the step.
-    pub histories: &'a mut [History],
+    /// Laws, dampings and what survives the step.
+    pub records: &'a mut [Record],
     /// The way at which each slot wakes.
     pub wake: &'a mut [f64],
 }
@@ -28,8 +24,7 @@ impl<'a> From<&'a mut SlotRows> for SlotSlice<'a> {
             starts: &rows.starts,
             owner: &rows.owner,
             other: &rows.other,
-            laws: &rows.laws,
-            histories: &mut rows.histories,
+            records: &mut rows.records,
             wake: &mut rows.wake,
         }
     }
@@ -42,17 +37,15 @@ impl SlotSlice<'_> {
         let at = (self.starts[particles] - self.starts[0]) as usize;
         let (owner, more_owner) = self.owner.split_at(at);
         let (other, more_other) = self.other.split_at(at);
-        let (laws, more_laws) = self.laws.split_at(at);
-        let (histories, more_histories) = self.histories.split_at_mut(at);
+        let (records, more_records) = self.records.split_at_mut(at);
         let (wake, more_wake) = self.wake.split_at_mut(at);
         (
-            Self { starts: &self.starts[..=particles], owner, other, laws, histories, wake },
+            Self { starts: &self.starts[..=particles], owner, other, records, wake },
             Self {
                 starts: &self.starts[particles..],
                 owner: more_owner,
                 other: more_other,
-                laws: more_laws,
-                histories: more_histories,
+                records: more_records,
                 wake: more_wake,
             },
         )

@@ -4,7 +4,8 @@ use super::batch::{Batch, in_use};
 use super::bodies::{FlowLanes, Meeting, Walls, settle};
 use super::slots::SlotSlice;
 use super::{Scene, Sink};
-use crate::contact::{History, HistoryLanes};
+use crate::contact::HistoryLanes;
+use crate::contact::table::Record;
 use crate::drum::{Drum, FeatureId, RIM};
 use crate::energy::{StepFlows, SurfaceLoad};
 use crate::integrator::Motion;
@@ -22,7 +23,7 @@ pub fn evaluate(
     if pass.surfaces.len() > 1 {
         for (start, end) in rows(pass.slots.owner) {
             let particle = pass.slots.owner[start] as usize;
-            hand_over(scene, particle, &pass.slots.other[start..end], &mut pass.slots.histories[start..end]);
+            hand_over(scene, particle, &pass.slots.other[start..end], &mut pass.slots.records[start..end]);
         }
     }
     // Contacts wait here until there are four of them.
@@ -65,7 +66,7 @@ impl Pass<'_> {
     #[inline]
     fn contact(&mut self, slot: usize) -> Option<Spot> {
         let own = &self.scene.motions[self.slots.owner[slot] as usize];
-        let touched = self.slots.histories[slot].is_touching();
+        let touched = self.slots.records[slot].history.is_touching();
         let spot = meet(self.scene, own, self.slots.other[slot], touched)?;
         if spot.overlap > 0.0 || touched {
             self.slots.wake[slot] = 0.0;
@@ -85,8 +86,8 @@ impl Pass<'_> {
             overlap: lanes(|lane| spots[lane].overlap),
             normal: Vec2Lanes::new(|lane| spots[lane].normal),
         };
-        let history = HistoryLanes::new(|lane| &self.slots.histories[slots[lane]]);
-        let keys = slots.map(|slot| self.slots.laws[slot]);
+        let history = HistoryLanes::new(|lane| &self.slots.records[slots[lane]].history);
+        let keys = slots.map(|slot| self.slots.records[slot].law);
         let law = self.scene.laws.wall_lanes(keys);
         let law = (&law, lanes(|lane| keys[lane].damping), self.scene.step_rate);
         let now = settle(&walls, (meeting, &history), law, in_use(batch.count), &mut self.flows);
@@ -97,7 +98,7 @@ impl Pass<'_> {
         let histories = now.to_array();
         for lane in 0..batch.count {
             let slot = slots[lane];
-            self.slots.histories[slot] = histories[lane];
+            self.slots.records[slot].history = histories[lane];
             sink.add(self.slots.owner[slot] as usize, forces[lane], moments[lane]);
             let surface = &mut self.surfaces[self.scene.drum.surface_of(self.slots.other[slot])];
             surface.force += forces[lane];
@@ -147,10 +148,10 @@ fn meet_rim(drum: &Drum, own: &Motion, touching: bool) -> Option<Spot> {
 }
 
 /// Passes the history of a contact to the neighbouring feature when a particle rolls from one to the other.
-fn hand_over(scene: Scene, particle: usize, features: &[u32], histories: &mut [History]) {
+fn hand_over(scene: Scene, particle: usize, features: &[u32], records: &mut [Record]) {
     let own = &scene.motions[particle];
     for slot in 0..features.len() {
-        if features[slot] == RIM || !histories[slot].is_touching() {
+        if features[slot] == RIM || !records[slot].history.is_touching() {
             continue;
         }
         let center = scene.rotation.apply_inverse(own.position);
@@ -159,7 +160,7 @@ fn hand_over(scene: Scene, particle: usize, features: &[u32], histories: &mut [H
         }
         let heir = (0..features.len()).find(|&other| {
             features[other] != RIM
-                && !histories[other].is_touching()
+                && !records[other].history.is_touching()
                 && scene.drum.adjacent(features[slot], features[other])
                 && scene
                     .drum
@@ -167,7 +168,7 @@ fn hand_over(scene: Scene, particle: usize, features: &[u32], histories: &mut [H
                     .is_some_and(|near| near.distance < own.radius)
         });
         if let Some(heir) = heir {
-            histories[heir] = std::mem::take(&mut histories[slot]);
+            records[heir].history = std::mem::take(&mut records[slot].history);
         }
     }
 }
