@@ -424,7 +424,7 @@ impl Simulation {
     }
 }
 
-/// Margin of the neighbour list in radii of the largest bundle: the measured best over loads of 100 … 10 000.
+/// Margin of the neighbor list in radii of the largest bundle; speed is flat from 0.1 to 0.3 at 100 … 10 000 bundles.
 const DEFAULT_SKIN: f64 = 0.3;
 
 impl Fixed {

@@ -107,6 +107,8 @@ impl<'a> Pass<'a> {
             let reach = own.radius + other.radius;
             // Each of the two has to go half of the gap, which is (distance² − reach²) / (distance + reach).
             let excess = dot(gap, gap) - reach * reach;
+            // Not `||`: a branch here would be foretold wrongly every other time.
+            #[allow(clippy::needless_bitwise_bool)]
             let in_contact = (excess < 0.0) | (self.slots.wake[slot as usize] < 0.0);
             self.slots.wake[slot as usize] = self.scene.way + self.scene.half_gap * larger(excess, 0.0);
             waiting[count & (2 * BLOCK - 1)] = slot;
