@@ -1,4 +1,4 @@
-//! One rebuild of the neighbour list: cells, search, and the merge that carries contacts over.
+//! One rebuild of the neighbor list: cells, search, and the merge that carries contacts over.
 
 mod scenes;
 

@@ -66,7 +66,7 @@ pub struct RunParameters {
     pub sample_every: f64,
     /// Interval between frames [s].
     pub frame_every: f64,
-    /// Margin of the neighbour list [m]; none takes the measured best. It never changes a result.
+    /// Margin of the neighbor list [m]; none takes the measured best. It never changes a result.
     #[serde(deserialize_with = "Option::deserialize")]
     pub skin: Option<f64>,
     /// Greatest overlap allowed, as a fraction of the smaller radius.

@@ -14,6 +14,17 @@
 //! | 6     | [`checkpoint`]; `python`, which only the feature of that name builds |
 //!
 //! A module imports only from lower levels; `tests/architecture.rs` reads this table and checks it.
+//!
+//! A drum that speeds up to 5 rad/s within a second, and the angle it has turned after two, in closed form:
+//!
+//! ```
+//! use drumrs::drum::rotation::RotationSchedule;
+//!
+//! let washing = RotationSchedule { knots: vec![[0.0, 0.0], [1.0, 5.0]] };
+//! assert_eq!(washing.angle(2.0), 7.5);
+//! ```
+//!
+//! `examples/one_turn.rs` runs a whole drum.
 
 pub mod checkpoint;
 pub mod config;

@@ -111,7 +111,7 @@ impl Simulation {
         Ok(simulation)
     }
 
-    /// Puts a simulation together around a state; the neighbour list will be built at the first step.
+    /// Puts a simulation together around a state; the neighbor list will be built at the first step.
     pub(crate) fn resume(
         config: SimulationConfig,
         seed: u64,

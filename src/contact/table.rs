@@ -1,7 +1,7 @@
 //! Contact slots in key order: for each particle its partners of higher id, then the drum's features it may meet.
 //!
-//! A slot exists while the two bodies are within the neighbour list's margin, and for as long as it has a history: a
-//! contact that opened at the last step outlives its neighbourhood until its last work is charged. That is what makes
+//! A slot exists while the two bodies are within the neighbor list's margin, and for as long as it has a history: a
+//! contact that opened at the last step outlives its neighborhood until its last work is charged. That is what makes
 //! a trajectory independent of the margin. A rebuild merges two sorted lists per particle.
 
 use serde::{Deserialize, Serialize};

@@ -147,7 +147,7 @@ fn meet_rim(drum: &Drum, own: &Motion, touching: bool) -> Option<Spot> {
     Some(Spot { overlap: own.radius - (rim - distance), normal: own.position * (1.0 / distance) })
 }
 
-/// Passes the history of a contact to the neighbouring feature when a particle rolls from one to the other.
+/// Passes the history of a contact to the neighboring feature when a particle rolls from one to the other.
 fn hand_over(scene: Scene, particle: usize, features: &[u32], records: &mut [Record]) {
     let own = &scene.motions[particle];
     for slot in 0..features.len() {

@@ -72,7 +72,7 @@ impl CellGrid {
         row * self.columns + column
     }
 
-    /// Calls `visit` with the members of the cell of `position` and of its neighbours, as one slice per row of cells.
+    /// Calls `visit` with the members of the cell of `position` and of its neighbors, as one slice per row of cells.
     pub fn for_each_near(&self, position: Vec2, mut visit: impl FnMut(&[u32])) {
         let (column, row) = self.coordinates(position);
         let (left, right) = (column.saturating_sub(1), (column + 1).min(self.columns - 1));

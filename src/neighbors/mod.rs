@@ -1,7 +1,7 @@
 //! The Verlet list: which bodies may touch before anyone has moved half the margin (the skin) as seen from the drum.
 //!
 //! Distances do not change under rotation, so displacements in the drum's frame serve particle–particle and
-//! particle–drum neighbourhoods alike. When the list is rebuilt never changes a result.
+//! particle–drum neighborhoods alike. When the list is rebuilt never changes a result.
 
 mod cells;
 
