@@ -7,6 +7,7 @@ use drumrs::checkpoint;
 use drumrs::config::SimulationConfig;
 use drumrs::simulation::Simulation;
 use drumrs::start::InitialState;
+use drumrs::threads::Threads;
 use drumrs::vector::Vec2;
 use proptest::prelude::*;
 
@@ -54,10 +55,10 @@ fn tumbled(config: &SimulationConfig, initial: InitialState, steps: u64) -> Simu
 
 /// A drum large enough for the parallel passes.
 fn large() -> SimulationConfig {
-    let mut config = baseline(4000, 3);
-    config.drum.radius = Some(1.2);
-    config.drum.baffles.height = 0.2;
-    config.drum.baffles.base = 0.25;
+    let mut config = baseline(9000, 3);
+    config.drum.radius = Some(1.8);
+    config.drum.baffles.height = 0.3;
+    config.drum.baffles.base = 0.38;
     config.load.start_speed = 5.0;
     config
 }
@@ -65,6 +66,7 @@ fn large() -> SimulationConfig {
 #[test]
 fn any_number_of_threads_gives_the_same_bits() {
     let config = large();
+    assert!(Threads::new(2).unwrap().serve(config.load.count), "the load must be shared between threads");
     let one = after(&config, 1, 2500);
     let touching = touching(&one);
     assert!(touching.0 > 200 && touching.1 > 5, "the run must hold contacts: {touching:?}");
