@@ -3,24 +3,34 @@
 //! Between the kicks a particle moves with its half-step velocity; contacts are told that displacement. The velocity at
 //! the end of the step, which the dashpots need before the force is known, is foretold with the last acceleration.
 
+use crate::lanes::Lanes;
 use crate::particles::Particles;
 use crate::threads::{CHUNK, Chunked, Threads, chunk_count};
 use crate::vector::{Vec2, dot, larger, perpendicular};
 
-/// What contacts need of a particle in one step; one cache line.
+/// What contacts need of a particle in one step, as two rows that load at once; one cache line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(C, align(64))]
 pub struct Motion {
+    /// Center at the end of the step [m], x and y; how it got there [m], x and y.
+    pub place: Lanes,
+    /// Velocity foretold for the end of the step [m/s], x and y; angle turned during the step [rad]; radius [m].
+    pub pace: Lanes,
+}
+
+impl Motion {
     /// Center at the end of the step [m].
-    pub position: Vec2,
-    /// How it got there [m].
-    pub displacement: Vec2,
-    /// Velocity foretold for the end of the step [m/s].
-    pub velocity: Vec2,
-    /// Angle turned during the step [rad].
-    pub turn: f64,
+    #[inline(always)]
+    pub fn position(&self) -> Vec2 {
+        let [x, y, _, _] = self.place.to_array();
+        Vec2::new(x, y)
+    }
+
     /// Radius [m].
-    pub radius: f64,
+    #[inline(always)]
+    pub fn radius(&self) -> f64 {
+        self.pace.to_array()[3]
+    }
 }
 
 /// Sums over particles at the end of the drift.
@@ -32,13 +42,30 @@ pub struct DriftSums {
     pub longest_way: f64,
 }
 
-/// Force and moment on a particle.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Load {
-    /// Force of all contacts [N/m].
-    pub force: Vec2,
-    /// Their moment about the center [N m/m].
-    pub moment: f64,
+/// Force of all contacts on a particle [N/m], x and y, and their moment about its center [N m/m]; the fourth number means
+/// nothing.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Load(pub Lanes);
+
+impl Default for Load {
+    fn default() -> Self {
+        Self(Lanes::ZERO)
+    }
+}
+
+impl Load {
+    /// Force [N/m].
+    #[inline(always)]
+    pub fn force(&self) -> Vec2 {
+        let [x, y, _, _] = self.0.to_array();
+        Vec2::new(x, y)
+    }
+
+    /// Moment about the center [N m/m].
+    #[inline(always)]
+    pub fn moment(&self) -> f64 {
+        self.0.to_array()[2]
+    }
 }
 
 /// Scratch of the integrator; nothing in it outlives a step but what follows from the particles' constants.
@@ -59,12 +86,12 @@ pub struct Integrator {
 impl Integrator {
     /// For these particles at rest in time: the motions say where they are and how fast, with no displacement.
     pub fn new(particles: &Particles, time_step: f64, gravity: Vec2) -> Self {
-        let still = |i: usize| Motion {
-            position: particles.positions[i],
-            displacement: Vec2::zeros(),
-            velocity: particles.velocities[i],
-            turn: 0.0,
-            radius: particles.radii[i],
+        let still = |i: usize| {
+            let (position, velocity) = (particles.positions[i], particles.velocities[i]);
+            Motion {
+                place: Lanes::new([position.x, position.y, 0.0, 0.0]),
+                pace: Lanes::new([velocity.x, velocity.y, 0.0, particles.radii[i]]),
+            }
         };
         let inverse = |value: &f64| if *value > 0.0 { 1.0 / value } else { 0.0 };
         Self {
@@ -146,8 +173,8 @@ impl Integrator {
     /// Accelerations from the loads and gravity alone: the start of a simulation, before the first kick.
     pub fn accelerate(&self, particles: &mut Particles, loads: &[Load]) {
         for (i, load) in loads.iter().enumerate() {
-            particles.accelerations[i] = load.force * self.inverse_masses[i] + self.gravity;
-            particles.angular_accelerations[i] = load.moment * self.inverse_inertias[i];
+            particles.accelerations[i] = load.force() * self.inverse_masses[i] + self.gravity;
+            particles.angular_accelerations[i] = load.moment() * self.inverse_inertias[i];
         }
     }
 }
@@ -199,7 +226,7 @@ impl Pull for Fresh<'_> {
     #[inline]
     fn of(&self, i: usize) -> (Vec2, f64) {
         let load = &self.loads[i];
-        (load.force * self.inverse_masses[i] + self.gravity, load.moment * self.inverse_inertias[i])
+        (load.force() * self.inverse_masses[i] + self.gravity, load.moment() * self.inverse_inertias[i])
     }
 
     fn split(self, at: usize) -> (Self, Self) {
@@ -281,10 +308,9 @@ impl<P: Pull> Drift<'_, P> {
             positions[i] = position;
             spins[i] = spin;
             angles[i] += own_turn;
-            motion.position = position;
-            motion.displacement = displacement;
-            motion.velocity = velocity + kick;
-            motion.turn = own_turn;
+            motion.place = Lanes::new([position.x, position.y, displacement.x, displacement.y]);
+            let foretold = velocity + kick;
+            motion.pace = Lanes::new([foretold.x, foretold.y, own_turn, motion.radius()]);
             mass_moment += position * masses[i];
             longest_squared = larger(dot(way, way), longest_squared);
         }
@@ -336,8 +362,8 @@ impl Kick<'_> {
         let (accelerations, spin_rates) = (&mut self.accelerations[..n], &mut self.spin_rates[..n]);
         let (inverse_masses, inverse_inertias) = (&self.inverse_masses[..n], &self.inverse_inertias[..n]);
         for (i, load) in self.loads.iter().enumerate() {
-            let acceleration = load.force * inverse_masses[i] + gravity;
-            let spin_rate = load.moment * inverse_inertias[i];
+            let acceleration = load.force() * inverse_masses[i] + gravity;
+            let spin_rate = load.moment() * inverse_inertias[i];
             velocities[i] += acceleration * half_step;
             spins[i] += spin_rate * half_step;
             accelerations[i] = acceleration;

@@ -45,16 +45,16 @@ impl Laws {
         &self.walls[slot.law as usize]
     }
 
-    /// The laws of four slots between particles.
+    /// The laws of four contacts between particles.
     #[inline(always)]
-    pub fn pair_lanes(&self, slots: [SlotLaw; LANES]) -> LinearLanes {
-        of_slots(&self.pairs, slots)
+    pub fn pair_lanes(&self, laws: [u32; LANES]) -> LinearLanes {
+        of_contacts(&self.pairs, laws)
     }
 
-    /// The laws of four slots between particles and the drum.
+    /// The laws of four contacts between particles and the drum.
     #[inline(always)]
-    pub fn wall_lanes(&self, slots: [SlotLaw; LANES]) -> LinearLanes {
-        of_slots(&self.walls, slots)
+    pub fn wall_lanes(&self, laws: [u32; LANES]) -> LinearLanes {
+        of_contacts(&self.walls, laws)
     }
 
     /// The slot between two particles, each given as (material, mass); m* = m₁ m₂ / (m₁ + m₂).
@@ -81,10 +81,10 @@ impl Laws {
 
 /// A load of one material has one law, which is then read once.
 #[inline(always)]
-fn of_slots(laws: &[LinearLaw], slots: [SlotLaw; LANES]) -> LinearLanes {
+fn of_contacts(laws: &[LinearLaw], indices: [u32; LANES]) -> LinearLanes {
     if let [law] = laws {
         LinearLanes::splat(law)
     } else {
-        LinearLanes::new(|lane| &laws[slots[lane].law as usize])
+        LinearLanes::new(|lane| &laws[indices[lane] as usize])
     }
 }

@@ -1,145 +1,88 @@
-//! Slots between particles: those awake are looked at, those in contact are worked out four at a time.
-//!
-//! Which slots are awake, and which of them touch, is hard to foretell for a CPU. Both are therefore listed by loops
-//! without branches.
+//! Contacts between particles: candidates that are awake are looked at, contacts are worked out four at a time.
 
-use super::batch::{Batch, in_use};
 use super::bodies::{FlowLanes, Pairs, settle};
-use super::slots::SlotSlice;
-use super::{Scene, Sink};
-use crate::contact::HistoryLanes;
-use crate::contact::table::SlotRows;
+use super::post::{Sink, load_rows, reaction};
+use super::{Scene, in_use};
+use crate::contact::list::Block;
+use crate::contact::table::Slots;
 use crate::energy::StepFlows;
-use crate::integrator::Motion;
-use crate::lanes::{LANES, Lanes, lanes};
+use crate::lanes::{LANES, Lanes};
 use crate::vector::{dot, larger};
 
-/// Slots searched at a time.
-const BLOCK: usize = 128;
-
-/// Evaluates the slots in their order.
-pub fn evaluate(scene: Scene, slots: SlotSlice, sink: &mut impl Sink) -> StepFlows {
-    let mut pass = Pass { scene, slots, flows: FlowLanes::zero() };
-    let mut awake = [0_u32; BLOCK + LANES];
-    // Contacts wait here until there are four of them.
-    let mut waiting = [0_u32; 2 * BLOCK];
-    let mut count = 0;
-    for start in (0..pass.slots.wake.len()).step_by(BLOCK) {
-        let found = pass.find_awake(start, &mut awake);
-        count = pass.find_contacts(&awake[..found], &mut waiting, count);
-        let full = count - count % LANES;
-        for batch in waiting[..full].chunks_exact(LANES) {
-            pass.work_out(&Batch::full(batch), sink);
-        }
-        waiting.copy_within(full..count, 0);
-        count -= full;
+/// Evaluates the pairs of one chunk in key order.
+pub fn evaluate(scene: Scene, slots: &mut Slots, sink: &mut Sink) -> StepFlows {
+    open_contacts(scene, slots);
+    let mut flows = FlowLanes::zero();
+    let mut all_touch = true;
+    let (blocks, len) = slots.contacts.blocks_mut();
+    let (full, rest) = blocks.split_at_mut(len / LANES);
+    for block in full {
+        all_touch &= work_out(scene, block, LANES, &mut flows, sink);
     }
-    if count > 0 {
-        pass.work_out(&Batch::partial(&waiting[..count]), sink);
+    if let Some(block) = rest.first_mut() {
+        all_touch &= work_out(scene, block, len % LANES, &mut flows, sink);
     }
-    pass.flows.total()
+    if !all_touch {
+        slots.close_ended();
+    }
+    flows.total()
 }
 
-/// For each set of lanes, as bits: its lanes in front, in their order.
-const IN_FRONT: [[u32; LANES]; 1 << LANES] = {
-    let mut table = [[0; LANES]; 1 << LANES];
-    let mut set = 0;
-    while set < table.len() {
-        let (mut lane, mut count) = (0, 0);
-        while lane < LANES {
-            if set >> lane & 1 == 1 {
-                table[set][count] = lane as u32;
-                count += 1;
+/// Makes contacts of the candidates that touch; puts the others to sleep until the particles could have closed the gap.
+fn open_contacts(scene: Scene, slots: &mut Slots) {
+    let way = Lanes::splat(scene.way);
+    let fours = slots.candidates.len() / LANES;
+    for four in 0..fours {
+        let due = Lanes::new(slots.candidates.wake.as_chunks().0[four]).simd_le(way);
+        if due.any() {
+            for candidate in LANES * four..LANES * (four + 1) {
+                look_at(scene, slots, candidate);
             }
-            lane += 1;
         }
-        set += 1;
     }
-    table
-};
-
-struct Pass<'a> {
-    scene: Scene<'a>,
-    slots: SlotSlice<'a>,
-    flows: FlowLanes,
+    for candidate in LANES * fours..slots.candidates.len() {
+        look_at(scene, slots, candidate);
+    }
 }
 
-impl<'a> Pass<'a> {
-    #[inline(always)]
-    fn motions(&self, slot: usize) -> (&'a Motion, &'a Motion) {
-        let motions = self.scene.motions;
-        (&motions[self.slots.owner[slot] as usize], &motions[self.slots.other[slot] as usize])
+#[inline]
+fn look_at(scene: Scene, slots: &mut Slots, candidate: usize) {
+    let candidates = &mut slots.candidates;
+    if candidates.wake[candidate] > scene.way {
+        return;
     }
-
-    /// Lists the slots of a block that may matter at this step: a slot sleeps until the particles could have closed
-    /// its gap.
-    #[inline(always)]
-    fn find_awake(&self, start: usize, awake: &mut [u32; BLOCK + LANES]) -> usize {
-        let end = (start + BLOCK).min(self.slots.wake.len());
-        let (fours, rest) = self.slots.wake[start..end].as_chunks::<LANES>();
-        let way = Lanes::splat(self.scene.way);
-        let (mut first, mut count) = (start as u32, 0);
-        for &four in fours {
-            let due = Lanes::new(four).simd_le(way).to_bitmask() as usize;
-            // All four are written, those awake in front; the next four overwrite the others.
-            let front = &IN_FRONT[due & 15];
-            for lane in 0..LANES {
-                awake[(count & (BLOCK - 1)) + lane] = first + front[lane];
-            }
-            count += due.count_ones() as usize;
-            first += LANES as u32;
-        }
-        for &due in rest {
-            awake[count & (BLOCK - 1)] = first;
-            count += usize::from(due <= self.scene.way);
-            first += 1;
-        }
-        count
+    let (i, j) = (candidates.owner[candidate] as usize, candidates.other[candidate] as usize);
+    let (own, other) = (&scene.motions[i], &scene.motions[j]);
+    let gap = other.position() - own.position();
+    let reach = own.radius() + other.radius();
+    // Each of the two has to go half of the gap, which is (distance² − reach²) / (distance + reach).
+    let excess = dot(gap, gap) - reach * reach;
+    candidates.wake[candidate] = scene.way + scene.half_gap * larger(excess, 0.0);
+    if excess < 0.0 {
+        let body = |id: usize| (scene.particles.materials[id], scene.particles.masses[id]);
+        slots.open(candidate, scene.laws.pair_slot(body(i), body(j)));
     }
+}
 
-    /// Appends to the first `count` of `waiting` those slots whose particles touch, or touched at the last step; puts
-    /// the others to sleep. Returns the new count.
-    #[inline(always)]
-    fn find_contacts(&mut self, awake: &[u32], waiting: &mut [u32; 2 * BLOCK], mut count: usize) -> usize {
-        for &slot in awake {
-            let (own, other) = self.motions(slot as usize);
-            let gap = other.position - own.position;
-            let reach = own.radius + other.radius;
-            // Each of the two has to go half of the gap, which is (distance² − reach²) / (distance + reach).
-            let excess = dot(gap, gap) - reach * reach;
-            // Not `||`: a branch here would be foretold wrongly every other time.
-            #[allow(clippy::needless_bitwise_bool)]
-            let in_contact = (excess < 0.0) | (self.slots.wake[slot as usize] < 0.0);
-            self.slots.wake[slot as usize] = self.scene.way + self.scene.half_gap * larger(excess, 0.0);
-            waiting[count & (2 * BLOCK - 1)] = slot;
-            count += usize::from(in_contact);
-        }
-        count
+/// Works out the first `count` contacts of a block; returns whether all of them still touch.
+#[inline(always)]
+fn work_out(scene: Scene, block: &mut Block, count: usize, flows: &mut FlowLanes, sink: &mut Sink) -> bool {
+    let motion = |id: u32| &scene.motions[id as usize];
+    let pairs = Pairs::new(block.owner.map(motion), block.other.map(motion));
+    let meeting = pairs.meet();
+    let history = block.history();
+    let law = (&scene.laws.pair_lanes(block.laws()), block.damping(), scene.step_rate);
+    let used = in_use(count);
+    let now = settle(&pairs, (meeting, &history), law, used, flows);
+    block.remember(&now);
+
+    let force = now.force();
+    let own_moment = pairs.own_arm(now.overlap) * now.tangential_force;
+    let other_moment = pairs.other_arm(now.overlap) * now.tangential_force;
+    let rows = load_rows(force.x, force.y, own_moment, other_moment);
+    for (lane, &row) in rows.iter().enumerate().take(count) {
+        sink.add_to_own(block.owner[lane], row);
+        sink.add(block.other[lane], reaction(row));
     }
-
-    /// Works out the slots of a batch.
-    #[inline(always)]
-    fn work_out(&mut self, batch: &Batch, sink: &mut impl Sink) {
-        let slots = batch.slots;
-        let bodies = slots.map(|slot| self.motions(slot));
-        let pairs = Pairs::new(bodies);
-        let meeting = pairs.meet();
-        let history = HistoryLanes::new(|lane| &self.slots.records[slots[lane]].history);
-        let keys = slots.map(|slot| self.slots.records[slot].law);
-        let law = self.scene.laws.pair_lanes(keys);
-        let law = (&law, lanes(|lane| keys[lane].damping), self.scene.step_rate);
-        let now = settle(&pairs, (meeting, &history), law, in_use(batch.count), &mut self.flows);
-
-        let forces = now.force().to_array();
-        let own_moments = (pairs.own_arm(now.overlap) * now.tangential_force).to_array();
-        let other_moments = (pairs.other_arm(now.overlap) * now.tangential_force).to_array();
-        let histories = now.to_array();
-        for lane in 0..batch.count {
-            let slot = slots[lane];
-            self.slots.wake[slot] = SlotRows::wake_of(&histories[lane]);
-            self.slots.records[slot].history = histories[lane];
-            sink.add(self.slots.owner[slot] as usize, forces[lane], own_moments[lane]);
-            sink.add(self.slots.other[slot] as usize, -forces[lane], other_moments[lane]);
-        }
-    }
+    !(used & now.overlap.simd_le(Lanes::ZERO)).any()
 }
