@@ -3,10 +3,10 @@
 //! Between the kicks a particle moves with its half-step velocity; contacts are told that displacement. The velocity at
 //! the end of the step, which the dashpots need before the force is known, is foretold with the last acceleration.
 
-use crate::lanes::Lanes;
+use crate::lanes::{LANES, Lanes};
 use crate::particles::Particles;
 use crate::threads::{CHUNK, Chunked, Threads, chunk_count};
-use crate::vector::{Vec2, dot, larger, perpendicular};
+use crate::vector::{Vec2, larger};
 
 /// What contacts need of a particle in one step, as two rows that load at once; one cache line.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -125,7 +125,7 @@ impl Integrator {
     pub fn kick_and_drift(
         &mut self,
         particles: &mut Particles,
-        loads: &[Load],
+        loads: &mut [Load],
         turn: f64,
         threads: &Threads,
     ) -> DriftSums {
@@ -179,12 +179,17 @@ impl Integrator {
     }
 }
 
+/// The accelerations of four particles: x and y of the first two, of the last two, and about their centers.
+type Pulls = ([Lanes; 2], Lanes);
+
 /// Where a drift takes its accelerations from.
 trait Pull: Send + Sized {
     /// Whether the velocities still lack the second half of the last kick.
     const UNFINISHED: bool;
-    /// Acceleration and angular acceleration of a particle of the chunk.
-    fn of(&self, i: usize) -> (Vec2, f64);
+    /// The accelerations of the four particles of quad `quad` of `quads`.
+    fn of(&mut self, quad: usize, quads: usize) -> Pulls;
+    /// The accelerations of the particles after the last whole quad.
+    fn of_rest(&mut self) -> Pulls;
     fn split(self, at: usize) -> (Self, Self);
 }
 
@@ -197,9 +202,15 @@ struct Known<'a> {
 impl Pull for Known<'_> {
     const UNFINISHED: bool = false;
 
-    #[inline]
-    fn of(&self, i: usize) -> (Vec2, f64) {
-        (self.accelerations[i], self.spin_rates[i])
+    #[inline(always)]
+    fn of(&mut self, quad: usize, quads: usize) -> Pulls {
+        let accelerations = &self.accelerations.as_chunks().0[..quads];
+        let spin_rates = &self.spin_rates.as_chunks().0[..quads];
+        (two_by_two(&accelerations[quad]), Lanes::new(spin_rates[quad]))
+    }
+
+    fn of_rest(&mut self) -> Pulls {
+        (two_by_two(&rest_of(self.accelerations)), Lanes::new(rest_of(self.spin_rates)))
     }
 
     fn split(self, at: usize) -> (Self, Self) {
@@ -212,9 +223,9 @@ impl Pull for Known<'_> {
     }
 }
 
-/// Accelerations from the loads of the last force pass.
+/// Accelerations from the loads of the last force pass, which are taken: the next pass finds them empty.
 struct Fresh<'a> {
-    loads: &'a [Load],
+    loads: &'a mut [Load],
     inverse_masses: &'a [f64],
     inverse_inertias: &'a [f64],
     gravity: Vec2,
@@ -223,14 +234,23 @@ struct Fresh<'a> {
 impl Pull for Fresh<'_> {
     const UNFINISHED: bool = true;
 
-    #[inline]
-    fn of(&self, i: usize) -> (Vec2, f64) {
-        let load = &self.loads[i];
-        (load.force() * self.inverse_masses[i] + self.gravity, load.moment() * self.inverse_inertias[i])
+    #[inline(always)]
+    fn of(&mut self, quad: usize, quads: usize) -> Pulls {
+        let loads = &mut self.loads.as_chunks_mut().0[..quads];
+        let inverse_masses = &self.inverse_masses.as_chunks().0[..quads];
+        let inverse_inertias = &self.inverse_inertias.as_chunks().0[..quads];
+        let taken = std::mem::take(&mut loads[quad]);
+        pulls(&taken, &inverse_masses[quad], &inverse_inertias[quad], self.gravity)
+    }
+
+    fn of_rest(&mut self) -> Pulls {
+        let taken = rest_of(self.loads);
+        self.loads.as_chunks_mut::<LANES>().1.fill(Load::default());
+        pulls(&taken, &rest_of(self.inverse_masses), &rest_of(self.inverse_inertias), self.gravity)
     }
 
     fn split(self, at: usize) -> (Self, Self) {
-        let (loads, more_loads) = self.loads.split_at(at);
+        let (loads, more_loads) = self.loads.split_at_mut(at);
         let (inverse_masses, more_inverse_masses) = self.inverse_masses.split_at(at);
         let (inverse_inertias, more_inverse_inertias) = self.inverse_inertias.split_at(at);
         let gravity = self.gravity;
@@ -244,6 +264,52 @@ impl Pull for Fresh<'_> {
             },
         )
     }
+}
+
+/// Accelerations from loads and gravity.
+#[inline(always)]
+fn pulls(
+    loads: &[Load; LANES],
+    inverse_masses: &[f64; LANES],
+    inverse_inertias: &[f64; LANES],
+    gravity: Vec2,
+) -> Pulls {
+    let gravity = Lanes::new([gravity.x, gravity.y, gravity.x, gravity.y]);
+    let rows = loads.map(|load| load.0.to_array());
+    let two = |i: usize| {
+        let forces = Lanes::new([rows[i][0], rows[i][1], rows[i + 1][0], rows[i + 1][1]]);
+        let masses = [inverse_masses[i], inverse_masses[i], inverse_masses[i + 1], inverse_masses[i + 1]];
+        forces * Lanes::new(masses) + gravity
+    };
+    let moments = Lanes::new([rows[0][2], rows[1][2], rows[2][2], rows[3][2]]);
+    ([two(0), two(2)], moments * Lanes::new(*inverse_inertias))
+}
+
+/// What comes after the last whole quad, filled up with zeros.
+fn rest_of<T: Copy + Default>(values: &[T]) -> [T; LANES] {
+    let (_, rest) = values.as_chunks::<LANES>();
+    let mut padded = [T::default(); LANES];
+    padded[..rest.len()].copy_from_slice(rest);
+    padded
+}
+
+/// Replaces what comes after the last whole quad.
+fn put_rest<T: Copy>(values: &mut [T], new: &[T; LANES]) {
+    let (_, rest) = values.as_chunks_mut::<LANES>();
+    rest.copy_from_slice(&new[..rest.len()]);
+}
+
+/// Four vectors as two rows: x and y of the first two, then of the last two.
+#[inline(always)]
+fn two_by_two(v: &[Vec2; LANES]) -> [Lanes; 2] {
+    [Lanes::new([v[0].x, v[0].y, v[1].x, v[1].y]), Lanes::new([v[2].x, v[2].y, v[3].x, v[3].y])]
+}
+
+/// The inverse of `two_by_two`.
+#[inline(always)]
+fn four_vectors(rows: [Lanes; 2]) -> [Vec2; LANES] {
+    let [[a, b, c, d], [e, f, g, h]] = rows.map(Lanes::to_array);
+    [Vec2::new(a, b), Vec2::new(c, d), Vec2::new(e, f), Vec2::new(g, h)]
 }
 
 /// What a drift changes.
@@ -281,42 +347,152 @@ struct Drift<'a, P> {
 }
 
 impl<P: Pull> Drift<'_, P> {
-    fn run(self, time_step: f64, turn: f64) {
-        let half_step = 0.5 * time_step;
-        let mut mass_moment = Vec2::zeros();
-        let mut longest_squared = 0.0_f64;
-        let n = self.motions.len();
+    fn run(mut self, time_step: f64, turn: f64) {
+        let mut sums = QuadSums::new(turn);
+        self.move_quads(time_step, &mut sums);
+        if !self.motions.len().is_multiple_of(LANES) {
+            self.move_rest(time_step, &mut sums);
+        }
+        if let Some(chunk) = self.sums.first_mut() {
+            *chunk = sums.total();
+        }
+    }
+
+    fn move_quads(&mut self, time_step: f64, sums: &mut QuadSums) {
+        let quads = self.motions.len() / LANES;
         // Slices of one known length let the compiler drop the bounds checks.
-        let (positions, velocities) = (&mut self.moved.positions[..n], &mut self.moved.velocities[..n]);
-        let (angles, spins) = (&mut self.moved.angles[..n], &mut self.moved.spins[..n]);
-        let masses = &self.masses[..n];
-        for (i, motion) in self.motions.iter_mut().enumerate() {
-            let (acceleration, spin_rate) = self.pull.of(i);
-            let (kick, twist) = (acceleration * half_step, spin_rate * half_step);
-            let (mut velocity, mut spin) = (velocities[i], spins[i]);
-            if P::UNFINISHED {
-                velocity += kick;
-                spin += twist;
-            }
-            velocity += kick;
-            spin += twist;
-            let displacement = velocity * time_step;
-            let way = displacement - perpendicular(positions[i]) * turn;
-            let position = positions[i] + displacement;
-            let own_turn = spin * time_step;
-            velocities[i] = velocity;
-            positions[i] = position;
-            spins[i] = spin;
-            angles[i] += own_turn;
-            motion.place = Lanes::new([position.x, position.y, displacement.x, displacement.y]);
-            let foretold = velocity + kick;
-            motion.pace = Lanes::new([foretold.x, foretold.y, own_turn, motion.radius()]);
-            mass_moment += position * masses[i];
-            longest_squared = larger(dot(way, way), longest_squared);
+        let positions = &mut self.moved.positions.as_chunks_mut().0[..quads];
+        let velocities = &mut self.moved.velocities.as_chunks_mut().0[..quads];
+        let angles = &mut self.moved.angles.as_chunks_mut().0[..quads];
+        let spins = &mut self.moved.spins.as_chunks_mut().0[..quads];
+        let masses = &self.masses.as_chunks().0[..quads];
+        let motions = &mut self.motions.as_chunks_mut().0[..quads];
+        for quad in 0..quads {
+            let pulls = self.pull.of(quad, quads);
+            let mut four = Quad {
+                positions: &mut positions[quad],
+                velocities: &mut velocities[quad],
+                angles: &mut angles[quad],
+                spins: &mut spins[quad],
+            };
+            four.advance::<P>(pulls, time_step, (&masses[quad], sums), &mut motions[quad]);
         }
-        if let Some(sums) = self.sums.first_mut() {
-            *sums = (mass_moment, longest_squared);
+    }
+
+    fn move_rest(&mut self, time_step: f64, sums: &mut QuadSums) {
+        let pulls = self.pull.of_rest();
+        let mut positions = rest_of(self.moved.positions);
+        let mut velocities = rest_of(self.moved.velocities);
+        let mut angles = rest_of(self.moved.angles);
+        let mut spins = rest_of(self.moved.spins);
+        let (_, rest) = self.motions.as_chunks_mut::<LANES>();
+        let mut motions = std::array::from_fn(|lane| rest[lane.min(rest.len() - 1)]);
+        let mut four = Quad {
+            positions: &mut positions,
+            velocities: &mut velocities,
+            angles: &mut angles,
+            spins: &mut spins,
+        };
+        four.advance::<P>(pulls, time_step, (&rest_of(self.masses), sums), &mut motions);
+        put_rest(self.moved.positions, &positions);
+        put_rest(self.moved.velocities, &velocities);
+        put_rest(self.moved.angles, &angles);
+        put_rest(self.moved.spins, &spins);
+        put_rest(self.motions, &motions);
+    }
+}
+
+/// Four particles.
+struct Quad<'a> {
+    positions: &'a mut [Vec2; LANES],
+    velocities: &'a mut [Vec2; LANES],
+    angles: &'a mut [f64; LANES],
+    spins: &'a mut [f64; LANES],
+}
+
+impl Quad<'_> {
+    /// Kicks and moves them.
+    #[inline(always)]
+    fn advance<P: Pull>(
+        &mut self,
+        (accelerations, spin_rates): Pulls,
+        time_step: f64,
+        (masses, sums): (&[f64; LANES], &mut QuadSums),
+        motions: &mut [Motion; LANES],
+    ) {
+        let (step, half) = (Lanes::splat(time_step), Lanes::splat(0.5 * time_step));
+        let (kicks, twists) = (accelerations.map(|a| a * half), spin_rates * half);
+        let mut velocities = two_by_two(self.velocities);
+        let mut spins = Lanes::new(*self.spins);
+        if P::UNFINISHED {
+            velocities = [velocities[0] + kicks[0], velocities[1] + kicks[1]];
+            spins += twists;
         }
+        velocities = [velocities[0] + kicks[0], velocities[1] + kicks[1]];
+        spins += twists;
+        *self.velocities = four_vectors(velocities);
+        *self.spins = spins.to_array();
+        let displacements = velocities.map(|velocity| velocity * step);
+        let before = two_by_two(self.positions);
+        let positions = [before[0] + displacements[0], before[1] + displacements[1]];
+        *self.positions = four_vectors(positions);
+        sums.note(before, displacements);
+        sums.weigh(positions, masses);
+        let turns = spins * step;
+        *self.angles = (Lanes::new(*self.angles) + turns).to_array();
+
+        let foretold = [velocities[0] + kicks[0], velocities[1] + kicks[1]].map(Lanes::to_array);
+        let (places, ways) = (positions.map(Lanes::to_array), displacements.map(Lanes::to_array));
+        let turns = turns.to_array();
+        for (lane, motion) in motions.iter_mut().enumerate() {
+            let (two, x) = (lane / 2, 2 * (lane % 2));
+            motion.place = Lanes::new([places[two][x], places[two][x + 1], ways[two][x], ways[two][x + 1]]);
+            let radius = motion.radius();
+            motion.pace = Lanes::new([foretold[two][x], foretold[two][x + 1], turns[lane], radius]);
+        }
+    }
+}
+
+/// Sums over the quads of a chunk.
+struct QuadSums {
+    /// Σ m x and Σ m y of the particles with even, then with odd numbers.
+    mass_moment: Lanes,
+    /// The squares of the longest ways.
+    longest_squared: Lanes,
+    /// The angle by which the drum turns, as the factors of y and x.
+    turns: Lanes,
+}
+
+impl QuadSums {
+    fn new(turn: f64) -> Self {
+        let turns = Lanes::new([-turn, turn, -turn, turn]);
+        Self { mass_moment: Lanes::ZERO, longest_squared: Lanes::ZERO, turns }
+    }
+
+    /// Takes note of the ways as seen from the drum.
+    #[inline(always)]
+    fn note(&mut self, positions: [Lanes; 2], displacements: [Lanes; 2]) {
+        let squares = std::array::from_fn::<_, 2, _>(|two| {
+            let [a, b, c, d] = positions[two].to_array();
+            let way = displacements[two] - Lanes::new([b, a, d, c]) * self.turns;
+            (way * way).to_array()
+        });
+        let lengths = Lanes::new([squares[0][0], squares[0][2], squares[1][0], squares[1][2]])
+            + Lanes::new([squares[0][1], squares[0][3], squares[1][1], squares[1][3]]);
+        self.longest_squared = lengths.fast_max(self.longest_squared);
+    }
+
+    #[inline(always)]
+    fn weigh(&mut self, positions: [Lanes; 2], masses: &[f64; LANES]) {
+        let [a, b, c, d] = *masses;
+        self.mass_moment += positions[0] * Lanes::new([a, a, b, b]);
+        self.mass_moment += positions[1] * Lanes::new([c, c, d, d]);
+    }
+
+    fn total(&self) -> (Vec2, f64) {
+        let [x, y, more_x, more_y] = self.mass_moment.to_array();
+        let longest = self.longest_squared.to_array().into_iter().fold(0.0, larger);
+        (Vec2::new(x + more_x, y + more_y), longest)
     }
 }
 

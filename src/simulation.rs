@@ -7,7 +7,7 @@ use crate::drum::Drum;
 use crate::energy::{Balance, EnergyLedger, StoredEnergy};
 use crate::error::Error;
 use crate::forces::{ForcePass, Scene};
-use crate::integrator::{DriftSums, Integrator};
+use crate::integrator::{DriftSums, Integrator, Load};
 use crate::neighbors::{Surroundings, VerletList};
 use crate::packing::pack;
 use crate::particles::Particles;
@@ -226,8 +226,9 @@ impl Simulation {
     fn drift(&mut self, turn: f64) -> DriftSums {
         let (particles, threads) = (&mut self.state.particles, &self.threads);
         if std::mem::take(&mut self.kick_waits) {
-            self.integrator.kick_and_drift(particles, &self.forces.loads, turn, threads)
+            self.integrator.kick_and_drift(particles, &mut self.forces.loads, turn, threads)
         } else {
+            self.forces.loads.fill(Load::default());
             self.integrator.drift(particles, turn, threads)
         }
     }
@@ -249,11 +250,7 @@ impl Simulation {
     }
 
     fn rebuild(&mut self, rotation: Rotation) {
-        let around = Surroundings {
-            particles: &self.state.particles,
-            drum: &self.fixed.drum,
-            rotation,
-        };
+        let around = Surroundings { particles: &self.state.particles, drum: &self.fixed.drum, rotation };
         self.list.rebuild(around, &mut self.table, &self.threads);
         self.forces.prepare(&self.table);
     }

@@ -4,59 +4,112 @@
 //! whatever the neighbor list holds; a rebuild makes new candidates and leaves contacts alone. That is what makes a
 //! trajectory independent of the margin. Both are kept by chunk of particles, in key order.
 
-use super::list::{ContactList, Entry, NO_CANDIDATE};
-use super::laws::SlotLaw;
 use super::Contact;
+use super::laws::SlotLaw;
+use super::list::{ContactList, Entry, NO_CANDIDATE};
+use crate::lanes::LANES;
 use crate::threads::{CHUNK, chunk_count};
 
-/// Pairs of bodies near each other, in key order: (owner, other side).
+/// Pairs of bodies near each other, in key order: (owner, other side); they are looked at in fours.
 #[derive(Debug, Clone, Default)]
 pub struct Candidates {
-    /// The particle of lower id.
-    pub owner: Vec<u32>,
-    /// The other side: a particle of higher id, or a feature of the drum.
-    pub other: Vec<u32>,
-    /// A candidate sleeps until the way that the neighbor list counts reaches this [m]: before, no contact can have
-    /// formed. Infinite while it is a contact. Scratch that saves work and changes no result.
-    pub wake: Vec<f64>,
+    /// Column by column, filled up to whole fours with candidates that never wake.
+    owner: Vec<[u32; LANES]>,
+    other: Vec<[u32; LANES]>,
+    squared_reach: Vec<[f64; LANES]>,
+    wake: Vec<[f64; LANES]>,
+    len: usize,
 }
 
 impl Candidates {
     /// Number of candidates.
     pub fn len(&self) -> usize {
-        self.wake.len()
+        self.len
     }
 
     /// Whether there are none.
     pub fn is_empty(&self) -> bool {
-        self.wake.is_empty()
+        self.len == 0
     }
 
     /// Forgets all, keeping the memory.
     pub fn clear(&mut self) {
         self.owner.clear();
         self.other.clear();
+        self.squared_reach.clear();
         self.wake.clear();
+        self.len = 0;
     }
 
-    /// Appends a candidate, awake.
-    pub fn push(&mut self, owner: u32, other: u32) {
-        self.owner.push(owner);
-        self.other.push(other);
-        self.wake.push(0.0);
+    /// Appends a candidate, awake: the particle of lower id, the particle of higher id or feature of the drum, and the
+    /// square of the distance at which they touch [m²].
+    pub fn push(&mut self, owner: u32, other: u32, squared_reach: f64) {
+        let lane = self.len % LANES;
+        if lane == 0 {
+            self.owner.push([owner; LANES]);
+            self.other.push([other; LANES]);
+            self.squared_reach.push([0.0; LANES]);
+            self.wake.push([f64::INFINITY; LANES]);
+        }
+        let last = self.len / LANES;
+        (self.owner[last][lane], self.other[last][lane]) = (owner, other);
+        (self.squared_reach[last][lane], self.wake[last][lane]) = (squared_reach, 0.0);
+        self.len += 1;
+    }
+
+    /// The key of a candidate.
+    #[inline]
+    pub fn key(&self, candidate: usize) -> (u32, u32) {
+        (self.owner[candidate / LANES][candidate % LANES], self.other[candidate / LANES][candidate % LANES])
     }
 
     /// The candidates of one particle.
     pub fn of(&self, particle: u32) -> std::ops::Range<usize> {
-        let start = self.owner.partition_point(|&owner| owner < particle);
-        start..start + self.owner[start..].partition_point(|&owner| owner == particle)
+        let owner = &self.owner.as_flattened()[..self.len];
+        let start = owner.partition_point(|&owner| owner < particle);
+        start..start + owner[start..].partition_point(|&owner| owner == particle)
     }
 
-    /// Wakes a candidate that is no contact any longer.
+    /// The other sides of all candidates.
+    pub fn others(&self) -> &[u32] {
+        &self.other.as_flattened()[..self.len]
+    }
+
+    /// The square of the distance at which a candidate's bodies touch [m²].
+    #[inline(always)]
+    pub fn squared_reach(&self, candidate: usize) -> f64 {
+        self.squared_reach[candidate / LANES][candidate % LANES]
+    }
+
+    /// Number of fours, the last of which may be filled up.
+    pub fn fours(&self) -> usize {
+        self.wake.len()
+    }
+
+    /// The ways at which four candidates wake [m]: before the neighbor list has counted so far, no contact can have
+    /// formed. Infinite for contacts. Scratch that saves work and changes no result.
+    #[inline(always)]
+    pub fn wakes(&self, four: usize) -> [f64; LANES] {
+        self.wake[four]
+    }
+
+    /// The way at which a candidate wakes [m].
+    #[inline]
+    pub fn wake_of(&self, candidate: usize) -> f64 {
+        self.wake[candidate / LANES][candidate % LANES]
+    }
+
+    /// Lets a candidate sleep until the given way [m].
+    #[inline]
+    pub fn sleep(&mut self, candidate: usize, until: f64) {
+        self.wake[candidate / LANES][candidate % LANES] = until;
+    }
+
+    /// Wakes a candidate that is no contact any longer, if there is one.
     #[inline]
     pub fn wake(&mut self, candidate: u32) {
-        if let Some(wake) = self.wake.get_mut(candidate as usize) {
-            *wake = 0.0;
+        if candidate != NO_CANDIDATE {
+            self.sleep(candidate as usize, 0.0);
         }
     }
 }
@@ -73,8 +126,8 @@ pub struct Slots {
 impl Slots {
     /// Makes a contact, still without history, of candidate `index`.
     pub fn open(&mut self, index: usize, law: SlotLaw) {
-        let (particle, other) = (self.candidates.owner[index], self.candidates.other[index]);
-        self.candidates.wake[index] = f64::INFINITY;
+        let (particle, other) = self.candidates.key(index);
+        self.candidates.sleep(index, f64::INFINITY);
         let contact = Contact { particle, other, ..Contact::default() };
         self.contacts.insert(Entry { contact, law, candidate: index as u32 });
     }
@@ -90,8 +143,8 @@ impl Slots {
     pub fn pass_on(&mut self, index: usize, heir: usize) {
         let mut entry = self.contacts.remove(index);
         self.candidates.wake(entry.candidate);
-        self.candidates.wake[heir] = f64::INFINITY;
-        entry.contact.other = self.candidates.other[heir];
+        self.candidates.sleep(heir, f64::INFINITY);
+        entry.contact.other = self.candidates.key(heir).1;
         entry.candidate = heir as u32;
         self.contacts.insert(entry);
     }
@@ -101,13 +154,12 @@ impl Slots {
         let mut candidate = 0;
         for index in 0..self.contacts.len() {
             let key = self.contacts.key(index);
-            let key_of = |c: usize| (self.candidates.owner[c], self.candidates.other[c]);
-            while candidate < self.candidates.len() && key_of(candidate) < key {
+            while candidate < self.candidates.len() && self.candidates.key(candidate) < key {
                 candidate += 1;
             }
-            let found = candidate < self.candidates.len() && key_of(candidate) == key;
+            let found = candidate < self.candidates.len() && self.candidates.key(candidate) == key;
             if found {
-                self.candidates.wake[candidate] = f64::INFINITY;
+                self.candidates.sleep(candidate, f64::INFINITY);
             }
             self.contacts.link(index, if found { candidate as u32 } else { NO_CANDIDATE });
         }
@@ -174,7 +226,7 @@ mod tests {
     fn slots(candidates: &[(u32, u32)]) -> Slots {
         let mut slots = Slots::default();
         for &(owner, other) in candidates {
-            slots.candidates.push(owner, other);
+            slots.candidates.push(owner, other, 1.0);
         }
         slots
     }
@@ -194,7 +246,7 @@ mod tests {
         slots.link();
         let links: Vec<u32> = slots.contacts.iter().map(|entry| entry.candidate).collect();
         assert_eq!(links, [0, NO_CANDIDATE, 3]);
-        assert_eq!(slots.candidates.wake, [f64::INFINITY, 0.0, 0.0, f64::INFINITY]);
+        assert_eq!(slots.candidates.wakes(0), [f64::INFINITY, 0.0, 0.0, f64::INFINITY]);
         slots.close_ended();
         assert_eq!(slots.contacts.len(), 3, "all of them still touch");
     }
@@ -203,15 +255,18 @@ mod tests {
     fn a_contact_without_overlap_becomes_a_candidate_again() {
         let mut slots = slots(&[(2, 3), (2, 5)]);
         slots.open(1, SlotLaw::default());
-        assert_eq!(slots.candidates.wake, [0.0, f64::INFINITY]);
+        assert_eq!(slots.candidates.wakes(0), [0.0, f64::INFINITY, f64::INFINITY, f64::INFINITY]);
         slots.close_ended();
         assert!(slots.contacts.is_empty());
-        assert_eq!(slots.candidates.wake, [0.0, 0.0]);
+        assert_eq!(slots.candidates.wakes(0), [0.0, 0.0, f64::INFINITY, f64::INFINITY]);
     }
 
     #[test]
     fn candidates_are_found_by_their_particle() {
         let candidates = slots(&[(0, 1), (2, 3), (2, 5), (6, 7)]).candidates;
-        assert_eq!([candidates.of(0), candidates.of(1), candidates.of(2), candidates.of(9)], [0..1, 1..1, 1..3, 4..4]);
+        assert_eq!(
+            [candidates.of(0), candidates.of(1), candidates.of(2), candidates.of(9)],
+            [0..1, 1..1, 1..3, 4..4]
+        );
     }
 }

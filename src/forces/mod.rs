@@ -47,7 +47,7 @@ pub struct Scene<'a> {
 /// Scratch and results of the pass.
 #[derive(Debug, Clone)]
 pub struct ForcePass {
-    /// Force and moment on each particle.
+    /// Force and moment on each particle; empty before a pass.
     pub loads: Vec<Load>,
     /// Load on the particles by each of the drum's surfaces.
     pub surfaces: Vec<SurfaceLoad>,
@@ -79,7 +79,7 @@ impl ForcePass {
         }
     }
 
-    /// Evaluates every contact.
+    /// Evaluates every contact; the loads must be empty.
     pub fn evaluate(&mut self, scene: Scene, table: &mut ContactTable, threads: &Threads) {
         let count = self.loads.len();
         let work = Chunks {
@@ -142,8 +142,8 @@ impl Chunks<'_> {
     /// Evaluates one chunk: its pairs, then its walls, so that every particle meets its contacts in key order.
     fn run(self, scene: Scene) {
         let (Some(slots), Some(outbox)) = (self.slots.first_mut(), self.outboxes.first_mut()) else { return };
+        outbox.clear();
         let mut sink = Sink { first: self.first * CHUNK, loads: self.loads, outbox };
-        sink.clear();
         self.surfaces.fill(SurfaceLoad::default());
         let mut flows = pairs::evaluate(scene, &mut slots.pairs, &mut sink);
         flows.add(&walls::evaluate(scene, &mut slots.walls, self.surfaces, &mut sink));

@@ -1,15 +1,36 @@
 //! Contacts between particles: candidates that are awake are looked at, contacts are worked out four at a time.
 
 use super::bodies::{FlowLanes, Pairs, settle};
-use super::post::{Sink, load_rows, reaction};
+use super::post::{Sink, load_rows};
 use super::{Scene, in_use};
 use crate::contact::list::Block;
-use crate::contact::table::Slots;
+use crate::contact::table::{Candidates, Slots};
 use crate::energy::StepFlows;
-use crate::lanes::{LANES, Lanes};
-use crate::vector::{dot, larger};
+use crate::lanes::{LANES, Lanes, lanes, transpose};
+
+/// Candidates searched at a time; a power of two.
+const BLOCK: usize = 128;
+
+/// For each set of lanes, as bits: its lanes in front, in their order.
+const IN_FRONT: [[u32; LANES]; 1 << LANES] = {
+    let mut table = [[0; LANES]; 1 << LANES];
+    let mut set = 0;
+    while set < table.len() {
+        let (mut lane, mut count) = (0, 0);
+        while lane < LANES {
+            if set >> lane & 1 == 1 {
+                table[set][count] = lane as u32;
+                count += 1;
+            }
+            lane += 1;
+        }
+        set += 1;
+    }
+    table
+};
 
 /// Evaluates the pairs of one chunk in key order.
+#[inline(never)]
 pub fn evaluate(scene: Scene, slots: &mut Slots, sink: &mut Sink) -> StepFlows {
     open_contacts(scene, slots);
     let mut flows = FlowLanes::zero();
@@ -30,37 +51,67 @@ pub fn evaluate(scene: Scene, slots: &mut Slots, sink: &mut Sink) -> StepFlows {
 
 /// Makes contacts of the candidates that touch; puts the others to sleep until the particles could have closed the gap.
 fn open_contacts(scene: Scene, slots: &mut Slots) {
-    let way = Lanes::splat(scene.way);
-    let fours = slots.candidates.len() / LANES;
-    for four in 0..fours {
-        let due = Lanes::new(slots.candidates.wake.as_chunks().0[four]).simd_le(way);
-        if due.any() {
-            for candidate in LANES * four..LANES * (four + 1) {
-                look_at(scene, slots, candidate);
-            }
+    let mut due = [0; BLOCK + LANES];
+    let fours = slots.candidates.fours();
+    for start in (0..fours).step_by(BLOCK / LANES) {
+        let end = fours.min(start + BLOCK / LANES);
+        let count = find_due(&slots.candidates, start..end, scene.way, &mut due);
+        // The last four are filled up with the last one.
+        let last = due[count.saturating_sub(1)];
+        due[count..count + LANES].fill(last);
+        for four in due[..count.next_multiple_of(LANES)].as_chunks().0 {
+            look_at(scene, slots, four);
         }
-    }
-    for candidate in LANES * fours..slots.candidates.len() {
-        look_at(scene, slots, candidate);
     }
 }
 
-#[inline]
-fn look_at(scene: Scene, slots: &mut Slots, candidate: usize) {
+/// Lists the candidates that are due, without a branch that a CPU could not foretell. Returns their number.
+fn find_due(
+    candidates: &Candidates,
+    fours: std::ops::Range<usize>,
+    way: f64,
+    due: &mut [u32; BLOCK + LANES],
+) -> usize {
+    let way = Lanes::splat(way);
+    let mut count = 0;
+    for four in fours {
+        let set =
+            Lanes::new(candidates.wakes(four)).simd_le(way).to_bitmask() as usize & (IN_FRONT.len() - 1);
+        // All four are written, those that are due in front; the next four overwrite the others.
+        let first = (LANES * four) as u32;
+        for (lane, front) in IN_FRONT[set].iter().enumerate() {
+            due[(count & (BLOCK - 1)) + lane] = first + front;
+        }
+        count += set.count_ones() as usize;
+    }
+    count.min(BLOCK)
+}
+
+/// Looks at four candidates.
+fn look_at(scene: Scene, slots: &mut Slots, due: &[u32; LANES]) {
     let candidates = &mut slots.candidates;
-    if candidates.wake[candidate] > scene.way {
+    let keys = due.map(|candidate| candidates.key(candidate as usize));
+    let place = |id: u32| scene.motions[id as usize].place;
+    let [gap_x, gap_y, ..] = transpose(keys.map(|(owner, other)| place(other) - place(owner)));
+    // Each of the two has to go half of the gap, which is (distance² − reach²) / (distance + reach).
+    let reach = lanes(|lane| candidates.squared_reach(due[lane] as usize));
+    let excess = gap_x * gap_x + gap_y * gap_y - reach;
+    let sleep = Lanes::splat(scene.way) + excess.fast_max(Lanes::ZERO) * scene.half_gap;
+    for (&candidate, until) in due.iter().zip(sleep.to_array()) {
+        candidates.sleep(candidate as usize, until);
+    }
+    if !excess.simd_lt(Lanes::ZERO).any() {
         return;
     }
-    let (i, j) = (candidates.owner[candidate] as usize, candidates.other[candidate] as usize);
-    let (own, other) = (&scene.motions[i], &scene.motions[j]);
-    let gap = other.position() - own.position();
-    let reach = own.radius() + other.radius();
-    // Each of the two has to go half of the gap, which is (distance² − reach²) / (distance + reach).
-    let excess = dot(gap, gap) - reach * reach;
-    candidates.wake[candidate] = scene.way + scene.half_gap * larger(excess, 0.0);
-    if excess < 0.0 {
-        let body = |id: usize| (scene.particles.materials[id], scene.particles.masses[id]);
-        slots.open(candidate, scene.laws.pair_slot(body(i), body(j)));
+    for lane in 0..LANES {
+        // Candidates that fill up the last four come again.
+        let again = due[..lane].contains(&due[lane]);
+        if excess.to_array()[lane] < 0.0 && !again {
+            let body =
+                |id: u32| (scene.particles.materials[id as usize], scene.particles.masses[id as usize]);
+            let (owner, other) = keys[lane];
+            slots.open(due[lane] as usize, scene.laws.pair_slot(body(owner), body(other)));
+        }
     }
 }
 
@@ -79,10 +130,11 @@ fn work_out(scene: Scene, block: &mut Block, count: usize, flows: &mut FlowLanes
     let force = now.force();
     let own_moment = pairs.own_arm(now.overlap) * now.tangential_force;
     let other_moment = pairs.other_arm(now.overlap) * now.tangential_force;
-    let rows = load_rows(force.x, force.y, own_moment, other_moment);
-    for (lane, &row) in rows.iter().enumerate().take(count) {
-        sink.add_to_own(block.owner[lane], row);
-        sink.add(block.other[lane], reaction(row));
+    let loads = load_rows(force.x, force.y, own_moment);
+    let reactions = load_rows(-force.x, -force.y, other_moment);
+    for lane in 0..count {
+        sink.add_to_own(block.owner[lane], loads[lane]);
+        sink.add(block.other[lane], reactions[lane]);
     }
     !(used & now.overlap.simd_le(Lanes::ZERO)).any()
 }

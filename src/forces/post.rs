@@ -28,7 +28,7 @@ impl Outbox {
     pub fn address(&mut self, own: usize, table: &ContactTable) {
         let pairs = &table.chunks[own].pairs;
         let contacts = pairs.contacts.iter().map(|entry| entry.contact.other);
-        let others = pairs.candidates.other.iter().copied().chain(contacts);
+        let others = pairs.candidates.others().iter().copied().chain(contacts);
         self.targets.clear();
         self.targets.extend(others.map(|other| other / CHUNK as u32).filter(|&chunk| chunk as usize != own));
         self.targets.sort_unstable();
@@ -36,7 +36,8 @@ impl Outbox {
         self.posts.resize(self.targets.len(), Vec::new());
     }
 
-    fn clear(&mut self) {
+    /// Throws the last step's post away.
+    pub fn clear(&mut self) {
         self.posts.iter_mut().for_each(Vec::clear);
     }
 
@@ -65,12 +66,6 @@ pub struct Sink<'a> {
 }
 
 impl Sink<'_> {
-    /// Starts a step.
-    pub fn clear(&mut self) {
-        self.loads.fill(Load::default());
-        self.outbox.clear();
-    }
-
     /// Adds a load to one of the chunk's own particles.
     #[inline(always)]
     pub fn add_to_own(&mut self, particle: u32, load: Lanes) {
@@ -88,17 +83,10 @@ impl Sink<'_> {
     }
 }
 
-/// Loads of four contacts, a row for each: force on the owner (x, y), moment on it, moment on the other side.
+/// Loads of four contacts, a row for each: force (x, y) and moment.
 #[inline(always)]
-pub fn load_rows(x: Lanes, y: Lanes, own_moment: Lanes, other_moment: Lanes) -> [Lanes; LANES] {
-    transpose([x, y, own_moment, other_moment])
-}
-
-/// The reaction on the other side: the opposite force, and that side's moment.
-#[inline(always)]
-pub fn reaction(row: Lanes) -> Lanes {
-    let [x, y, own_moment, other_moment] = row.to_array();
-    Lanes::new([-x, -y, other_moment, own_moment])
+pub fn load_rows(x: Lanes, y: Lanes, moment: Lanes) -> [Lanes; LANES] {
+    transpose([x, y, moment, moment])
 }
 
 /// Loads whose chunks collect their post.

@@ -13,12 +13,8 @@ use crate::lanes::{LANES, Lanes, Vec2Lanes, lanes};
 use crate::vector::{Vec2, cross, dot};
 
 /// Evaluates the contacts of one chunk with the drum in key order and adds the loads by surface.
-pub fn evaluate(
-    scene: Scene,
-    slots: &mut Slots,
-    surfaces: &mut [SurfaceLoad],
-    sink: &mut Sink,
-) -> StepFlows {
+#[inline(never)]
+pub fn evaluate(scene: Scene, slots: &mut Slots, surfaces: &mut [SurfaceLoad], sink: &mut Sink) -> StepFlows {
     if surfaces.len() > 1 {
         hand_over(scene, slots);
     }
@@ -44,16 +40,17 @@ struct Spot {
 }
 
 /// Makes contacts of the candidates that touch; puts the others to sleep where their gap is known.
+#[inline(never)]
 fn open_contacts(scene: Scene, slots: &mut Slots) {
     for candidate in 0..slots.candidates.len() {
-        if slots.candidates.wake[candidate] > scene.way {
+        if slots.candidates.wake_of(candidate) > scene.way {
             continue;
         }
-        let id = slots.candidates.owner[candidate] as usize;
+        let (id, feature) = slots.candidates.key(candidate);
         // Only the particle moves, as seen from the drum. Slightly less than the gap covers round-off.
-        match gap(scene, &scene.motions[id], slots.candidates.other[candidate]) {
-            Some(gap) if gap >= 0.0 => slots.candidates.wake[candidate] = scene.way + (1.0 - 1e-6) * gap,
-            Some(_) => slots.open(candidate, law_of(scene, id)),
+        match gap(scene, &scene.motions[id as usize], feature) {
+            Some(gap) if gap >= 0.0 => slots.candidates.sleep(candidate, scene.way + (1.0 - 1e-6) * gap),
+            Some(_) => slots.open(candidate, law_of(scene, id as usize)),
             None => {}
         }
     }
@@ -106,7 +103,7 @@ fn work_out(
 
     let force = now.force();
     let moment = walls.arm(now.overlap) * now.tangential_force;
-    let rows = load_rows(force.x, force.y, moment, Lanes::ZERO);
+    let rows = load_rows(force.x, force.y, moment);
     let (forces, points) = (force.to_array(), walls.point(now.overlap, now.normal).to_array());
     for lane in 0..count {
         sink.add_to_own(block.owner[lane], rows[lane]);
@@ -138,13 +135,11 @@ fn meetings(scene: Scene, block: &Block, walls: &Walls) -> Meeting {
             *spot = meet(scene, own, block.other[lane]).unwrap_or_default();
         }
     }
-    Meeting {
-        overlap: lanes(|lane| spots[lane].overlap),
-        normal: Vec2Lanes::new(|lane| spots[lane].normal),
-    }
+    Meeting { overlap: lanes(|lane| spots[lane].overlap), normal: Vec2Lanes::new(|lane| spots[lane].normal) }
 }
 
 /// Passes the history of a contact to the neighboring feature when a particle rolls from one to the other.
+#[inline(never)]
 fn hand_over(scene: Scene, slots: &mut Slots) {
     let mut index = 0;
     while index < slots.contacts.len() {
@@ -166,9 +161,9 @@ fn heir_of(scene: Scene, slots: &Slots, particle: u32, feature: FeatureId) -> Op
     let candidates = &slots.candidates;
     let own = &scene.motions[particle as usize];
     candidates.of(particle).find(|&candidate| {
-        let other = candidates.other[candidate];
+        let (_, other) = candidates.key(candidate);
         other != RIM
-            && candidates.wake[candidate] != f64::INFINITY
+            && candidates.wake_of(candidate) != f64::INFINITY
             && scene.drum.adjacent(feature, other)
             && meet(scene, own, other).is_some_and(|spot| spot.overlap > 0.0)
     })

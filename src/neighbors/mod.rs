@@ -42,14 +42,7 @@ pub struct Surroundings<'a> {
 impl VerletList {
     /// A list with the margin `skin` [m] that asks to be built at once.
     pub fn new(skin: f64) -> Self {
-        Self {
-            skin,
-            anchors: Vec::new(),
-            farthest: 0.0,
-            budget: -1.0,
-            way: 0.0,
-            grid: CellGrid::default(),
-        }
+        Self { skin, anchors: Vec::new(), farthest: 0.0, budget: -1.0, way: 0.0, grid: CellGrid::default() }
     }
 
     /// Takes note of a step in which nobody moved farther than `longest_way` as seen from the drum, to first order in
@@ -122,9 +115,12 @@ impl Search<'_> {
         let start = self.first * CHUNK;
         for (i, &center) in anchors.iter().enumerate().skip(start).take(CHUNK) {
             find_pairs(i, around.particles, grid, skin, &mut found);
-            found.drain(..).for_each(|j| pairs.candidates.push(i as u32, j));
+            for j in found.drain(..) {
+                let reach = around.particles.radii[i] + around.particles.radii[j as usize];
+                pairs.candidates.push(i as u32, j, reach * reach);
+            }
             find_walls(around.drum, center, around.particles.radii[i] + skin, &mut found);
-            found.drain(..).for_each(|feature| walls.candidates.push(i as u32, feature));
+            found.drain(..).for_each(|feature| walls.candidates.push(i as u32, feature, 0.0));
         }
         pairs.link();
         walls.link();
