@@ -178,12 +178,14 @@ fn restore(contacts: &TouchingContacts, laws: &Laws, particles: &Particles) -> R
         return Err(refuse("a bundle is of a material that is not there"));
     }
     let body = |id: u32| (particles.materials[id as usize], particles.masses[id as usize]);
+    let radius = |id: u32| particles.radii[id as usize];
     let mut table = ContactTable::empty(particles.len());
     for &contact in &contacts.pairs {
-        table.add_pair(contact, laws.pair_slot(body(contact.particle), body(contact.other)));
+        let law = laws.pair_slot(body(contact.particle), body(contact.other));
+        table.add_pair(contact, law, [radius(contact.particle), radius(contact.other)]);
     }
     for &contact in &contacts.walls {
-        table.add_wall(contact, laws.wall_slot(body(contact.particle)));
+        table.add_wall(contact, laws.wall_slot(body(contact.particle)), radius(contact.particle));
     }
     Ok(table)
 }

@@ -15,6 +15,8 @@ pub struct Entry {
     pub contact: Contact,
     /// Law and damping.
     pub law: SlotLaw,
+    /// Radii of the owner and of the other side [m]; that of the drum is zero.
+    pub radii: [f64; 2],
     /// Where the neighbor list holds this pair of bodies, or `NO_CANDIDATE`.
     pub candidate: u32,
 }
@@ -30,6 +32,8 @@ pub struct Block {
     normal_x: [f64; LANES],
     normal_y: [f64; LANES],
     damping: [f64; LANES],
+    own_radius: [f64; LANES],
+    other_radius: [f64; LANES],
     law: [u32; LANES],
     /// The contacts' owners.
     pub owner: [u32; LANES],
@@ -68,6 +72,12 @@ impl Block {
         Lanes::new(self.damping)
     }
 
+    /// The owners' radii and the other sides' [m].
+    #[inline(always)]
+    pub fn radii(&self) -> [Lanes; 2] {
+        [Lanes::new(self.own_radius), Lanes::new(self.other_radius)]
+    }
+
     /// Their laws.
     #[inline(always)]
     pub fn laws(&self) -> [u32; LANES] {
@@ -85,18 +95,20 @@ impl Block {
         Entry {
             contact: Contact { particle: self.owner[lane], other: self.other[lane], history },
             law: SlotLaw { damping: self.damping[lane], law: self.law[lane] },
+            radii: [self.own_radius[lane], self.other_radius[lane]],
             candidate: self.candidate[lane],
         }
     }
 
     fn put(&mut self, lane: usize, entry: &Entry) {
-        let Entry { contact: Contact { particle, other, history }, law, candidate } = *entry;
+        let Entry { contact: Contact { particle, other, history }, law, radii, candidate } = *entry;
         self.overlap[lane] = history.overlap;
         self.tangential_displacement[lane] = history.tangential_displacement;
         self.normal_force[lane] = history.normal_force;
         self.tangential_force[lane] = history.tangential_force;
         (self.normal_x[lane], self.normal_y[lane]) = (history.normal.x, history.normal.y);
         (self.damping[lane], self.law[lane]) = (law.damping, law.law);
+        [self.own_radius[lane], self.other_radius[lane]] = radii;
         (self.owner[lane], self.other[lane], self.candidate[lane]) = (particle, other, candidate);
     }
 }
@@ -210,7 +222,12 @@ mod tests {
 
     fn entry(particle: u32, other: u32) -> Entry {
         let history = History { overlap: f64::from(10 * particle + other), ..History::default() };
-        Entry { contact: Contact { particle, other, history }, law: SlotLaw::default(), candidate: 7 }
+        Entry {
+            contact: Contact { particle, other, history },
+            law: SlotLaw::default(),
+            radii: [1.0; 2],
+            candidate: 7,
+        }
     }
 
     fn keys(list: &ContactList) -> Vec<(u32, u32)> {

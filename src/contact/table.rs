@@ -125,11 +125,11 @@ pub struct Slots {
 
 impl Slots {
     /// Makes a contact, still without history, of candidate `index`.
-    pub fn open(&mut self, index: usize, law: SlotLaw) {
+    pub fn open(&mut self, index: usize, law: SlotLaw, radii: [f64; 2]) {
         let (particle, other) = self.candidates.key(index);
         self.candidates.sleep(index, f64::INFINITY);
         let contact = Contact { particle, other, ..Contact::default() };
-        self.contacts.insert(Entry { contact, law, candidate: index as u32 });
+        self.contacts.insert(Entry { contact, law, radii, candidate: index as u32 });
     }
 
     /// Makes candidates again of the contacts that no longer touch.
@@ -206,14 +206,14 @@ impl ContactTable {
     }
 
     /// Adds a contact between particles, as after reading a checkpoint.
-    pub fn add_pair(&mut self, contact: Contact, law: SlotLaw) {
-        let entry = Entry { contact, law, candidate: NO_CANDIDATE };
+    pub fn add_pair(&mut self, contact: Contact, law: SlotLaw, radii: [f64; 2]) {
+        let entry = Entry { contact, law, radii, candidate: NO_CANDIDATE };
         self.chunks[contact.particle as usize / CHUNK].pairs.contacts.insert(entry);
     }
 
     /// Adds a contact with the drum.
-    pub fn add_wall(&mut self, contact: Contact, law: SlotLaw) {
-        let entry = Entry { contact, law, candidate: NO_CANDIDATE };
+    pub fn add_wall(&mut self, contact: Contact, law: SlotLaw, radius: f64) {
+        let entry = Entry { contact, law, radii: [radius, 0.0], candidate: NO_CANDIDATE };
         self.chunks[contact.particle as usize / CHUNK].walls.contacts.insert(entry);
     }
 }
@@ -234,7 +234,7 @@ mod tests {
     fn touching(particle: u32, other: u32) -> Entry {
         let history = History { overlap: 1e-6, ..History::default() };
         let contact = Contact { particle, other, history };
-        Entry { contact, law: SlotLaw::default(), candidate: NO_CANDIDATE }
+        Entry { contact, law: SlotLaw::default(), radii: [1.0; 2], candidate: NO_CANDIDATE }
     }
 
     #[test]
@@ -254,7 +254,7 @@ mod tests {
     #[test]
     fn a_contact_without_overlap_becomes_a_candidate_again() {
         let mut slots = slots(&[(2, 3), (2, 5)]);
-        slots.open(1, SlotLaw::default());
+        slots.open(1, SlotLaw::default(), [1.0; 2]);
         assert_eq!(slots.candidates.wakes(0), [0.0, f64::INFINITY, f64::INFINITY, f64::INFINITY]);
         slots.close_ended();
         assert!(slots.contacts.is_empty());

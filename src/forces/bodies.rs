@@ -42,13 +42,17 @@ pub struct Pairs {
 }
 
 impl Pairs {
-    /// Owners and others.
+    /// Owners, others, and the radii of both.
     #[inline(always)]
-    pub fn new(own: [&Motion; LANES], other: [&Motion; LANES]) -> Self {
+    pub fn new(
+        own: [&Motion; LANES],
+        other: [&Motion; LANES],
+        [own_radius, other_radius]: [Lanes; 2],
+    ) -> Self {
         let [gap_x, gap_y, apart_x, apart_y] =
             transpose(std::array::from_fn(|lane| other[lane].place - own[lane].place));
-        let [own_x, own_y, own_turn, own_radius] = transpose(own.map(|motion| motion.pace));
-        let [other_x, other_y, other_turn, other_radius] = transpose(other.map(|motion| motion.pace));
+        let [own_x, own_y, own_turn, _] = transpose(own.map(|motion| motion.pace));
+        let [other_x, other_y, other_turn, _] = transpose(other.map(|motion| motion.pace));
         Self {
             gap: Vec2Lanes { x: gap_x, y: gap_y },
             apart: Vec2Lanes { x: apart_x, y: apart_y },
@@ -117,11 +121,11 @@ pub struct Walls {
 }
 
 impl Walls {
-    /// The particles, and how the drum turns.
+    /// The particles, their radii, and how the drum turns.
     #[inline(always)]
-    pub fn new(own: [&Motion; LANES], drum_turn: f64, angular_velocity: f64) -> Self {
+    pub fn new(own: [&Motion; LANES], radius: Lanes, drum_turn: f64, angular_velocity: f64) -> Self {
         let [x, y, displacement_x, displacement_y] = transpose(own.map(|motion| motion.place));
-        let [velocity_x, velocity_y, turn, radius] = transpose(own.map(|motion| motion.pace));
+        let [velocity_x, velocity_y, turn, _] = transpose(own.map(|motion| motion.pace));
         Self {
             position: Vec2Lanes { x, y },
             displacement: Vec2Lanes { x: displacement_x, y: displacement_y },

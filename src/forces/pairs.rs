@@ -1,8 +1,9 @@
 //! Contacts between particles: candidates that are awake are looked at, contacts are worked out four at a time.
 
 use super::bodies::{FlowLanes, Pairs, settle};
-use super::post::{Sink, load_rows};
+use super::post::Sink;
 use super::{Scene, in_use};
+use crate::contact::linear::LinearLanes;
 use crate::contact::list::Block;
 use crate::contact::table::{Candidates, Slots};
 use crate::energy::StepFlows;
@@ -30,23 +31,43 @@ const IN_FRONT: [[u32; LANES]; 1 << LANES] = {
 };
 
 /// Evaluates the pairs of one chunk in key order.
-#[inline(never)]
 pub fn evaluate(scene: Scene, slots: &mut Slots, sink: &mut Sink) -> StepFlows {
     open_contacts(scene, slots);
+    // A load of one material has one law, which is then read once.
+    let laws = scene.laws.pairs();
+    let (flows, all_touch) = if let [law] = laws {
+        let law = LinearLanes::splat(law);
+        work_through(scene, slots, sink, |_| law)
+    } else {
+        work_through(scene, slots, sink, |block| LinearLanes::new(|lane| &laws[block.laws()[lane] as usize]))
+    };
+    if !all_touch {
+        slots.close_ended();
+    }
+    flows.total()
+}
+
+/// Works out all contacts; returns the flows, and whether all of them still touch.
+#[inline(always)]
+fn work_through(
+    scene: Scene,
+    slots: &mut Slots,
+    sink: &mut Sink,
+    law_of: impl Fn(&Block) -> LinearLanes,
+) -> (FlowLanes, bool) {
     let mut flows = FlowLanes::zero();
     let mut all_touch = true;
     let (blocks, len) = slots.contacts.blocks_mut();
     let (full, rest) = blocks.split_at_mut(len / LANES);
     for block in full {
-        all_touch &= work_out(scene, block, LANES, &mut flows, sink);
+        let law = law_of(block);
+        all_touch &= work_out(scene, (block, LANES), &law, &mut flows, sink);
     }
     if let Some(block) = rest.first_mut() {
-        all_touch &= work_out(scene, block, len % LANES, &mut flows, sink);
+        let law = law_of(block);
+        all_touch &= work_out(scene, (block, len % LANES), &law, &mut flows, sink);
     }
-    if !all_touch {
-        slots.close_ended();
-    }
-    flows.total()
+    (flows, all_touch)
 }
 
 /// Makes contacts of the candidates that touch; puts the others to sleep until the particles could have closed the gap.
@@ -107,34 +128,45 @@ fn look_at(scene: Scene, slots: &mut Slots, due: &[u32; LANES]) {
         // Candidates that fill up the last four come again.
         let again = due[..lane].contains(&due[lane]);
         if excess.to_array()[lane] < 0.0 && !again {
-            let body =
-                |id: u32| (scene.particles.materials[id as usize], scene.particles.masses[id as usize]);
-            let (owner, other) = keys[lane];
-            slots.open(due[lane] as usize, scene.laws.pair_slot(body(owner), body(other)));
+            open(scene, slots, due[lane] as usize);
         }
     }
 }
 
+#[cold]
+fn open(scene: Scene, slots: &mut Slots, candidate: usize) {
+    let (owner, other) = slots.candidates.key(candidate);
+    let (i, j) = (owner as usize, other as usize);
+    let particles = scene.particles;
+    let body = |id: usize| (particles.materials[id], particles.masses[id]);
+    slots.open(candidate, scene.laws.pair_slot(body(i), body(j)), [particles.radii[i], particles.radii[j]]);
+}
+
 /// Works out the first `count` contacts of a block; returns whether all of them still touch.
 #[inline(always)]
-fn work_out(scene: Scene, block: &mut Block, count: usize, flows: &mut FlowLanes, sink: &mut Sink) -> bool {
+fn work_out(
+    scene: Scene,
+    (block, count): (&mut Block, usize),
+    law: &LinearLanes,
+    flows: &mut FlowLanes,
+    sink: &mut Sink,
+) -> bool {
     let motion = |id: u32| &scene.motions[id as usize];
-    let pairs = Pairs::new(block.owner.map(motion), block.other.map(motion));
+    let pairs = Pairs::new(block.owner.map(motion), block.other.map(motion), block.radii());
     let meeting = pairs.meet();
     let history = block.history();
-    let law = (&scene.laws.pair_lanes(block.laws()), block.damping(), scene.step_rate);
     let used = in_use(count);
-    let now = settle(&pairs, (meeting, &history), law, used, flows);
+    let now = settle(&pairs, (meeting, &history), (law, block.damping(), scene.step_rate), used, flows);
     block.remember(&now);
 
     let force = now.force();
     let own_moment = pairs.own_arm(now.overlap) * now.tangential_force;
     let other_moment = pairs.other_arm(now.overlap) * now.tangential_force;
-    let loads = load_rows(force.x, force.y, own_moment);
-    let reactions = load_rows(-force.x, -force.y, other_moment);
-    for lane in 0..count {
-        sink.add_to_own(block.owner[lane], loads[lane]);
-        sink.add(block.other[lane], reactions[lane]);
+    let rows = transpose([force.x, force.y, own_moment, -other_moment]);
+    for (lane, row) in rows.into_iter().enumerate().take(count) {
+        sink.add(block.owner[lane], row);
+        let [x, y, own_moment, other_moment] = row.to_array();
+        sink.take_off(block.other[lane], Lanes::new([x, y, other_moment, own_moment]));
     }
     !(used & now.overlap.simd_le(Lanes::ZERO)).any()
 }

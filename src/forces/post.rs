@@ -5,14 +5,14 @@
 
 use crate::contact::table::ContactTable;
 use crate::integrator::Load;
-use crate::lanes::{LANES, Lanes, transpose};
+use crate::lanes::Lanes;
 use crate::threads::{CHUNK, Chunked};
 
-/// A reaction on a particle of another chunk.
+/// A reaction on a particle of another chunk: what is to be taken off its force (x, y) and moment.
 #[derive(Debug, Clone, Copy)]
 struct Post {
     particle: u32,
-    load: Load,
+    reaction: [f64; 3],
 }
 
 /// What one chunk has posted in this step, by the chunk that it goes to.
@@ -43,10 +43,10 @@ impl Outbox {
 
     #[cold]
     #[inline(never)]
-    fn send(&mut self, particle: usize, load: Lanes) {
-        let target = (particle / CHUNK) as u32;
+    fn send(&mut self, particle: u32, force: [f64; 2], moment: f64) {
+        let target = particle / CHUNK as u32;
         if let Ok(index) = self.targets.binary_search(&target) {
-            self.posts[index].push(Post { particle: particle as u32, load: Load(load) });
+            self.posts[index].push(Post { particle, reaction: [force[0], force[1], moment] });
         }
     }
 
@@ -68,25 +68,21 @@ pub struct Sink<'a> {
 impl Sink<'_> {
     /// Adds a load to one of the chunk's own particles.
     #[inline(always)]
-    pub fn add_to_own(&mut self, particle: u32, load: Lanes) {
+    pub fn add(&mut self, particle: u32, load: Lanes) {
         let own = &mut self.loads[particle as usize - self.first];
         own.0 += load;
     }
 
-    /// Adds a load to any particle.
+    /// Takes a load off any particle.
     #[inline(always)]
-    pub fn add(&mut self, particle: u32, load: Lanes) {
-        match self.loads.get_mut(particle as usize - self.first) {
-            Some(own) => own.0 += load,
-            None => self.outbox.send(particle as usize, load),
+    pub fn take_off(&mut self, particle: u32, load: Lanes) {
+        if let Some(own) = self.loads.get_mut(particle as usize - self.first) {
+            own.0 -= load;
+        } else {
+            let [x, y, moment, _] = load.to_array();
+            self.outbox.send(particle, [x, y], moment);
         }
     }
-}
-
-/// Loads of four contacts, a row for each: force (x, y) and moment.
-#[inline(always)]
-pub fn load_rows(x: Lanes, y: Lanes, moment: Lanes) -> [Lanes; LANES] {
-    transpose([x, y, moment, moment])
 }
 
 /// Loads whose chunks collect their post.
@@ -103,7 +99,8 @@ impl Delivery<'_> {
         let first_particle = self.first * CHUNK;
         for outbox in &outboxes[..self.first] {
             for post in outbox.to(self.first) {
-                self.loads[post.particle as usize - first_particle].0 += post.load.0;
+                let [x, y, moment] = post.reaction;
+                self.loads[post.particle as usize - first_particle].0 -= Lanes::new([x, y, moment, 0.0]);
             }
         }
     }

@@ -1,19 +1,18 @@
 //! Contacts of particles with the drum: rim, edges, vertices.
 
 use super::bodies::{FlowLanes, Meeting, Walls, settle};
-use super::post::{Sink, load_rows};
+use super::post::Sink;
 use super::{Scene, in_use};
-use crate::contact::laws::SlotLaw;
+use crate::contact::linear::LinearLanes;
 use crate::contact::list::Block;
 use crate::contact::table::Slots;
 use crate::drum::{FeatureId, RIM};
 use crate::energy::{StepFlows, SurfaceLoad};
 use crate::integrator::Motion;
-use crate::lanes::{LANES, Lanes, Vec2Lanes, lanes};
+use crate::lanes::{LANES, Lanes, Vec2Lanes, lanes, transpose};
 use crate::vector::{Vec2, cross, dot};
 
 /// Evaluates the contacts of one chunk with the drum in key order and adds the loads by surface.
-#[inline(never)]
 pub fn evaluate(scene: Scene, slots: &mut Slots, surfaces: &mut [SurfaceLoad], sink: &mut Sink) -> StepFlows {
     if surfaces.len() > 1 {
         hand_over(scene, slots);
@@ -21,10 +20,15 @@ pub fn evaluate(scene: Scene, slots: &mut Slots, surfaces: &mut [SurfaceLoad], s
     open_contacts(scene, slots);
     let mut flows = FlowLanes::zero();
     let mut all_touch = true;
+    let laws = scene.laws.walls();
     let (blocks, len) = slots.contacts.blocks_mut();
     for (index, block) in blocks.iter_mut().enumerate() {
         let count = (len - LANES * index).min(LANES);
-        all_touch &= work_out(scene, (block, count), &mut flows, surfaces, sink);
+        let law = match laws {
+            [law] => LinearLanes::splat(law),
+            _ => LinearLanes::new(|lane| &laws[block.laws()[lane] as usize]),
+        };
+        all_touch &= work_out(scene, (block, count), &law, &mut flows, &mut (&mut *surfaces, sink));
     }
     if !all_touch {
         slots.close_ended();
@@ -40,7 +44,6 @@ struct Spot {
 }
 
 /// Makes contacts of the candidates that touch; puts the others to sleep where their gap is known.
-#[inline(never)]
 fn open_contacts(scene: Scene, slots: &mut Slots) {
     for candidate in 0..slots.candidates.len() {
         if slots.candidates.wake_of(candidate) > scene.way {
@@ -50,14 +53,18 @@ fn open_contacts(scene: Scene, slots: &mut Slots) {
         // Only the particle moves, as seen from the drum. Slightly less than the gap covers round-off.
         match gap(scene, &scene.motions[id as usize], feature) {
             Some(gap) if gap >= 0.0 => slots.candidates.sleep(candidate, scene.way + (1.0 - 1e-6) * gap),
-            Some(_) => slots.open(candidate, law_of(scene, id as usize)),
+            Some(_) => open(scene, slots, candidate),
             None => {}
         }
     }
 }
 
-fn law_of(scene: Scene, id: usize) -> SlotLaw {
-    scene.laws.wall_slot((scene.particles.materials[id], scene.particles.masses[id]))
+#[cold]
+fn open(scene: Scene, slots: &mut Slots, candidate: usize) {
+    let id = slots.candidates.key(candidate).0 as usize;
+    let particles = scene.particles;
+    let law = scene.laws.wall_slot((particles.materials[id], particles.masses[id]));
+    slots.open(candidate, law, [particles.radii[id], 0.0]);
 }
 
 /// The gap between a particle and a feature of the drum, below zero where they overlap, or slightly less than the gap;
@@ -88,25 +95,24 @@ fn meet(scene: Scene, own: &Motion, feature: FeatureId) -> Option<Spot> {
 fn work_out(
     scene: Scene,
     (block, count): (&mut Block, usize),
+    law: &LinearLanes,
     flows: &mut FlowLanes,
-    surfaces: &mut [SurfaceLoad],
-    sink: &mut Sink,
+    (surfaces, sink): &mut (&mut [SurfaceLoad], &mut Sink),
 ) -> bool {
-    let walls =
-        Walls::new(block.owner.map(|id| &scene.motions[id as usize]), scene.turn, scene.angular_velocity);
+    let own = block.owner.map(|id| &scene.motions[id as usize]);
+    let walls = Walls::new(own, block.radii()[0], scene.turn, scene.angular_velocity);
     let meeting = meetings(scene, block, &walls);
     let history = block.history();
-    let law = (&scene.laws.wall_lanes(block.laws()), block.damping(), scene.step_rate);
     let used = in_use(count);
-    let now = settle(&walls, (meeting, &history), law, used, flows);
+    let now = settle(&walls, (meeting, &history), (law, block.damping(), scene.step_rate), used, flows);
     block.remember(&now);
 
     let force = now.force();
     let moment = walls.arm(now.overlap) * now.tangential_force;
-    let rows = load_rows(force.x, force.y, moment);
+    let rows = transpose([force.x, force.y, moment, moment]);
     let (forces, points) = (force.to_array(), walls.point(now.overlap, now.normal).to_array());
     for lane in 0..count {
-        sink.add_to_own(block.owner[lane], rows[lane]);
+        sink.add(block.owner[lane], rows[lane]);
         let surface = &mut surfaces[scene.drum.surface_of(block.other[lane])];
         surface.force += forces[lane];
         surface.moment += cross(points[lane], forces[lane]);
@@ -139,7 +145,6 @@ fn meetings(scene: Scene, block: &Block, walls: &Walls) -> Meeting {
 }
 
 /// Passes the history of a contact to the neighboring feature when a particle rolls from one to the other.
-#[inline(never)]
 fn hand_over(scene: Scene, slots: &mut Slots) {
     let mut index = 0;
     while index < slots.contacts.len() {
