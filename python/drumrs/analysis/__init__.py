@@ -1,0 +1,31 @@
+"""Numbers from tables and frames: means with errors, tests of steadiness, measures of motion.
+
+`blocks` averages inside a run, `seeds` over runs; `drift` asks whether a window was steady; `motion` and `depth`
+look at the bundles, frame by frame; `statistics` puts what a series tells into columns. Nothing here sees a simulation.
+"""
+
+from drumrs.analysis.blocks import Mean, Spread, block_error, rate_with_error, ratio_with_error
+from drumrs.analysis.depth import depth_profile
+from drumrs.analysis.drift import Drift, drift
+from drumrs.analysis.motion import carried_round, mixed_in_a_turn, mixing
+from drumrs.analysis.seeds import Interval, disagreement, student, student_quantile
+from drumrs.analysis.statistics import statistics
+
+__all__ = [
+    "Drift",
+    "Interval",
+    "Mean",
+    "Spread",
+    "block_error",
+    "carried_round",
+    "depth_profile",
+    "disagreement",
+    "drift",
+    "mixed_in_a_turn",
+    "mixing",
+    "rate_with_error",
+    "ratio_with_error",
+    "statistics",
+    "student",
+    "student_quantile",
+]
