@@ -1,4 +1,4 @@
-"""Columns of a sweep's table: what a case is, its seed, the summary of its run."""
+"""Columns of a sweep's table: what a case is, its seed, the summary of its run, what its series tells."""
 
 from collections.abc import Iterator
 from dataclasses import asdict, fields
@@ -14,20 +14,34 @@ from drumrs.result import Summary
 from drumrs.sweep.case import Case
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     import polars as pl
 
 CASE, SEED = "case", "seed"
 # Facts of the machine, which differ from run to run.
 TIMINGS = ("wall_time", "particle_steps_per_second")
+# What `analysis.statistics` makes of a run's series.
+_MEANS = (
+    "drum_specific_power",
+    "normal_specific_power",
+    "tangential_specific_power",
+    "dissipation_ratio",
+    "work_ratio",
+    "angular_momentum_per_mass",
+)
+_DRIFT = ("drift", "drift_change", "drift_significance")
+_DRIFTING = "drifting"
 _SEED_KEY = "run.seed"
 _PAIR = "center_of_mass"
 
 
-def row(case: Case, summary: Summary) -> "pl.DataFrame":
+def row(case: Case, summary: Summary, statistics: "Mapping[str, Any]") -> "pl.DataFrame":
     """Return the one row that stands for a finished case."""
     import polars as pl
 
-    values = {CASE: case.id, **parameters(case.config), SEED: case.seed, **_numbers(summary)}
+    names = {CASE: case.id, **parameters(case.config), SEED: case.seed}
+    values = {**names, **_numbers(summary), **statistics}
     return pl.DataFrame({name: [values[name]] for name in schema()}, schema=schema())
 
 
@@ -57,7 +71,9 @@ def schema() -> "dict[str, Any]":
             summary |= {f"{_PAIR}_x": pl.Float64, f"{_PAIR}_y": pl.Float64}
         elif field.name not in TIMINGS:
             summary[field.name] = _type(hints[field.name])
-    return {CASE: pl.String, **types, SEED: pl.Int64, **summary}
+    means = {f"{name}{ending}": pl.Float64 for name in _MEANS for ending in ("", "_error")}
+    drift = {**dict.fromkeys(_DRIFT, pl.Float64), _DRIFTING: pl.Boolean}
+    return {CASE: pl.String, **types, SEED: pl.Int64, **summary, **means, **drift}
 
 
 def _numbers(summary: Summary) -> dict[str, Any]:

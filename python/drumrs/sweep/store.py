@@ -28,6 +28,7 @@ from drumrs.sweep.sealed import FORMAT, read_sealed, write_sealed
 
 if TYPE_CHECKING:
     import io
+    from collections.abc import Mapping
 
     import polars as pl
 
@@ -90,8 +91,21 @@ class Store:
             return str(error)
         return None
 
-    def write(self, case: Case, result: Result, facts: dict[str, Any]) -> None:
+    def write(
+        self, case: Case, result: Result, statistics: "Mapping[str, Any]", facts: "Mapping[str, Any]"
+    ) -> None:
         """Keep the results of a case; the record of completion comes last.
+
+        Parameters
+        ----------
+        case
+            Whose results they are.
+        result
+            Summary, series and frames.
+        statistics
+            What `analysis.statistics` makes of the series.
+        facts
+            What differs from run to run, beside the summary's timings.
 
         Raises
         ------
@@ -106,7 +120,7 @@ class Store:
             write_sealed(self._parquet(case, "frames"), case, "frames", frames.table(), frames.metadata())
         timings = {name: getattr(result.summary, name) for name in TIMINGS}
         self._write_json(case, "facts", {"case": case.id, **timings, **facts})
-        write_sealed(self._parquet(case, "summary"), case, "summary", row(case, result.summary))
+        write_sealed(self._parquet(case, "summary"), case, "summary", row(case, result.summary, statistics))
         self._path(case, "error.json").unlink(missing_ok=True)
 
     def write_error(self, case: Case, error: Exception) -> None:

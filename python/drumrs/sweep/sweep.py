@@ -167,8 +167,9 @@ class Sweep:
     def table(self, folder: str | Path | None = None) -> "pl.LazyFrame":
         """Scan the results: one row a finished case, sorted by parameters and seed.
 
-        Columns: "case" (the id), the configuration by dotted key (null for "auto"), "seed", and the numbers of
-        `drumrs.Summary` but for timings, the center of mass as "center_of_mass_x" and "center_of_mass_y".
+        Columns: "case" (the id), the configuration by dotted key (null for "auto"), "seed", the numbers of
+        `drumrs.Summary` but for timings (the center of mass as "center_of_mass_x" and "center_of_mass_y"), and those
+        of `drumrs.analysis.statistics`: means with errors, and whether the window drifts.
 
         Parameters
         ----------

@@ -1,6 +1,7 @@
 """One case, run to its end and kept: what every executor is handed, on threads and on other machines alike."""
 
 import json
+import math
 import platform
 import signal
 import threading
@@ -8,6 +9,7 @@ from collections.abc import Callable
 from multiprocessing.synchronize import Event
 from typing import NamedTuple
 
+from drumrs.analysis import statistics
 from drumrs.config import Config
 from drumrs.protocol import finish
 from drumrs.simulation import Simulation, info
@@ -128,7 +130,9 @@ def _simulate(case: Case, store: Store, running: Running) -> bool:
     try:
         if not finish(simulation, report):
             return False
-        store.write(case, simulation.result(), _facts())
+        result = simulation.result()
+        found = statistics(result.series, case.config.run.averaging_window, math.fsum(simulation.masses))
+        store.write(case, result, found, _facts())
     finally:
         running.end(simulation)
     return True
