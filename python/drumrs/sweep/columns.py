@@ -14,7 +14,7 @@ from drumrs.result import Summary
 from drumrs.sweep.case import Case
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
     import polars as pl
 
@@ -50,6 +50,12 @@ def parameters(config: Config) -> dict[str, Any]:
     kinds = dict(_leaves(Config))
     values = dict(_flat(config.model_dump(mode="json"), kinds))
     return {key: _plain(values.get(key), kinds[key]) for key in kinds if key != _SEED_KEY}
+
+
+def differing(cases: "Sequence[Case]") -> list[str]:
+    """Return the columns, among parameters and seed, in which cases differ."""
+    rows = [{**parameters(case.config), SEED: case.seed} for case in cases]
+    return [name for name in rows[0] if any(row[name] != rows[0][name] for row in rows)]
 
 
 def sort_keys() -> list[str]:

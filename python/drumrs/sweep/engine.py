@@ -101,7 +101,7 @@ def run_cases(cases: Sequence[Case], folder: Path, order: Order) -> Outcome:
             shown.note(f"{sentence}; it is computed again")
         _hand_out(waiting, workers, store, tally, shown)
     own = {case.id for case in mine}
-    left = [case for case in ordered if case.id not in own and not is_settled(case, store)]
+    left = [case for case in ordered if case.id not in own and not store.is_settled(case)]
     return Outcome(
         folder=folder,
         finished=len(tally.finished),
@@ -126,11 +126,6 @@ def shard_of(ordered: Sequence[Case], shard: tuple[int, int] | None) -> list[Cas
     if not 1 <= part <= parts:
         raise ConfigError(f"shard is {part}/{parts}, but must be k/n with 1 <= k <= n")
     return list(ordered[part - 1 :: parts])
-
-
-def is_settled(case: Case, store: Store) -> bool:
-    """Tell whether a case is finished or has failed."""
-    return store.fault(case) is None or store.error(case) is not None
 
 
 def _take_stock(cases: Sequence[Case], store: Store, tally: _Tally, *, retry: bool) -> list[Case]:
@@ -169,6 +164,11 @@ def _hand_out(waiting: Sequence[Case], workers: Crew, store: Store, tally: _Tall
         for future in flying:
             future.cancel()
         workers.stop()
+        if isinstance(error, KeyboardInterrupt):
+            count = len(tally.finished)
+            raise KeyboardInterrupt(
+                f"interrupted; {count} cases are finished and kept, and the same sweep goes on with the others"
+            ) from None
         if isinstance(error, OSError) and error.errno in _FULL:
             raise _full(store, tally, error) from None
         raise

@@ -77,6 +77,10 @@ class Store:
                 "a newer drumrs made it"
             )
 
+    def is_settled(self, case: Case) -> bool:
+        """Tell whether a case has results or an error, without looking into them."""
+        return any(self._path(case, ending).exists() for ending in ("parquet", "error.json"))
+
     def fault(self, case: Case) -> str | None:
         """Say what keeps the results of a case from being whole; `None` where the case is finished.
 

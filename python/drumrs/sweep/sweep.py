@@ -3,13 +3,14 @@
 from collections.abc import Iterable
 from concurrent.futures import Executor
 from pathlib import Path
-from typing import TYPE_CHECKING, Self
+from typing import TYPE_CHECKING, Any, Self
 
 from drumrs.config import Config
 from drumrs.errors import ConfigError
 from drumrs.frames import Frames
 from drumrs.sweep import design, table
 from drumrs.sweep.case import Case
+from drumrs.sweep.columns import SEED, differing, parameters
 from drumrs.sweep.engine import Order, Outcome, run_cases
 from drumrs.sweep.store import Store
 
@@ -118,6 +119,15 @@ class Sweep:
         """Say how many cases there are and what they cost."""
         cost = sum(case.cost for case in self.cases)
         return f"<Sweep of {len(self.cases)} cases, {cost:.2g} particle-steps>"
+
+    def varied(self) -> list[str]:
+        """Return the columns, among parameters and seed, in which the cases differ."""
+        return differing(self.cases)
+
+    def settings(self, case: Case) -> dict[str, Any]:
+        """Return what tells a case from the others: the values of `varied`."""
+        values = {**parameters(case.config), SEED: case.seed}
+        return {name: values[name] for name in self.varied()}
 
     def run(
         self,
