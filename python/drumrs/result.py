@@ -171,14 +171,14 @@ class Result:
         return Player(self.frames, self.series, title=self.config.title, window=window)
 
     def save(self, folder: str | Path, *, pictures: bool = True) -> list[Path]:
-        """Write config.toml, series.parquet, frames.parquet, the pictures and, last, summary.json.
+        """Write config.toml, series.parquet, frames.parquet, pictures, a player and, last, summary.json.
 
         Parameters
         ----------
         folder
             Created where it does not exist.
         pictures
-            Whether to draw snapshots.png and time_series.png.
+            Whether to draw snapshots.png and time_series.png, and to write player.html, which plays the run.
 
         Returns
         -------
@@ -212,7 +212,8 @@ class Result:
             drawings["snapshots.png"] = figures.snapshots(views)
         for name, figure in drawings.items():
             figures.write(figure, folder / name)
-        return [folder / name for name in drawings]
+        players = [self.player().save(folder / "player.html")] if indices else []
+        return [folder / name for name in drawings] + players
 
 
 def load(folder: str | Path) -> Result:

@@ -22,7 +22,8 @@ app = App(
         "- `drumrs config > case.toml` writes every key, with unit and meaning\n"
         "- `drumrs run case.toml --set contact.bundle.friction=0.3 --out out`\n"
         "- `drumrs run --set 'run.window=[5, 15]' --set run.duration=15 --seed 2 --json`\n"
-        "- `drumrs run --resume out` goes on after Ctrl-C or a power cut"
+        "- `drumrs run --resume out` goes on after Ctrl-C or a power cut\n"
+        "- `drumrs view out` plays the run in the browser"
     ),
     version=drumrs.__version__,
     suppress_keyboard_interrupt=False,
@@ -32,6 +33,7 @@ app = App(
 _COMMANDS = {
     "run": "Run a case: the paper's baseline, a TOML file laid over it, settings laid over the file.",
     "baseline": "Run the paper's drum without and with baffles, side by side, and compare them.",
+    "view": "Show a run in the browser: play it, step through it, color it by what matters.",
     "config": "Print every key with its default, unit and meaning, as TOML: `drumrs config > case.toml`.",
     "info": "Print what this copy of drumrs is: versions, build profile, CPU features.",
 }

@@ -15,6 +15,8 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 _POINTS = 500
+# Fewer points than this are no curve.
+_FEWEST = 3
 # Share of a run in which the load falls and settles; it does not stretch the axes.
 _START = 10
 
@@ -42,14 +44,14 @@ class Panel:
 def panels_of_series(series: "pl.DataFrame") -> list[Panel]:
     """Return the power of the drum with its losses, and the energies stored, from a run's series."""
     columns = {name: series[name].to_numpy().astype(float) for name in series.columns}
-    if len(columns["time"]) < 3:
+    if len(columns["time"]) < _FEWEST:
         return []
     return [_power(columns), _energies(columns)]
 
 
 def panels_of_frames(frames: Frames) -> list[Panel]:
     """Return what frames alone can tell: the bundles' mean speed, and where their center is."""
-    if len(frames) < 2:
+    if len(frames) < _FEWEST:
         return []
     centers = 1e3 * frames.positions.mean(axis=1, dtype=float)
     speed = [Line("mean", frames.speeds.mean(axis=1, dtype=float)), Line("fastest", _fastest(frames))]

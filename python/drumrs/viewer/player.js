@@ -174,22 +174,23 @@ class DrumPlayer extends HTMLElement {
   }
 
   play() {
+    this.pause();
     if (this.time >= this.recording.end) this.time = this.recording.begin;
     this.setPlaying(true);
     let last = null;
     const advance = (now) => {
-      if (!this.playing) return;
       const passed = last === null ? 0 : Math.min((now - last) / 1000, LONGEST_JUMP);
       last = now;
       this.time = Math.min(this.time + passed * Number(this.part_("pace").value), this.recording.end);
       this.draw();
       if (this.time >= this.recording.end || !this.isConnected) this.pause();
-      else requestAnimationFrame(advance);
+      else this.next = requestAnimationFrame(advance);
     };
-    requestAnimationFrame(advance);
+    this.next = requestAnimationFrame(advance);
   }
 
   pause() {
+    cancelAnimationFrame(this.next);
     this.setPlaying(false);
   }
 

@@ -24,6 +24,7 @@ function decades(lowest, highest) {
 // Three digits, as a person would write them.
 function show(value) {
   if (!Number.isFinite(value)) return "–";
+  value = Number(value.toPrecision(3));
   const size = Math.abs(value);
   if (size !== 0 && (size < 0.001 || size >= 1e5)) {
     const exponent = Math.floor(Math.log10(size));

@@ -119,4 +119,5 @@ def _speed_scale(speeds: NDArray[np.float32]) -> float:
     if typical <= 0.0:
         return 1.0
     unit = 10.0 ** (math.floor(math.log10(typical)) - 1)
-    return math.ceil(typical / unit) * unit
+    # A round speed is not to be raised by its last bit.
+    return math.ceil(typical / unit - 1e-4) * unit
