@@ -6,7 +6,7 @@ look at the bundles, frame by frame; `statistics` puts what a series tells into 
 
 from drumrs.analysis.blocks import Mean, Spread, block_error, rate_with_error, ratio_with_error
 from drumrs.analysis.depth import depth_profile
-from drumrs.analysis.drift import Drift, drift
+from drumrs.analysis.drift import Drift, drift, ratio_drift, wandering
 from drumrs.analysis.motion import carried_round, mixed_in_a_turn, mixing
 from drumrs.analysis.seeds import Interval, disagreement, student, student_quantile
 from drumrs.analysis.statistics import statistics
@@ -24,8 +24,10 @@ __all__ = [
     "mixed_in_a_turn",
     "mixing",
     "rate_with_error",
+    "ratio_drift",
     "ratio_with_error",
     "statistics",
     "student",
     "student_quantile",
+    "wandering",
 ]

@@ -5,10 +5,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from drumrs.analysis.blocks import Mean, Stretch, block_error, rate_with_error, ratio_with_error
-from drumrs.analysis.drift import drift
+from drumrs.analysis.drift import FALSE_ALARMS, drift, ratio_drift, wandering
 
 if TYPE_CHECKING:
     import polars as pl
+
+_LOSSES = ("dissipated_normal", "dissipated_sliding")
 
 
 def statistics(
@@ -34,7 +36,10 @@ def statistics(
         ``work_ratio``: work of the contacts' normal forces over that of their tangential forces.
         ``angular_momentum_per_mass`` [m²/s], 0 for a load that stays where it is, however it rocks.
         All with ``…_error``; `None` where not defined.
-        ``drift`` [W/kg/s], ``drift_change``, ``drift_significance``, ``drifting``: see `Drift`.
+        ``drift`` [W/kg/s], ``drift_change``, ``drift_significance`` of the drum's specific power, and ``ratio_drift_…``
+        of the dissipation ratio: see `Drift`.
+        ``wandering_significance``: see `wandering`.
+        ``drifting``: whether any of the three is below one in a thousand.
     """
     means: dict[str, Mean | None] = {
         f"{name}_specific_power": _scaled(rate_with_error(series, column, window), mass)
@@ -44,19 +49,31 @@ def statistics(
             ("tangential", "dissipated_sliding"),
         )
     }
-    means["dissipation_ratio"] = ratio_with_error(series, "dissipated_normal", "dissipated_sliding", window)
+    means["dissipation_ratio"] = ratio_with_error(series, *_LOSSES, window)
     means["work_ratio"] = ratio_with_error(series, "work_normal", "work_tangential", window)
     means["angular_momentum_per_mass"] = _scaled(_sampled(series, "angular_momentum", window), mass)
-    found = drift(series, window)
     columns: dict[str, float | bool | None] = {}
     for name, mean in means.items():
         columns[name] = mean.value if mean is not None else None
         columns[f"{name}_error"] = mean.error if mean is not None else None
-    columns["drift"] = found.slope / mass if found is not None else None
-    columns["drift_change"] = found.change if found is not None else None
-    columns["drift_significance"] = found.significance if found is not None else None
-    columns["drifting"] = found.drifting if found is not None else None
-    return columns
+    return {**columns, **_steadiness(series, window, mass)}
+
+
+def _steadiness(
+    series: "pl.DataFrame", window: tuple[float, float], mass: float
+) -> dict[str, float | bool | None]:
+    power = drift(series, window)
+    ratio = ratio_drift(series, *_LOSSES, window)
+    columns: dict[str, float | bool | None] = {
+        "drift": power.slope / mass if power is not None else None,
+        "drift_change": power.change if power is not None else None,
+        "drift_significance": power.significance if power is not None else None,
+        "ratio_drift_change": ratio.change if ratio is not None else None,
+        "ratio_drift_significance": ratio.significance if ratio is not None else None,
+        "wandering_significance": wandering(series, *_LOSSES, window),
+    }
+    tests = [value for name, value in columns.items() if name.endswith("_significance")]
+    return {**columns, "drifting": any(value is not None and value < FALSE_ALARMS for value in tests)}
 
 
 def _scaled(mean: Mean, mass: float) -> Mean:
