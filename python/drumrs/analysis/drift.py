@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from drumrs.analysis.blocks import FEWEST_BLOCKS, Array, Stretch, longest_blocks, ratio_with_error
-from drumrs.analysis.seeds import disagreement, student_probability
+from drumrs.analysis.quantiles import student_probability
+from drumrs.analysis.seeds import disagreement
 
 if TYPE_CHECKING:
     import polars as pl
