@@ -214,9 +214,12 @@ def test_loads_that_pass_between_states_wander():
     states = np.where((np.arange(1500) > 350) & (np.arange(1500) < 800), 2.2, 1.8)
     times = (20.0, 30.0)
     for _ in range(20):
-        assert analysis.wandering(ratio_run(random, states), "above", "below", times) < 1e-3
+        found = analysis.wandering(ratio_run(random, states), "above", "below", times)
+        assert found.significance < 1e-3
+        assert found.spread == pytest.approx(0.4, abs=0.15)
     steady = [
-        analysis.wandering(ratio_run(random, np.full(1500, 2.0)), "above", "below", times) for _ in range(300)
+        analysis.wandering(ratio_run(random, np.full(1500, 2.0)), "above", "below", times).significance
+        for _ in range(300)
     ]
     assert sum(one < 1e-3 for one in steady) <= 2
     assert np.median(steady) == pytest.approx(0.5, abs=0.25)
@@ -244,14 +247,18 @@ def test_disagreement_is_a_probability(seeds):
     assert np.quantile(found, [0.1, 0.5, 0.9]) == pytest.approx([0.1, 0.5, 0.9], abs=0.04)
 
 
-def test_statistics_of_a_made_up_run():
-    time = 0.02 * np.arange(1001)
+def made_up_statistics(**rates: float | np.ndarray) -> dict:
+    rows = 1000
     names = "work_drum dissipated_normal dissipated_sliding work_normal work_tangential"
-    rates = dict(zip(names.split(), (9.0, 6.0, 3.0, 6.6, 3.0), strict=True))
-    series = pl.DataFrame(
-        {"time": time, "angular_momentum": np.full(1001, 0.5), **{n: r * time for n, r in rates.items()}}
-    )
-    columns = analysis.statistics(series, (10.0, 20.0), mass=2.0)
+    given = dict(zip(names.split(), (9.0, 6.0, 3.0, 6.6, 3.0), strict=True)) | rates
+    random = np.random.default_rng(1)
+    noisy = {n: r + 0.01 * random.standard_normal(rows) * np.ones(rows) for n, r in given.items()}
+    series = run(noisy).with_columns(angular_momentum=pl.lit(0.5))
+    return analysis.statistics(series, (10.0, 20.0), mass=2.0)
+
+
+def test_statistics_of_a_made_up_run():
+    columns = made_up_statistics()
     expected = {
         "drum_specific_power": 4.5,
         "normal_specific_power": 3.0,
@@ -260,7 +267,29 @@ def test_statistics_of_a_made_up_run():
         "work_ratio": 2.2,
         "angular_momentum_per_mass": 0.25,
     }
-    assert {name: columns[name] for name in expected} == pytest.approx(expected)
-    assert {columns[f"{name}_error"] < 1e-9 for name in expected} == {True}
-    assert abs(columns["drift"]) < 1e-9
+    assert tuple(columns) == analysis.STATISTICS
+    assert {name: columns[name] for name in expected} == pytest.approx(expected, rel=1e-3)
+    assert {columns[f"{name}_error"] < 1e-3 for name in expected} == {True}
+    assert columns["drifting"] is False
+
+
+@pytest.mark.parametrize(
+    ("change", "drifts"),
+    [
+        ({"work_drum": np.linspace(8.0, 10.0, 1000)}, True),
+        # Sure, but too little to matter.
+        ({"work_drum": np.linspace(8.96, 9.04, 1000)}, False),
+        ({"dissipated_normal": np.linspace(5.0, 7.0, 1000)}, True),
+        # Steady in the window, but of another state than before.
+        ({"dissipated_normal": np.where(np.arange(1000) < 450, 5.0, 7.0)}, True),
+        # A load that rocks: next to nothing goes into normal contacts, and ever less of it.
+        ({"dissipated_normal": np.linspace(0.002, 0.001, 1000)}, False),
+    ],
+)
+def test_what_counts_as_drifting(change, drifts):
+    assert made_up_statistics(**change)["drifting"] is drifts
+
+
+def test_statistics_without_friction():
+    columns = made_up_statistics(dissipated_sliding=0.0 * np.ones(1000), work_tangential=0.0)
     assert columns["drifting"] is False

@@ -46,6 +46,22 @@ class Drift:
         return self.significance < FALSE_ALARMS
 
 
+@dataclass(frozen=True)
+class Wandering:
+    """How a mean differs from one stretch of time to the next.
+
+    Attributes
+    ----------
+    spread
+        Greatest less least.
+    significance
+        Probability of means so different in a steady run; small means that the load passes between states.
+    """
+
+    spread: float
+    significance: float
+
+
 def drift(series: "pl.DataFrame", window: tuple[float, float], column: str = "work_drum") -> Drift | None:
     """Test whether a rate drifts within a window.
 
@@ -119,8 +135,8 @@ def wandering(
     denominator: str,
     window: tuple[float, float],
     settled: float = _SETTLED,
-) -> float | None:
-    """Return the probability of a ratio that differs so much from one stretch of time to the next.
+) -> Wandering | None:
+    """Test whether a ratio differs from one stretch of time to the next.
 
     A load may pass slowly between states, each of them steady over a window. So the time since it settled is
     cut into stretches half as long as the window, and their ratios are compared by their own errors.
@@ -138,8 +154,8 @@ def wandering(
 
     Returns
     -------
-    float or None
-        Small where the load wanders; `None` where there is no time but the window, or too few samples.
+    Wandering or None
+        `None` where there is no time but the window, or too few samples.
     """
     length = (window[1] - window[0]) / _PER_WINDOW
     count = int((window[1] - settled) / length + 1e-9)
@@ -150,4 +166,5 @@ def wandering(
     known = [ratio for ratio in ratios if ratio is not None and ratio.error]
     if len(known) < count:
         return None
-    return disagreement([ratio.value for ratio in known], [ratio.error for ratio in known])
+    values = [ratio.value for ratio in known]
+    return Wandering(max(values) - min(values), disagreement(values, [ratio.error for ratio in known]))

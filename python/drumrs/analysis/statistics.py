@@ -10,6 +10,28 @@ from drumrs.analysis.drift import FALSE_ALARMS, drift, ratio_drift, wandering
 if TYPE_CHECKING:
     import polars as pl
 
+_MEANS = (
+    "drum_specific_power",
+    "normal_specific_power",
+    "tangential_specific_power",
+    "dissipation_ratio",
+    "work_ratio",
+    "angular_momentum_per_mass",
+)
+_TESTS = (
+    "drift",
+    "drift_significance",
+    "share_drift",
+    "share_drift_significance",
+    "wandering",
+    "wandering_significance",
+    "drifting",
+)
+# Names of what `statistics` returns.
+STATISTICS = (*(f"{name}{ending}" for name in _MEANS for ending in ("", "_error")), *_TESTS)
+
+# Changes below this do not matter, however sure.
+_MATTERS = 0.01
 _LOSSES = ("dissipated_normal", "dissipated_sliding")
 
 
@@ -36,10 +58,10 @@ def statistics(
         ``work_ratio``: work of the contacts' normal forces over that of their tangential forces.
         ``angular_momentum_per_mass`` [m²/s], 0 for a load that stays where it is, however it rocks.
         All with ``…_error``; `None` where not defined.
-        ``drift`` [W/kg/s], ``drift_change``, ``drift_significance`` of the drum's specific power, and ``ratio_drift_…``
-        of the dissipation ratio: see `Drift`.
-        ``wandering_significance``: see `wandering`.
-        ``drifting``: whether any of the three is below one in a thousand.
+        ``drift``: change of the drum's specific power within the window over its mean, ``share_drift``: that of the
+        normal damping's share in all dissipation, ``wandering``: how that share differs between stretches of time;
+        each with the ``…_significance`` of `Drift` and `Wandering`.
+        ``drifting``: whether one of the three is beyond chance (one in a thousand) and above a hundredth.
     """
     means: dict[str, Mean | None] = {
         f"{name}_specific_power": _scaled(rate_with_error(series, column, window), mass)
@@ -56,24 +78,30 @@ def statistics(
     for name, mean in means.items():
         columns[name] = mean.value if mean is not None else None
         columns[f"{name}_error"] = mean.error if mean is not None else None
-    return {**columns, **_steadiness(series, window, mass)}
+    return {**columns, **_steadiness(series, window)}
 
 
-def _steadiness(
-    series: "pl.DataFrame", window: tuple[float, float], mass: float
-) -> dict[str, float | bool | None]:
-    power = drift(series, window)
-    ratio = ratio_drift(series, *_LOSSES, window)
-    columns: dict[str, float | bool | None] = {
-        "drift": power.slope / mass if power is not None else None,
-        "drift_change": power.change if power is not None else None,
-        "drift_significance": power.significance if power is not None else None,
-        "ratio_drift_change": ratio.change if ratio is not None else None,
-        "ratio_drift_significance": ratio.significance if ratio is not None else None,
-        "wandering_significance": wandering(series, *_LOSSES, window),
+def _steadiness(series: "pl.DataFrame", window: tuple[float, float]) -> dict[str, float | bool | None]:
+    # A share, not a ratio: it means as much near 0 as near 1.
+    both = series.with_columns((series[_LOSSES[0]] + series[_LOSSES[1]]).alias("dissipated"))
+    share = (_LOSSES[0], "dissipated", window)
+    mean, power = ratio_with_error(both, *share), drift(series, window)
+    share_drift, passing = ratio_drift(both, *share), wandering(both, *share)
+    changes = {
+        "drift": (power.change, power.significance) if power else None,
+        "share_drift": (share_drift.change * mean.value, share_drift.significance)
+        if share_drift and mean
+        else None,
+        "wandering": (passing.spread, passing.significance) if passing else None,
     }
-    tests = [value for name, value in columns.items() if name.endswith("_significance")]
-    return {**columns, "drifting": any(value is not None and value < FALSE_ALARMS for value in tests)}
+    columns: dict[str, float | bool | None] = {}
+    for name, found in changes.items():
+        columns[name], columns[f"{name}_significance"] = found or (None, None)
+    columns["drifting"] = any(
+        found is not None and abs(found[0]) > _MATTERS and found[1] < FALSE_ALARMS
+        for found in changes.values()
+    )
+    return columns
 
 
 def _scaled(mean: Mean, mass: float) -> Mean:
