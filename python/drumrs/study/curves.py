@@ -4,7 +4,7 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from types import MappingProxyType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,6 +28,8 @@ AXES: Mapping[str, tuple[str, float]] = MappingProxyType(
 )
 # Values of a parameter this near each other are the same.
 _SAME = 1e-6
+# Turns of the drum that a window must hold for its blocks to tell an error.
+_LEAST_TURNS = 0.5
 
 
 @dataclass(frozen=True)
@@ -180,10 +182,16 @@ class Results:
         return self.table.filter(turned, *same).sort("seed", maintain_order=True)
 
 
-def _point(x: float, rows: Sequence[Mapping[str, object]], column: str) -> Point:
-    values = tuple(float(row[column]) for row in rows)  # type: ignore[arg-type]
-    errors = tuple(row.get(f"{column}_error") for row in rows)
-    return Point(x, values, errors, any(bool(row["drifting"]) for row in rows))  # type: ignore[arg-type]
+def _point(x: float, rows: Sequence[Mapping[str, Any]], column: str) -> Point:
+    values = tuple(float(row[column]) for row in rows)
+    errors = tuple(None if _is_thin(row) else row.get(f"{column}_error") for row in rows)
+    return Point(x, values, errors, any(bool(row["drifting"]) for row in rows))
+
+
+def _is_thin(row: Mapping[str, Any]) -> bool:
+    """Tell a window too short for an error of its own: in half a turn nothing comes round."""
+    turns = (row["window_end"] - row["window_start"]) * abs(row["rotation.rpm"] or 0.0) / 60.0
+    return bool(turns < _LEAST_TURNS)
 
 
 def slope(curve: Curve) -> Estimate:

@@ -31,14 +31,15 @@ def measure(sweep: "Sweep", folder: str | Path | None = None) -> "pl.DataFrame":
     Returns
     -------
     polars.DataFrame
-        One row a finished case, in the order of ``sweep.table()``, with its columns and further ones:
-        ``size_ratio``, D/d; ``drum_power_error`` [W/m]; those of `analysis.statistics`; and, where frames were kept,
+        One row a finished case, in the order of ``sweep.table()``, with its columns, measured anew, and further ones:
+        ``size_ratio``, D/d; ``drum_power_error`` [W/m]; and, where frames were kept,
         ``carried_round``, ``mixed_in_a_turn`` and the speeds relative to the turning drum by depth,
         ``surface_speed``, ``middle_speed`` and ``deep_speed`` (over the rim's), each with ``…_error``.
     """
     import polars as pl
 
-    table = sweep.table(folder).collect()
+    # What is measured here takes the place of what a finished case wrote, perhaps by an earlier method.
+    table = sweep.table(folder).drop(set(_schema()) - {"case"}, strict=False).collect()
     finished = set(table["case"])
     rows = [
         {"case": case.id, **_measures(case.config, sweep.series(case, folder), _frames(sweep, case, folder))}
