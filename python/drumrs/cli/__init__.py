@@ -1,7 +1,7 @@
 """The command line, one file a command; nobody imports it.
 
 `app` names the commands and turns errors into exit statuses, `options` holds what several commands take and `tables`
-what several print. A command's file is imported when the command is called.
+what several print. Whatever is slow to import is imported when a command is called.
 """
 
 from drumrs.cli.app import main, run_command

@@ -6,6 +6,12 @@ from collections.abc import Sequence
 from cyclopts import App, CycloptsError
 
 import drumrs
+from drumrs.cli.baseline import baseline
+from drumrs.cli.config import config
+from drumrs.cli.info import info
+from drumrs.cli.run import run
+from drumrs.cli.sweep import sweep
+from drumrs.cli.view import view
 from drumrs.errors import CheckpointError, ConfigError, UnstableError
 
 _BAD_INPUT = 2
@@ -23,24 +29,16 @@ app = App(
         "- `drumrs run case.toml --set contact.bundle.friction=0.3 --out out`\n"
         "- `drumrs run --set 'run.window=[5, 15]' --set run.duration=15 --seed 2 --json`\n"
         "- `drumrs run --resume out` goes on after Ctrl-C or a power cut\n"
-        "- `drumrs view out` plays the run in the browser"
+        "- `drumrs view out` plays the run in the browser\n"
+        "- `drumrs sweep study.toml --out out/study` runs many cases"
     ),
     version=drumrs.__version__,
     suppress_keyboard_interrupt=False,
     result_action="return_value",
 )
 
-_COMMANDS = {
-    "run": "Run a case: the paper's baseline, a TOML file laid over it, settings laid over the file.",
-    "baseline": "Run the paper's drum without and with baffles, side by side, and compare them.",
-    "view": "Show a run in the browser: play it, step through it, color it by what matters.",
-    "config": "Print every key with its default, unit and meaning, as TOML: `drumrs config > case.toml`.",
-    "info": "Print what this copy of drumrs is: versions, build profile, CPU features.",
-}
-
-# By name: what a command needs is imported when it is called.
-for _name, _help in _COMMANDS.items():
-    app.command(f"drumrs.cli.{_name}:{_name}", name=_name, help=_help)
+for _command in (run, baseline, sweep, view, config, info):
+    app.command(_command)
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
@@ -52,7 +50,7 @@ def run_command(arguments: Sequence[str] | None = None) -> int:
     """Run the command line; return 0, 1 (the run failed), 2 (bad input) or 130 (Ctrl-C)."""
     words = sys.argv[1:] if arguments is None else list(arguments)
     try:
-        app(words, exit_on_error=False, print_error=False)
+        status = app(words, exit_on_error=False, print_error=False)
     except (ConfigError, CheckpointError) as error:
         return _complain(str(error), _BAD_INPUT)
     except CycloptsError as error:
@@ -61,7 +59,7 @@ def run_command(arguments: Sequence[str] | None = None) -> int:
         return _complain(str(error), _FAILED)
     except KeyboardInterrupt as interrupt:
         return _complain(str(interrupt) or "interrupted", _INTERRUPTED)
-    return 0
+    return status if isinstance(status, int) else 0
 
 
 def _complain(sentence: str, status: int) -> int:

@@ -6,7 +6,6 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from drumrs import viewer
 from drumrs.cli.tables import print_paths
 from drumrs.errors import ConfigError
 
@@ -29,6 +28,8 @@ def view(
     show
         Whether to open the page in the browser.
     """
+    from drumrs import viewer
+
     player = viewer.read(run)
     page = out or viewer.default_page(run)
     try:
