@@ -5,10 +5,34 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from drumrs.analysis.blocks import Mean, Stretch, block_error, rate_with_error, ratio_with_error
-from drumrs.analysis.drift import drift
+from drumrs.analysis.drift import FALSE_ALARMS, drift, ratio_drift, wandering
 
 if TYPE_CHECKING:
     import polars as pl
+
+_MEANS = (
+    "drum_specific_power",
+    "normal_specific_power",
+    "tangential_specific_power",
+    "dissipation_ratio",
+    "work_ratio",
+    "angular_momentum_per_mass",
+)
+_TESTS = (
+    "drift",
+    "drift_significance",
+    "share_drift",
+    "share_drift_significance",
+    "wandering",
+    "wandering_significance",
+    "drifting",
+)
+# Names of what `statistics` returns.
+STATISTICS = (*(f"{name}{ending}" for name in _MEANS for ending in ("", "_error")), *_TESTS)
+
+# Changes below this do not matter, however sure.
+_MATTERS = 0.01
+_LOSSES = ("dissipated_normal", "dissipated_sliding")
 
 
 def statistics(
@@ -34,7 +58,10 @@ def statistics(
         ``work_ratio``: work of the contacts' normal forces over that of their tangential forces.
         ``angular_momentum_per_mass`` [m²/s], 0 for a load that stays where it is, however it rocks.
         All with ``…_error``; `None` where not defined.
-        ``drift`` [W/kg/s], ``drift_change``, ``drift_significance``, ``drifting``: see `Drift`.
+        ``drift``: change of the drum's specific power within the window over its mean, ``share_drift``: that of the
+        normal damping's share in all dissipation, ``wandering``: how that share differs between stretches of time;
+        each with the ``…_significance`` of `Drift` and `Wandering`.
+        ``drifting``: whether one of the three is beyond chance (one in a thousand) and above a hundredth.
     """
     means: dict[str, Mean | None] = {
         f"{name}_specific_power": _scaled(rate_with_error(series, column, window), mass)
@@ -44,18 +71,36 @@ def statistics(
             ("tangential", "dissipated_sliding"),
         )
     }
-    means["dissipation_ratio"] = ratio_with_error(series, "dissipated_normal", "dissipated_sliding", window)
+    means["dissipation_ratio"] = ratio_with_error(series, *_LOSSES, window)
     means["work_ratio"] = ratio_with_error(series, "work_normal", "work_tangential", window)
     means["angular_momentum_per_mass"] = _scaled(_sampled(series, "angular_momentum", window), mass)
-    found = drift(series, window)
     columns: dict[str, float | bool | None] = {}
     for name, mean in means.items():
         columns[name] = mean.value if mean is not None else None
         columns[f"{name}_error"] = mean.error if mean is not None else None
-    columns["drift"] = found.slope / mass if found is not None else None
-    columns["drift_change"] = found.change if found is not None else None
-    columns["drift_significance"] = found.significance if found is not None else None
-    columns["drifting"] = found.drifting if found is not None else None
+    return {**columns, **_steadiness(series, window)}
+
+
+def _steadiness(series: "pl.DataFrame", window: tuple[float, float]) -> dict[str, float | bool | None]:
+    # A share, not a ratio: it means as much near 0 as near 1.
+    both = series.with_columns((series[_LOSSES[0]] + series[_LOSSES[1]]).alias("dissipated"))
+    share = (_LOSSES[0], "dissipated", window)
+    mean, power = ratio_with_error(both, *share), drift(series, window)
+    share_drift, passing = ratio_drift(both, *share), wandering(both, *share)
+    changes = {
+        "drift": (power.change, power.significance) if power else None,
+        "share_drift": (share_drift.change * mean.value, share_drift.significance)
+        if share_drift and mean
+        else None,
+        "wandering": (passing.spread, passing.significance) if passing else None,
+    }
+    columns: dict[str, float | bool | None] = {}
+    for name, found in changes.items():
+        columns[name], columns[f"{name}_significance"] = found or (None, None)
+    columns["drifting"] = any(
+        found is not None and abs(found[0]) > _MATTERS and found[1] < FALSE_ALARMS
+        for found in changes.values()
+    )
     return columns
 
 

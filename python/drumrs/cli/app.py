@@ -11,6 +11,7 @@ from drumrs.cli.config import config
 from drumrs.cli.info import info
 from drumrs.cli.run import run
 from drumrs.cli.sweep import sweep
+from drumrs.cli.view import view
 from drumrs.errors import CheckpointError, ConfigError, UnstableError
 from drumrs.files import NO_ROOM
 
@@ -29,6 +30,7 @@ app = App(
         "- `drumrs run case.toml --set contact.bundle.friction=0.3 --out out`\n"
         "- `drumrs run --set 'run.window=[5, 15]' --set run.duration=15 --seed 2 --json`\n"
         "- `drumrs run --resume out` goes on after Ctrl-C or a power cut\n"
+        "- `drumrs view out` plays the run in the browser\n"
         "- `drumrs sweep study.toml --out out/study` runs many cases"
     ),
     version=drumrs.__version__,
@@ -36,7 +38,7 @@ app = App(
     result_action="return_value",
 )
 
-for _command in (run, baseline, sweep, config, info):
+for _command in (run, baseline, sweep, view, config, info):
     app.command(_command)
 
 

@@ -8,6 +8,9 @@ Nothing here runs a simulation: `cases` says what to run, and everything else re
 """
 
 from drumrs.study.cases import cases, cost
+from drumrs.study.claims import CLAIMS, Claim, judge
+from drumrs.study.measure import measure
 from drumrs.study.scales import SCALES, Scale
+from drumrs.study.verdict import Number, Verdict
 
-__all__ = ["SCALES", "Scale", "cases", "cost"]
+__all__ = ["CLAIMS", "SCALES", "Claim", "Number", "Scale", "Verdict", "cases", "cost", "judge", "measure"]

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, Union, get_args, get_
 
 from pydantic import BaseModel
 
+from drumrs.analysis import STATISTICS
 from drumrs.config import Config
 from drumrs.config.report import part_of
 from drumrs.result import Summary
@@ -21,17 +22,6 @@ if TYPE_CHECKING:
 CASE, SEED = "case", "seed"
 # Facts of the machine, which differ from run to run.
 TIMINGS = ("wall_time", "particle_steps_per_second")
-# What `analysis.statistics` makes of a run's series.
-_MEANS = (
-    "drum_specific_power",
-    "normal_specific_power",
-    "tangential_specific_power",
-    "dissipation_ratio",
-    "work_ratio",
-    "angular_momentum_per_mass",
-)
-_DRIFT = ("drift", "drift_change", "drift_significance")
-_DRIFTING = "drifting"
 _SEED_KEY = "run.seed"
 _PAIR = "center_of_mass"
 
@@ -77,9 +67,8 @@ def schema() -> "dict[str, Any]":
             summary |= {f"{_PAIR}_x": pl.Float64, f"{_PAIR}_y": pl.Float64}
         elif field.name not in TIMINGS:
             summary[field.name] = _type(hints[field.name])
-    means = {f"{name}{ending}": pl.Float64 for name in _MEANS for ending in ("", "_error")}
-    drift = {**dict.fromkeys(_DRIFT, pl.Float64), _DRIFTING: pl.Boolean}
-    return {CASE: pl.String, **types, SEED: pl.Int64, **summary, **means, **drift}
+    told = {name: pl.Boolean if name == "drifting" else pl.Float64 for name in STATISTICS}
+    return {CASE: pl.String, **types, SEED: pl.Int64, **summary, **told}
 
 
 def _numbers(summary: Summary) -> dict[str, Any]:
