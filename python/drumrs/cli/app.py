@@ -11,7 +11,9 @@ from drumrs.cli.config import config
 from drumrs.cli.info import info
 from drumrs.cli.run import run
 from drumrs.cli.sweep import sweep
+from drumrs.cli.view import view
 from drumrs.errors import CheckpointError, ConfigError, UnstableError
+from drumrs.files import NO_ROOM
 
 _BAD_INPUT = 2
 _FAILED = 1
@@ -28,6 +30,7 @@ app = App(
         "- `drumrs run case.toml --set contact.bundle.friction=0.3 --out out`\n"
         "- `drumrs run --set 'run.window=[5, 15]' --set run.duration=15 --seed 2 --json`\n"
         "- `drumrs run --resume out` goes on after Ctrl-C or a power cut\n"
+        "- `drumrs view out` plays the run in the browser\n"
         "- `drumrs sweep study.toml --out out/study` runs many cases"
     ),
     version=drumrs.__version__,
@@ -35,7 +38,7 @@ app = App(
     result_action="return_value",
 )
 
-for _command in (run, baseline, sweep, config, info):
+for _command in (run, baseline, sweep, view, config, info):
     app.command(_command)
 
 
@@ -53,8 +56,11 @@ def run_command(arguments: Sequence[str] | None = None) -> int:
         return _complain(str(error), _BAD_INPUT)
     except CycloptsError as error:
         return _complain(" ".join(str(error).split()), _BAD_INPUT)
-    except (UnstableError, OSError) as error:
+    except UnstableError as error:
         return _complain(str(error), _FAILED)
+    except OSError as error:
+        full = error.errno in NO_ROOM and error.strerror
+        return _complain(f"cannot write: {error.strerror}" if full else str(error), _FAILED)
     except KeyboardInterrupt as interrupt:
         return _complain(str(interrupt) or "interrupted", _INTERRUPTED)
     return status if isinstance(status, int) else 0

@@ -39,7 +39,7 @@ def run(
     case
         TOML file with some keys of `drumrs config`.
     out
-        Folder for summary.json, series.parquet, frames.parquet, config.toml, pictures and checkpoints.
+        Folder for summary.json, series.parquet, frames.parquet, config.toml, pictures, player.html and checkpoints.
     json
         Print the summary as one JSON object, and nothing else, on standard output.
     resume
