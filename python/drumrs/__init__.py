@@ -19,10 +19,12 @@ from drumrs.protocol import run
 from drumrs.result import Result, Summary, load
 from drumrs.simulation import Simulation, info, quantities, units
 from drumrs.state import State
+from drumrs.sweep import Case, Sweep
 
 __version__ = version("drumrs")
 
 __all__ = [
+    "Case",
     "CheckpointError",
     "Config",
     "ConfigError",
@@ -32,6 +34,7 @@ __all__ = [
     "Simulation",
     "State",
     "Summary",
+    "Sweep",
     "UnstableError",
     "__version__",
     "baseline",

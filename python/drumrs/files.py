@@ -1,7 +1,12 @@
 """Files that are either whole or not there: written under a temporary name, flushed to disk, renamed."""
 
+import errno
 import os
+import secrets
 from pathlib import Path
+
+# What a write says where there is no room: disk, quota, limit of a process.
+NO_ROOM = frozenset({errno.ENOSPC, errno.EDQUOT, errno.EFBIG})
 
 
 def write_whole(path: str | Path, data: bytes) -> None:
@@ -13,7 +18,8 @@ def write_whole(path: str | Path, data: bytes) -> None:
         Where the folder cannot be written; the temporary file is removed.
     """
     path = Path(path)
-    temporary = path.with_name(f".{path.name}.{os.getpid()}.tmp")
+    # Two writers of one file, on threads of a process or on two machines, must not share a temporary.
+    temporary = path.with_name(f".{path.name}.{secrets.token_hex(4)}.tmp")
     try:
         with temporary.open("wb") as file:
             file.write(data)

@@ -100,22 +100,26 @@ class Frames:
         }
         return pl.DataFrame(columns)
 
-    def save(self, path: str | Path) -> None:
-        """Write the table as parquet, units and the drum's outline in its metadata."""
+    def metadata(self) -> dict[str, str]:
+        """Return what a file of the table has to carry beside it: units and the drum's outline, as JSON."""
         scene = {
             "drum_radius": self.drum_radius,
             "baffles": [line.tolist() for line in self.baffles],
             "walls": [line.tolist() for line in self.walls],
         }
-        write_table(path, self.table(), {"units": json.dumps(_UNITS), "scene": json.dumps(scene)})
+        return {"units": json.dumps(_UNITS), "scene": json.dumps(scene)}
+
+    def save(self, path: str | Path) -> None:
+        """Write the table as parquet, with `metadata` on the file."""
+        write_table(path, self.table(), self.metadata())
 
     @classmethod
-    def load(cls, path: str | Path) -> "Frames":
-        """Read what `save` wrote."""
+    def load(cls, source: str | Path | io.BytesIO) -> "Frames":
+        """Read what `save` wrote, from the file or from its bytes."""
         import polars as pl
 
-        table = pl.read_parquet(path)
-        scene = json.loads(pl.read_parquet_metadata(path)["scene"])
+        table = pl.read_parquet(source)
+        scene = json.loads(pl.read_parquet_metadata(source)["scene"])
         count = table["bundle"].n_unique()
         columns: dict[str, Any] = {name: table[name].to_numpy().reshape(-1, count) for name in table.columns}
         return cls(

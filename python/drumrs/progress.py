@@ -20,6 +20,14 @@ class Journey:
     count: int
 
 
+@dataclass(frozen=True)
+class Campaign:
+    """Many cases to be reported: how many, and their particle-steps together."""
+
+    cases: int
+    cost: float
+
+
 class Board:
     """Shows how far one or several runs are; this one, the base of the others, shows nothing."""
 
@@ -35,10 +43,17 @@ class Board:
         del journey
         return _ignore
 
+    def add_campaign(self, campaign: Campaign) -> Callable[[int, float], None]:
+        """Show many cases; the function returned is to be called with cases and particle-steps done."""
+        del campaign
+        return _ignore
 
-def _ignore(step: int) -> None:
-    """Take a step number and say nothing."""
-    del step
+    def note(self, sentence: str) -> None:
+        """Say something once."""
+
+
+def _ignore(*_: float) -> None:
+    """Take how far it is and say nothing."""
 
 
 def board(*, show: bool) -> Board:
@@ -76,6 +91,26 @@ class _Meter:
         return f"{label}{share:.0%}, {done:.2f} of {end:.2f} s, {rate / 1e6:.1f} M particle-steps/s, {left:.0f} s left"
 
 
+class _Score:
+    """Rate and time left of many cases, by what they cost and not by their number."""
+
+    def __init__(self, campaign: Campaign) -> None:
+        self.campaign = campaign
+        self.began = time.perf_counter()
+
+    def state(self, cases: int, cost: float) -> str:
+        """Say how many cases are done, and how fast."""
+        rate = cost / max(time.perf_counter() - self.began, 1e-9)
+        return f"{cases} of {self.campaign.cases} cases · {rate / 1e6:.1f} M particle-steps/s"
+
+    def line(self, cases: int, cost: float) -> str:
+        """Say in one line how far it is."""
+        share = cost / max(self.campaign.cost, 1.0)
+        elapsed = time.perf_counter() - self.began
+        left = f"{elapsed * (1.0 / share - 1.0):.0f} s left" if share else "time left unknown"
+        return f"sweep: {share:.0%}, {self.state(cases, cost)}, {left}"
+
+
 class _Lines(Board):
     def add(self, journey: Journey) -> Callable[[int], None]:
         meter = _Meter(journey)
@@ -85,10 +120,25 @@ class _Lines(Board):
             nonlocal due
             if time.perf_counter() >= due:
                 due = time.perf_counter() + _MINUTE
-                sys.stderr.write(f"{meter.line(step)}\n")
-                sys.stderr.flush()
+                self.note(meter.line(step))
 
         return report
+
+    def add_campaign(self, campaign: Campaign) -> Callable[[int, float], None]:
+        score = _Score(campaign)
+        due = score.began + _MINUTE
+
+        def report(cases: int, cost: float) -> None:
+            nonlocal due
+            if time.perf_counter() >= due:
+                due = time.perf_counter() + _MINUTE
+                self.note(score.line(cases, cost))
+
+        return report
+
+    def note(self, sentence: str) -> None:
+        sys.stderr.write(f"{sentence}\n")
+        sys.stderr.flush()
 
 
 class _Bars(Board):
@@ -125,3 +175,17 @@ class _Bars(Board):
             self._progress.update(task, completed=step, state=state)
 
         return report
+
+    def add_campaign(self, campaign: Campaign) -> Callable[[int, float], None]:
+        score = _Score(campaign)
+        task = self._progress.add_task("sweep", total=max(campaign.cost, 1.0), state="")
+
+        def report(cases: int, cost: float) -> None:
+            self._progress.update(task, completed=cost, state=score.state(cases, cost))
+
+        return report
+
+    def note(self, sentence: str) -> None:
+        from rich.markup import escape
+
+        self._progress.print(escape(sentence))

@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 
     import polars as pl
 
+    from drumrs.viewer import Player
+
 
 @dataclass(frozen=True)
 class Summary:
@@ -153,15 +155,30 @@ class Result:
         window = f"t = {summary.window_start:.6g} to {summary.window_end:.6g} s"
         return f"<Result of {summary.bundle_count} bundles: {summary.specific_power:.4g} W/kg over {window}>"
 
+    def player(self) -> "Player":
+        """Return the run as a player: shown by a notebook, or written as one HTML file with its `save`.
+
+        Examples
+        --------
+        >>> import drumrs
+        >>> config = drumrs.baseline(fill=0.1).replace({"run.duration": 0.1})
+        >>> drumrs.run(config, progress=False).player()
+        <Player of 40 bundles, 3 frames>
+        """
+        from drumrs.viewer import Player
+
+        window = self.config.run.averaging_window
+        return Player(self.frames, self.series, title=self.config.title, window=window)
+
     def save(self, folder: str | Path, *, pictures: bool = True) -> list[Path]:
-        """Write config.toml, series.parquet, frames.parquet, the pictures and, last, summary.json.
+        """Write config.toml, series.parquet, frames.parquet, pictures, a player and, last, summary.json.
 
         Parameters
         ----------
         folder
             Created where it does not exist.
         pictures
-            Whether to draw snapshots.png and time_series.png.
+            Whether to draw snapshots.png and time_series.png, and to write player.html, which plays the run.
 
         Returns
         -------
@@ -195,7 +212,8 @@ class Result:
             drawings["snapshots.png"] = figures.snapshots(views)
         for name, figure in drawings.items():
             figures.write(figure, folder / name)
-        return [folder / name for name in drawings]
+        players = [self.player().save(folder / "player.html")] if indices else []
+        return [folder / name for name in drawings] + players
 
 
 def load(folder: str | Path) -> Result:

@@ -1,6 +1,7 @@
 """A short run to share, and the command line called in this process."""
 
 import os
+import shutil
 
 import pytest
 
@@ -28,3 +29,21 @@ def drum(capsys):
         return status, captured.out, captured.err
 
     return call
+
+
+# Not for the whole session: while it is there, this thread seems to be in an event loop, which others may mind.
+@pytest.fixture(scope="module")
+def browser():
+    """Start the system's Chromium, driven by Playwright; none is ever downloaded."""
+    from playwright.sync_api import sync_playwright
+
+    found = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
+    if found is None:
+        sentence = "no Chromium is on the path: install it (apt-get install chromium) to test the pages"
+        (pytest.fail if os.environ.get("CI") == "true" else pytest.skip)(sentence)
+    with sync_playwright() as driver:
+        # As root, as in a container, Chromium starts without its sandbox only.
+        flags = ["--no-sandbox"] if hasattr(os, "geteuid") and os.geteuid() == 0 else []
+        running = driver.chromium.launch(executable_path=found, args=flags)
+        yield running
+        running.close()

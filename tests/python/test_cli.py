@@ -54,9 +54,8 @@ def test_out_holds_everything(drum, tmp_path):
     status, printed, _ = drum("run", *SHORT, "--seed", "7", "--out", out)
     assert status == 0
     assert "wall time [s]" in printed
-    names = (
-        "summary.json series.parquet frames.parquet config.toml snapshots.png time_series.png checkpoint.bin"
-    )
+    tables = "summary.json series.parquet frames.parquet config.toml"
+    names = f"{tables} snapshots.png time_series.png player.html checkpoint.bin"
     assert {path.name for path in out.iterdir()} == set(names.split())
     assert drumrs.load(out).config.run.seed == 7
     assert json.loads(pl.read_parquet_metadata(out / "series.parquet")["units"])["drum_power"] == "W/m"

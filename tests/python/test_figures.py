@@ -5,6 +5,7 @@ import polars as pl
 import pytest
 
 from drumrs import figures
+from drumrs.figures import history, shared
 from drumrs.frames import Frames
 
 TRIANGLE = np.array([[0.98, -0.2], [0.8, 0.0], [0.98, 0.2]])
@@ -73,7 +74,7 @@ def test_time_series_is_written(rows, tmp_path):
 
 def test_means_of_power_are_exact():
     time = 0.01 * np.arange(301)
-    _, power = figures._mean_rate(time, 7.0 * time, 1.0)
+    _, power = history.mean_rate(time, 7.0 * time, 1.0)
     assert power == pytest.approx(7.0)
 
 
@@ -96,7 +97,7 @@ def test_frames_survive_a_file(tmp_path):
 
 
 def test_labels_are_kept_apart():
-    places = figures._apart([0.1, 0.1, 0.12, 0.8])
+    places = shared.apart([0.1, 0.1, 0.12, 0.8])
     assert np.diff(places).min() > 0.0749
     assert places[3] == 0.8
     assert np.mean(places[:3]) == pytest.approx(0.32 / 3.0)

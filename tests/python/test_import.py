@@ -37,9 +37,18 @@ def test_import_rules():
             if module.startswith("config/"):
                 assert name.startswith(("drumrs.config", "drumrs.errors")), (module, name)
             assert not name.startswith("drumrs._core") or module == "simulation", (module, name)
-            assert not name.startswith("drumrs.cli") or module == "__main__", (module, name)
-            if module == "figures":
-                assert not name.startswith(("drumrs.simulation", "drumrs.protocol")), (module, name)
+            if name.startswith("drumrs.cli"):
+                assert module.startswith(("__main__", "cli/")), (module, name)
+            if module.split("/")[0] in {"figures", "analysis"}:
+                assert not name.startswith(("drumrs.simulation", "drumrs.protocol", "drumrs.sweep")), (
+                    module,
+                    name,
+                )
+            if module.startswith("sweep/"):
+                assert not name.startswith(("drumrs.figures", "drumrs.study", "drumrs.report")), (
+                    module,
+                    name,
+                )
 
 
 def test_version_is_the_crates():

@@ -244,6 +244,7 @@ def test_result_survives_a_folder(short, tmp_path):
         "frames.parquet",
         "config.toml",
         "snapshots.png",
+        "player.html",
         "time_series.png",
     }
     assert {path.name for path in paths} == {path.name for path in (tmp_path / "run").iterdir()} == names

@@ -60,6 +60,22 @@ class Config(Part):
         return round((self.load.fill or 0.0) * (self.drum.diameter / self.load.diameter) ** 2)
 
     @property
+    def title(self) -> str:
+        """A line that tells this case from others: bundles, fill, baffles, speed, seed.
+
+        Examples
+        --------
+        >>> import drumrs
+        >>> drumrs.baseline(fill=0.25, baffles=True).title
+        '100 bundles (25 % fill), 3 baffles, 54 rpm, seed 1'
+        """
+        fill = self.bundle_count * (self.load.diameter / self.drum.diameter) ** 2
+        baffles = self.drum.baffles.count
+        many = "no baffles" if baffles == 0 else f"{baffles} baffle{'s' if baffles > 1 else ''}"
+        turning = f"{self.rotation.rpm:g} rpm" if self.rotation.rpm is not None else "a program of speeds"
+        return f"{self.bundle_count} bundles ({100.0 * fill:.3g} % fill), {many}, {turning}, seed {self.run.seed}"
+
+    @property
     def digest(self) -> str:
         """32 hexadecimal digits that name this configuration: equal values, equal digest."""
         canonical = json.dumps(self.model_dump(mode="json", exclude_none=True), sort_keys=True)

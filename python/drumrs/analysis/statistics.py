@@ -1,0 +1,116 @@
+"""Everything that a series tells of one run beyond its summary, as columns of a table."""
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from drumrs.analysis.blocks import Mean, Stretch, block_error, rate_with_error, ratio_with_error
+from drumrs.analysis.drift import FALSE_ALARMS, drift, ratio_drift, wandering
+
+if TYPE_CHECKING:
+    import polars as pl
+
+_MEANS = (
+    "drum_specific_power",
+    "normal_specific_power",
+    "tangential_specific_power",
+    "dissipation_ratio",
+    "work_ratio",
+    "angular_momentum_per_mass",
+)
+_TESTS = (
+    "drift",
+    "drift_significance",
+    "share_drift",
+    "share_drift_significance",
+    "wandering",
+    "wandering_significance",
+    "drifting",
+)
+# Names of what `statistics` returns.
+STATISTICS = (*(f"{name}{ending}" for name in _MEANS for ending in ("", "_error")), *_TESTS)
+
+# Changes below this do not matter, however sure.
+_MATTERS = 0.01
+_LOSSES = ("dissipated_normal", "dissipated_sliding")
+
+
+def statistics(
+    series: "pl.DataFrame", window: tuple[float, float], mass: float
+) -> dict[str, float | bool | None]:
+    """Return specific powers, ratios and drift over a window, with standard errors.
+
+    Parameters
+    ----------
+    series
+        Table of a run, one row a sample.
+    window
+        Start and end [s].
+    mass
+        Mass of the load per meter of depth [kg/m].
+
+    Returns
+    -------
+    dict
+        ``drum_specific_power``, ``normal_specific_power``, ``tangential_specific_power``: what the drum puts in, and
+        what normal damping and sliding take [W/kg].
+        ``dissipation_ratio``: the latter two over each other.
+        ``work_ratio``: work of the contacts' normal forces over that of their tangential forces.
+        ``angular_momentum_per_mass`` [m²/s], 0 for a load that stays where it is, however it rocks.
+        All with ``…_error``; `None` where not defined.
+        ``drift``: change of the drum's specific power within the window over its mean, ``share_drift``: that of the
+        normal damping's share in all dissipation, ``wandering``: how that share differs between stretches of time;
+        each with the ``…_significance`` of `Drift` and `Wandering`.
+        ``drifting``: whether one of the three is beyond chance (one in a thousand) and above a hundredth.
+    """
+    means: dict[str, Mean | None] = {
+        f"{name}_specific_power": _scaled(rate_with_error(series, column, window), mass)
+        for name, column in (
+            ("drum", "work_drum"),
+            ("normal", "dissipated_normal"),
+            ("tangential", "dissipated_sliding"),
+        )
+    }
+    means["dissipation_ratio"] = ratio_with_error(series, *_LOSSES, window)
+    means["work_ratio"] = ratio_with_error(series, "work_normal", "work_tangential", window)
+    means["angular_momentum_per_mass"] = _scaled(_sampled(series, "angular_momentum", window), mass)
+    columns: dict[str, float | bool | None] = {}
+    for name, mean in means.items():
+        columns[name] = mean.value if mean is not None else None
+        columns[f"{name}_error"] = mean.error if mean is not None else None
+    return {**columns, **_steadiness(series, window)}
+
+
+def _steadiness(series: "pl.DataFrame", window: tuple[float, float]) -> dict[str, float | bool | None]:
+    # A share, not a ratio: it means as much near 0 as near 1.
+    both = series.with_columns((series[_LOSSES[0]] + series[_LOSSES[1]]).alias("dissipated"))
+    share = (_LOSSES[0], "dissipated", window)
+    mean, power = ratio_with_error(both, *share), drift(series, window)
+    share_drift, passing = ratio_drift(both, *share), wandering(both, *share)
+    changes = {
+        "drift": (power.change, power.significance) if power else None,
+        "share_drift": (share_drift.change * mean.value, share_drift.significance)
+        if share_drift and mean
+        else None,
+        "wandering": (passing.spread, passing.significance) if passing else None,
+    }
+    columns: dict[str, float | bool | None] = {}
+    for name, found in changes.items():
+        columns[name], columns[f"{name}_significance"] = found or (None, None)
+    columns["drifting"] = any(
+        found is not None and abs(found[0]) > _MATTERS and found[1] < FALSE_ALARMS
+        for found in changes.values()
+    )
+    return columns
+
+
+def _scaled(mean: Mean, mass: float) -> Mean:
+    return Mean(mean.value / mass, mean.error / mass if mean.error is not None else None)
+
+
+def _sampled(series: "pl.DataFrame", column: str, window: tuple[float, float]) -> Mean:
+    """Return the mean of a quantity that is sampled, not integrated."""
+    steps = Stretch.of(series, window)
+    values = steps.values(column)
+    spread = block_error(values, steps.interval)
+    return Mean(float(np.mean(values)), spread.error if spread is not None else None)

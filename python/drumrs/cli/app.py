@@ -1,0 +1,71 @@
+"""The command `drumrs`: its list of commands, and what an error becomes."""
+
+import sys
+from collections.abc import Sequence
+
+from cyclopts import App, CycloptsError
+
+import drumrs
+from drumrs.cli.baseline import baseline
+from drumrs.cli.config import config
+from drumrs.cli.info import info
+from drumrs.cli.run import run
+from drumrs.cli.sweep import sweep
+from drumrs.cli.view import view
+from drumrs.errors import CheckpointError, ConfigError, UnstableError
+from drumrs.files import NO_ROOM
+
+_BAD_INPUT = 2
+_FAILED = 1
+_INTERRUPTED = 130
+
+app = App(
+    name="drumrs",
+    help="Simulate a load tumbling in a rotating drum, with an energy balance that closes.",
+    help_format="markdown",
+    help_epilogue=(
+        "Examples:\n\n"
+        "- `drumrs baseline --out out` runs the paper's drum without and with baffles\n"
+        "- `drumrs config > case.toml` writes every key, with unit and meaning\n"
+        "- `drumrs run case.toml --set contact.bundle.friction=0.3 --out out`\n"
+        "- `drumrs run --set 'run.window=[5, 15]' --set run.duration=15 --seed 2 --json`\n"
+        "- `drumrs run --resume out` goes on after Ctrl-C or a power cut\n"
+        "- `drumrs view out` plays the run in the browser\n"
+        "- `drumrs sweep study.toml --out out/study` runs many cases"
+    ),
+    version=drumrs.__version__,
+    suppress_keyboard_interrupt=False,
+    result_action="return_value",
+)
+
+for _command in (run, baseline, sweep, view, config, info):
+    app.command(_command)
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Run the command line and leave with its exit status."""
+    sys.exit(run_command(arguments))
+
+
+def run_command(arguments: Sequence[str] | None = None) -> int:
+    """Run the command line; return 0, 1 (the run failed), 2 (bad input) or 130 (Ctrl-C)."""
+    words = sys.argv[1:] if arguments is None else list(arguments)
+    try:
+        status = app(words, exit_on_error=False, print_error=False)
+    except (ConfigError, CheckpointError) as error:
+        return _complain(str(error), _BAD_INPUT)
+    except CycloptsError as error:
+        return _complain(" ".join(str(error).split()), _BAD_INPUT)
+    except UnstableError as error:
+        return _complain(str(error), _FAILED)
+    except OSError as error:
+        full = error.errno in NO_ROOM and error.strerror
+        return _complain(f"cannot write: {error.strerror}" if full else str(error), _FAILED)
+    except KeyboardInterrupt as interrupt:
+        return _complain(str(interrupt) or "interrupted", _INTERRUPTED)
+    return status if isinstance(status, int) else 0
+
+
+def _complain(sentence: str, status: int) -> int:
+    sys.stderr.write(f"drumrs: {sentence}\n")
+    return status

@@ -1,0 +1,45 @@
+"""What several commands take: settings, seeds, threads, folders."""
+
+import os
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Annotated
+
+from cyclopts import Parameter
+
+import drumrs
+from drumrs.config import Config, merge, nest, parse_settings, read_toml_file
+from drumrs.errors import ConfigError
+
+Settings = Annotated[
+    list[str] | None,
+    Parameter(
+        name="--set",
+        negative="",
+        help="KEY=VALUE, a layer over the file; may be repeated. VALUE is a TOML literal, a bare word a string.",
+    ),
+]
+Seed = Annotated[int | None, Parameter(help="Seed of the random start, over all layers.")]
+Threads = Annotated[int, Parameter(help="Threads that share a step; the result is the same for any number.")]
+
+
+def layered(case: Path | None, settings: Sequence[str] | None, seed: int | None) -> Config:
+    """Lay a case file over the baseline, settings over the file, the seed over all."""
+    layers = [read_toml_file(case)] if case is not None else []
+    layers.append(nest(parse_settings(settings or [])))
+    if seed is not None:
+        layers.append({"run": {"seed": seed}})
+    # Layers are merged before anything is validated: an upper one may mend what a lower one breaks.
+    values = drumrs.baseline().model_dump(exclude_none=True)
+    for layer in layers:
+        values = merge(Config, values, layer)
+    return Config.model_validate(values)
+
+
+def check_folder(folder: Path, option: str = "--out") -> None:
+    """Refuse a folder that cannot be written, before anything is simulated or created."""
+    existing = next(path for path in (folder.absolute(), *folder.absolute().parents) if path.exists())
+    if not existing.is_dir():
+        raise ConfigError(f"{option} is {str(folder)!r}, but must be a folder: {str(existing)!r} is a file")
+    if not os.access(existing, os.W_OK | os.X_OK):
+        raise ConfigError(f"{option} is {str(folder)!r}, but must be a folder that can be written")

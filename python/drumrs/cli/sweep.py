@@ -1,0 +1,125 @@
+"""`drumrs sweep`: the cases of a study file, run once each."""
+
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Annotated, Any
+
+from cyclopts import Parameter
+
+from drumrs.cli.options import check_folder
+from drumrs.cli.tables import number, print_paths, with_error
+from drumrs.errors import ConfigError
+from drumrs.sweep import Outcome, Sweep, read_study
+
+_FAILED = 1
+_MOST_ROWS = 40
+_MOST_COLUMNS = 6
+
+
+def sweep(
+    study: Path,
+    /,
+    *,
+    out: Path,
+    jobs: Annotated[int | None, Parameter(help="Cases at once; one a usable core unless given.")] = None,
+    shard: str | None = None,
+    retry: Annotated[bool, Parameter(negative="")] = False,
+    seeds: int | None = None,
+) -> int:
+    """Run the cases of a study file that are not finished yet, and write the table of all that are.
+
+    STUDY.toml has `[base]`, keys of `drumrs config` laid over the baseline; `[axes]`, a list of values for each key to
+    vary, every combination of which is a case; and `seeds`, a list of seeds or their number. The same command goes on
+    after Ctrl-C, a power cut or a change of the study; what is finished is not simulated again.
+
+    Parameters
+    ----------
+    study
+        TOML file with `[base]`, `[axes]` and `seeds`.
+    out
+        Folder of the results: a few files a case, and table.parquet.
+    shard
+        K/N runs the K-th of N equal parts, for job arrays; who finds all cases settled writes the table.
+    retry
+        Run cases again that failed before.
+    seeds
+        Number of seeds for every combination, instead of the file's: 0 … N − 1.
+    """
+    planned = read_study(study, seeds)
+    part = _shard(shard)
+    check_folder(out)
+    outcome = planned.run(out, jobs=jobs, shard=part, retry=retry)
+    if outcome.left:
+        sys.stdout.write(
+            f"{outcome.left} cases are left to the other shards; the last one writes the table\n"
+        )
+    else:
+        path = planned.write_table()
+        _print_results(planned)
+        print_paths([path])
+    _tell_failures(planned, outcome)
+    return _FAILED if outcome.failures else 0
+
+
+def _shard(text: str | None) -> tuple[int, int] | None:
+    if text is None:
+        return None
+    part, _, parts = text.partition("/")
+    if not (part.isdecimal() and parts.isdecimal()):
+        raise ConfigError(f"shard is {text!r}, but must be k/n with 1 <= k <= n")
+    return int(part), int(parts)
+
+
+def _print_results(planned: Sweep) -> None:
+    from rich.console import Console
+    from rich.markup import escape
+    from rich.table import Table
+
+    found = planned.table().collect()
+    varied = planned.varied()[:_MOST_COLUMNS]
+    shown = Table(box=None, highlight=False)
+    for name in (*_short(varied), "W/kg", "N/T", ""):
+        shown.add_column(escape(name), justify="right", no_wrap=True)
+    for row in found.head(_MOST_ROWS).iter_rows(named=True):
+        shown.add_row(*(escape(_show(row[key])) for key in varied), *_numbers(row))
+    Console(highlight=False).print(shown)
+    if found.height > _MOST_ROWS:
+        sys.stdout.write(f"… and {found.height - _MOST_ROWS} more\n")
+
+
+def _short(keys: list[str]) -> list[str]:
+    """Return the ends of dotted keys, two parts at least, as short as tells them apart."""
+
+    def ends(key: str) -> Iterator[str]:
+        parts = key.split(".")
+        return (".".join(parts[-length:]) for length in range(min(2, len(parts)), len(parts) + 1))
+
+    return [
+        next(
+            end
+            for end in ends(key)
+            if end == key or sum(f".{other}".endswith(f".{end}") for other in keys) == 1
+        )
+        for key in keys
+    ]
+
+
+def _numbers(row: dict[str, Any]) -> tuple[str, str, str]:
+    """Return specific power, normal over tangential power, and whether they drift."""
+    power = with_error(row["specific_power"], row["specific_power_error"])
+    return power, number(row["normal_tangential_ratio"]), "drifting" if row["drifting"] else ""
+
+
+def _show(value: Any) -> str:
+    return "–" if value is None else f"{value:.6g}" if isinstance(value, float) else str(value)
+
+
+def _tell_failures(planned: Sweep, outcome: Outcome) -> None:
+    for failure in outcome.failures:
+        settings = planned.settings(failure.case)
+        named = ", ".join(f"{key} = {_show(value)}" for key, value in settings.items())
+        sys.stderr.write(f"drumrs: case {failure.case.id} ({named}) failed: {failure.message}\n")
+    if outcome.failures:
+        count = len(outcome.failures)
+        sys.stderr.write(f"drumrs: {count} of {len(planned)} cases failed; --retry runs them again\n")

@@ -1,0 +1,130 @@
+"""A run's history: powers, energies, residual of the ledger, center of mass; a table in, a figure out."""
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from drumrs.figures.shared import Array, drumrs_style, label_lines
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    import polars as pl
+    from matplotlib.axes import Axes
+
+
+def time_series(series: "pl.DataFrame", window: tuple[float, float] | None = None) -> Figure:
+    """Draw a run's history: power, energies, residual of the energy ledger, center of mass.
+
+    Parameters
+    ----------
+    series
+        Table of a run, one row a sample.
+    window
+        Interval of the averages [s], shaded.
+    """
+    panels: tuple[Callable[[Axes, dict[str, Array]], None], ...] = (
+        _power,
+        _energies,
+        _ledger,
+        _center_of_mass,
+    )
+    columns = {name: series[name].to_numpy() for name in series.columns}
+    begin, end = float(columns["time"][0]), float(columns["time"][-1])
+    with drumrs_style():
+        figure = Figure(figsize=(11.0, 5.6))
+        grid = figure.subplots(2, 2, sharex=True)
+        for axes, draw in zip(grid.flat, panels, strict=True):
+            draw(axes, columns)
+            if window is not None:
+                axes.axvspan(*window, color="0.94", zorder=0, linewidth=0)
+            # The last sample may fall just short of the window's end, which deserves its tick.
+            axes.set_xlim(begin, max(end, window[1] if window is not None else end) or 1.0)
+        if window is not None:
+            grid[0, 0].text(sum(window) / 2.0, 0.985, "averages", **_over_the_window(grid[0, 0]))
+        for axes in grid[1]:
+            axes.set_xlabel("time [s]")
+        for axes in grid.flat:
+            label_lines(axes)
+    return figure
+
+
+def _over_the_window(axes: "Axes") -> dict[str, Any]:
+    """Return how to write just inside the top of the axes, at a time."""
+    transform = axes.get_xaxis_transform()
+    return {"transform": transform, "ha": "center", "va": "top", "color": "0.45", "fontsize": "small"}
+
+
+def _power(axes: "Axes", columns: dict[str, Array]) -> None:
+    time = columns["time"]
+    long = _averaging_time(time)
+    axes.set_title(f"Power of the drum and losses, means over {long:.2g} s [W/m]")
+    steady = [0.0]
+    for name, label in (
+        ("work_drum", "drum"),
+        ("dissipated_normal", "normal damping"),
+        ("dissipated_sliding", "sliding"),
+    ):
+        middle, power = _thinned(*mean_rate(time, columns[name], long))
+        axes.plot(middle, power, label=label)
+        steady.extend(power[len(power) // 10 :][np.isfinite(power[len(power) // 10 :])])
+    # From zero, so that heights compare; the first moments, when the load drops, may leave the picture.
+    lowest, highest = min(steady), max(steady)
+    room = 0.08 * (highest - lowest) or 1.0
+    axes.set_ylim(lowest - room if lowest < 0.0 else 0.0, highest + room)
+
+
+def _energies(axes: "Axes", columns: dict[str, Array]) -> None:
+    axes.set_title("Energy stored [J/m]")
+    axes.set_yscale("log")
+    elastic = columns["elastic_normal"] + columns["elastic_tangential"]
+    for values, label in (
+        (columns["kinetic_translation"], "translation"),
+        (columns["kinetic_rotation"], "rotation"),
+        (elastic, "contacts"),
+    ):
+        time, smooth = _thinned(columns["time"], values)
+        axes.plot(time, np.where(smooth > 0.0, smooth, np.nan), label=label)
+
+
+def _ledger(axes: "Axes", columns: dict[str, Array]) -> None:
+    axes.set_title("Energy ledger: relative residual")
+    axes.set_yscale("log")
+    residual = np.abs(columns["energy_residual"])
+    # A residual of exactly 0 has no place on a logarithmic axis; it is drawn at the last bit of 1.
+    axes.plot(columns["time"], np.maximum(residual, np.finfo(float).eps / 2), label="residual")
+    axes.set_ylim(1e-17, max(1e-8, 10.0 * float(residual.max(initial=0.0))))
+
+
+def _center_of_mass(axes: "Axes", columns: dict[str, Array]) -> None:
+    axes.set_title("Center of mass from the axis [mm]")
+    for name, label in (("center_of_mass_x", "x"), ("center_of_mass_y", "y")):
+        time, smooth = _thinned(columns["time"], columns[name])
+        axes.plot(time, 1e3 * smooth, label=label)
+
+
+def _averaging_time(time: Array) -> float:
+    """Choose an interval [s] for running means: a second, or a thirtieth of a short run."""
+    return min(1.0, float(time[-1] - time[0]) / 30.0) if len(time) > 1 else 1.0
+
+
+def mean_rate(time: Array, total: Array, interval: float) -> tuple[Array, Array]:
+    """Return running means of a rate from its running integral: exact, whatever the sampling."""
+    if not len(time) > 1:
+        return time, np.full_like(time, np.nan)
+    step = float(time[1] - time[0])
+    rows = max(1, min(round(interval / step), len(time) - 1))
+    spans = time[rows:] - time[:-rows]
+    return (time[rows:] + time[:-rows]) / 2.0, (total[rows:] - total[:-rows]) / spans
+
+
+def _thinned(time: Array, values: Array, most: int = 600) -> tuple[Array, Array]:
+    """Average blocks of rows, so that a line has no more points than a picture can show."""
+    rows = max(1, len(time) // most)
+    blocks = len(time) // rows
+    shape = (blocks, rows)
+    return (
+        time[: blocks * rows].reshape(shape).mean(axis=1),
+        values[: blocks * rows].reshape(shape).mean(axis=1),
+    )

@@ -1,0 +1,73 @@
+"""What all figures share: the style, writing, names at the ends of lines."""
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib import style
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+Array = NDArray[np.float64]
+
+STEEL = "0.55"
+INK = "0.15"
+
+_STYLE = Path(__file__).with_name("drumrs.mplstyle")
+
+
+@contextmanager
+def drumrs_style() -> Iterator[None]:
+    """Draw in drumrs's style within."""
+    with style.context(_STYLE):
+        yield
+
+
+def write(figure: Figure, path: str | Path) -> None:
+    """Write a figure as PNG or SVG, as the name's ending says; the same figure gives the same bytes."""
+    with drumrs_style():
+        metadata = {"Date": None} if Path(path).suffix == ".svg" else {"Software": None}
+        figure.savefig(path, metadata=metadata)
+
+
+def label_lines(axes: "Axes") -> None:
+    """Write each line's name at its right end, in its color, kept apart from the others."""
+    ends: list[tuple[float, str, Any]] = []
+    for line in axes.get_lines():
+        values = np.asarray(line.get_ydata(), dtype=float)
+        finite = values[np.isfinite(values)]
+        if len(finite):
+            ends.append(
+                (float(finite[-max(1, len(finite) // 20) :].mean()), str(line.get_label()), line.get_color())
+            )
+    write_at_ends(axes, ends)
+
+
+def write_at_ends(axes: "Axes", ends: Sequence[tuple[float, str, Any]]) -> None:
+    """Write names in their colors at the right of the axes, at their values, kept apart from each other."""
+    # Asking for the limits settles them; until then the transform is not the final one.
+    axes.get_ylim()
+    heights = [
+        axes.transAxes.inverted().transform(axes.transData.transform((0.0, value)))[1] for value, *_ in ends
+    ]
+    order = np.argsort(heights, kind="stable")
+    for place, k in zip(apart([float(heights[k]) for k in order]), order, strict=True):
+        _, name, color = ends[k]
+        axes.annotate(name, (1.01, place), xycoords="axes fraction", color=color, va="center")
+
+
+def apart(heights: Sequence[float], gap: float = 0.075) -> list[float]:
+    """Move sorted heights away from each other until none is nearer than `gap` to the next."""
+    places = list(heights)
+    for _ in range(100):
+        for below in range(len(places) - 1):
+            lacking = gap - (places[below + 1] - places[below])
+            if lacking > 0.0:
+                places[below] -= lacking / 2.0
+                places[below + 1] += lacking / 2.0
+    return places

@@ -1,0 +1,160 @@
+"""Snapshots of the drum: frames in, a figure out."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.collections import EllipseCollection, LineCollection, PolyCollection
+from matplotlib.colors import Colormap, Normalize
+from matplotlib.figure import Figure
+from matplotlib.patches import Circle, FancyArrowPatch
+
+from drumrs.figures.shared import INK, STEEL, Array, drumrs_style
+from drumrs.frames import Frames
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+_LIGHT = 0.4  # relative luminance on which black shows better than white
+_PANEL = 3.1  # inches
+
+
+@dataclass(frozen=True)
+class View:
+    """One frame to be drawn, and what to write above it."""
+
+    frames: Frames
+    index: int = -1
+    label: str = ""
+
+    @property
+    def speeds(self) -> Array:
+        """Speeds of the bundles [m/s]."""
+        speeds: Array = self.frames.speeds[self.index]
+        return speeds
+
+
+def snapshot(frames: Frames, index: int = -1, label: str = "") -> Figure:
+    """Draw one frame: bundles colored by speed, a radius on each to show its spin, rim, baffles, rotation.
+
+    Parameters
+    ----------
+    frames
+        Frames of a run.
+    index
+        Which of them.
+    label
+        Written before the time.
+
+    Examples
+    --------
+    >>> import drumrs
+    >>> from drumrs import figures
+    >>> simulation = drumrs.Simulation(drumrs.baseline(fill=0.1))
+    >>> simulation.run(steps=10)
+    >>> figure = figures.snapshot(simulation.frames, label="start")
+    """
+    return snapshots([View(frames, index, label)])
+
+
+def snapshots(views: Sequence[View]) -> Figure:
+    """Draw several frames in a row, on one scale of speed.
+
+    Raises
+    ------
+    ValueError
+        Where there is nothing to draw.
+    """
+    if not views:
+        raise ValueError("views is empty, but must hold at least one frame")
+    fastest = max((float(view.speeds.max(initial=0.0)) for view in views), default=0.0)
+    with drumrs_style():
+        norm = Normalize(0.0, fastest or 1.0)
+        figure = Figure(figsize=(_PANEL * len(views) + 0.9, _PANEL + 0.45))
+        row = figure.subplots(1, len(views), squeeze=False)[0]
+        for axes, view in zip(row, views, strict=True):
+            discs = _draw_view(axes, view, norm)
+        figure.colorbar(discs, ax=list(row), label="speed of the bundles [m/s]", shrink=0.8, pad=0.02)
+    return figure
+
+
+def _draw_view(axes: "Axes", view: View, norm: Normalize) -> EllipseCollection:
+    frames, index = view.frames, view.index % len(view.frames)
+    _draw_drum(axes, frames, index)
+    discs = _draw_bundles(axes, frames, index, norm)
+    reach = _reach(frames, index)
+    # The arrow of rotation needs room above.
+    axes.set(xlim=(-1.03 * reach, 1.03 * reach), ylim=(-1.03 * reach, 1.15 * reach), aspect="equal")
+    axes.axis("off")
+    time = f"t = {frames.times[index]:.2f} s"
+    axes.set_title(f"{view.label}, {time}" if view.label else time, loc="center")
+    return discs
+
+
+def _reach(frames: Frames, index: int) -> float:
+    """Return the half width of a picture that holds the drum, or else everything there is."""
+    if frames.drum_radius is not None:
+        return frames.drum_radius
+    points = np.concatenate([frames.positions[index], *frames.walls])
+    return float(np.abs(points).max(initial=0.0) + frames.radii.max(initial=0.0))
+
+
+def _draw_drum(axes: "Axes", frames: Frames, index: int) -> None:
+    turn = _rotation(float(frames.drum_angles[index]))
+    axes.add_collection(
+        PolyCollection([line @ turn.T for line in frames.baffles], facecolors=STEEL, edgecolors=STEEL)
+    )
+    axes.add_collection(LineCollection([line @ turn.T for line in frames.walls], colors=STEEL, linewidths=2))
+    if frames.drum_radius is None:
+        return
+    axes.add_patch(Circle((0.0, 0.0), frames.drum_radius, fill=False, edgecolor=STEEL, linewidth=2.0))
+    sense = frames.turning(index)
+    if sense:
+        _draw_arrow(axes, 1.09 * frames.drum_radius, sense)
+
+
+def _draw_arrow(axes: "Axes", radius: float, sense: int) -> None:
+    """Draw an arc over the top of the drum with a head in the direction of rotation."""
+    angles = np.radians(90.0 + sense * np.linspace(-24.0, 24.0, 40))
+    arc = radius * np.column_stack([np.cos(angles), np.sin(angles)])
+    axes.plot(*arc[:-4].T, color=INK, linewidth=1.2, solid_capstyle="butt")
+    head = FancyArrowPatch(
+        arc[-6], arc[-1], arrowstyle="-|>", mutation_scale=9, color=INK, shrinkA=0, shrinkB=0
+    )
+    axes.add_patch(head)
+
+
+def _draw_bundles(axes: "Axes", frames: Frames, index: int, norm: Normalize) -> EllipseCollection:
+    centers, speeds, radii = frames.positions[index], frames.speeds[index], frames.radii
+    colors = mpl.colormaps[mpl.rcParams["image.cmap"]]
+    discs = EllipseCollection(
+        2.0 * radii,
+        2.0 * radii,
+        np.zeros_like(radii),
+        units="xy",
+        offsets=centers,
+        offset_transform=axes.transData,
+        array=speeds,
+        cmap=colors,
+        norm=norm,
+        edgecolors=INK,
+        linewidths=0.4,
+    )
+    axes.add_collection(discs)
+    angles = frames.angles[index]
+    ends = centers + radii[:, np.newaxis] * np.column_stack([np.cos(angles), np.sin(angles)])
+    marks = np.stack([centers, ends], axis=1)
+    axes.add_collection(LineCollection(list(marks), colors=_contrast(colors, norm, speeds), linewidths=0.9))
+    return discs
+
+
+def _contrast(colors: Colormap, norm: Normalize, values: Array) -> list[str]:
+    """Choose black or white marks, whichever shows on the disc's color."""
+    luminance = colors(norm(values))[:, :3] @ np.array([0.2126, 0.7152, 0.0722])
+    return ["black" if light > _LIGHT else "white" for light in luminance]
+
+
+def _rotation(angle: float) -> Array:
+    return np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])

@@ -1,0 +1,98 @@
+"""How large a study is: its seeds, times and points."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from types import MappingProxyType
+
+from drumrs.errors import ConfigError
+
+
+@dataclass(frozen=True)
+class Scale:
+    """Seeds, times and points of a study; the points are those of the figures' horizontal axes.
+
+    Attributes
+    ----------
+    seeds
+        Seeds of the random starts, the same for every point.
+    duration
+        Simulated time of every case [s].
+    window
+        Interval of the averages [s, s].
+    fills
+        Fills N d²/D² of the bare drum.
+    fills_with_baffles
+        The same for the drum with baffles, which holds less.
+    sizes
+        Drum over bundle diameter, D/d.
+    frictions
+        Coefficients of friction, of bundles and drum alike.
+    speeds
+        Speeds of the drum [rpm].
+    restitutions
+        Coefficients of restitution, of bundles and drum alike.
+    """
+
+    seeds: tuple[int, ...]
+    duration: float
+    window: tuple[float, float]
+    fills: tuple[float, ...]
+    fills_with_baffles: tuple[float, ...]
+    sizes: tuple[float, ...]
+    frictions: tuple[float, ...]
+    speeds: tuple[float, ...]
+    restitutions: tuple[float, ...]
+
+
+# The paper's protocol. Fills lie closest where the power peaks and where the paper lets it peak; frictions where
+# the load starts to circulate.
+_DEFAULT = Scale(
+    seeds=(1, 2, 3),
+    duration=30.0,
+    window=(20.0, 30.0),
+    fills=(
+        *(0.10, 0.15, 0.20, 0.25, 0.30, 0.35, 0.40, 0.425, 0.45, 0.475),
+        *(0.50, 0.525, 0.55, 0.60, 0.65, 0.70, 0.75, 0.80),
+    ),
+    fills_with_baffles=(
+        *(0.10, 0.15, 0.20, 0.25, 0.30, 0.35, 0.40, 0.425, 0.45, 0.475),
+        *(0.50, 0.525, 0.55, 0.60, 0.65, 0.70, 0.75),
+    ),
+    sizes=(10.0, 13.0, 16.0, 20.0, 24.0, 28.0, 32.0, 37.0),
+    frictions=(0.0, 0.025, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.4, 0.5, 0.75, 1.0),
+    speeds=(20.0, 30.0, 40.0, 54.0, 60.0, 70.0, 80.0),
+    restitutions=(0.05, 0.1, 0.2, 0.35, 0.5, 0.7, 0.9),
+)
+
+# The load is steady after about 5 s.
+_QUICK = Scale(
+    seeds=(1,),
+    duration=6.5,
+    window=(4.5, 6.5),
+    fills=(0.10, 0.25, 0.40, 0.45, 0.50, 0.60, 0.75),
+    fills_with_baffles=(0.10, 0.25, 0.40, 0.45, 0.50, 0.60, 0.75),
+    sizes=(10.0, 20.0, 30.0),
+    frictions=(0.0, 0.1, 0.3, 0.5, 1.0),
+    speeds=(20.0, 54.0, 80.0),
+    restitutions=(0.1, 0.5, 0.9),
+)
+
+SCALES: Mapping[str, Scale] = MappingProxyType(
+    {"quick": _QUICK, "default": _DEFAULT, "full": replace(_DEFAULT, seeds=tuple(range(1, 11)))}
+)
+
+
+def scale_of(scale: str | Scale) -> Scale:
+    """Return a scale by its name, or the one given.
+
+    Raises
+    ------
+    ConfigError
+        Where there is no scale of that name.
+    """
+    if isinstance(scale, Scale):
+        return scale
+    if scale not in SCALES:
+        known = " or ".join([", ".join(repr(name) for name in list(SCALES)[:-1]), repr(list(SCALES)[-1])])
+        raise ConfigError(f"scale is {scale!r}, but must be {known}")
+    return SCALES[scale]

@@ -1,0 +1,14 @@
+"""Sweeps: many cases, each simulated once, kept in a folder, taken up again after any break.
+
+`case` names a case, `design` turns axes and rows into cases, `store` keeps their results in files that are whole or not
+there, `worker` runs one of them anywhere, `engine` hands them out, `columns` and `table` put the results side by side,
+`study_file` reads what `drumrs sweep` is given, and `sweep` is the face of it all.
+"""
+
+from drumrs.sweep.case import Case
+from drumrs.sweep.engine import Failure, Outcome
+from drumrs.sweep.study_file import read_study
+from drumrs.sweep.sweep import Sweep
+from drumrs.sweep.worker import run_case
+
+__all__ = ["Case", "Failure", "Outcome", "Sweep", "read_study", "run_case"]

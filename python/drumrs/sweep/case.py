@@ -1,0 +1,92 @@
+"""`Case`: one configuration with its seed, the name of its results and what it costs."""
+
+import hashlib
+import math
+from dataclasses import dataclass
+from functools import cache, cached_property
+
+from drumrs.config import Config, LinearContact
+from drumrs.simulation import info
+
+_ID_DIGITS = 20
+# The core takes this part of the shortest collision where `run.time_step` is "auto".
+_AUTO_STEPS = 50.0
+
+
+@dataclass(frozen=True, repr=False)
+class Case:
+    """One configuration, seed included.
+
+    Attributes
+    ----------
+    config
+        The configuration; its ``run.seed`` is the case's.
+
+    Examples
+    --------
+    >>> import drumrs
+    >>> from drumrs.sweep import Case
+    >>> case = Case(drumrs.baseline(fill=0.25))
+    >>> len(case.id), f"{case.cost:.3g}"
+    (20, '8.11e+08')
+    """
+
+    config: Config
+
+    def __repr__(self) -> str:
+        """Say which case it is and how large."""
+        return f"<Case {self.id}: {self.config.bundle_count} bundles, seed {self.seed}>"
+
+    @cached_property
+    def id(self) -> str:
+        """Name of the case's results: equal configuration and equal physics, equal name."""
+        words = f"{self.config.digest} physics {physics_version()}"
+        return hashlib.sha256(words.encode()).hexdigest()[:_ID_DIGITS]
+
+    @property
+    def seed(self) -> int:
+        """Seed of the random start."""
+        return self.config.run.seed
+
+    @property
+    def load_mass(self) -> float:
+        """Mass of the load per meter of drum depth [kg/m]."""
+        return self.config.bundle_count * _bundle_mass(self.config)
+
+    @property
+    def wants_frames(self) -> bool:
+        """Whether frames are kept: where ``run.frame_every`` is smaller than ``run.duration``."""
+        return self.config.run.frame_every < self.config.run.duration
+
+    @cached_property
+    def cost(self) -> float:
+        """Particle-steps that the case takes, near enough to compare cases by."""
+        return self.config.bundle_count * self.config.run.duration / _time_step(self.config)
+
+
+@cache
+def physics_version() -> int:
+    """Return the version of the physics: results of different versions are different results."""
+    return int(info()["physics_version"])
+
+
+def _time_step(config: Config) -> float:
+    if config.run.time_step != "auto":
+        return config.run.time_step
+    mass, contact = _bundle_mass(config), config.contact
+    shortest = min(_collision_time(contact.bundle, mass / 2.0), _collision_time(contact.drum, mass))
+    return shortest / _AUTO_STEPS
+
+
+def _bundle_mass(config: Config) -> float:
+    return config.load.density * math.pi * config.load.diameter**2 / 4.0
+
+
+def _collision_time(law: LinearContact, effective_mass: float) -> float:
+    """Return half the period of the spring and dashpot [s]; near critical damping, that of the spring."""
+    frequency = math.sqrt(law.normal_stiffness / effective_mass)
+    if law.restitution is not None:
+        loss = math.log(law.restitution)
+        return math.hypot(math.pi, loss) / frequency
+    damping = (law.normal_damping or 0.0) / (2.0 * effective_mass * frequency)
+    return math.pi / frequency / math.sqrt(max(1.0 - damping**2, 1e-2))

@@ -1,0 +1,121 @@
+"""Columns of a sweep's table: what a case is, its seed, the summary of its run, what its series tells."""
+
+from collections.abc import Iterator
+from dataclasses import asdict, fields
+from functools import cache
+from types import NoneType, UnionType
+from typing import TYPE_CHECKING, Annotated, Any, Literal, Union, get_args, get_origin, get_type_hints
+
+from pydantic import BaseModel
+
+from drumrs.analysis import STATISTICS
+from drumrs.config import Config
+from drumrs.config.report import part_of
+from drumrs.result import Summary
+from drumrs.sweep.case import Case
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    import polars as pl
+
+CASE, SEED = "case", "seed"
+# Facts of the machine, which differ from run to run.
+TIMINGS = ("wall_time", "particle_steps_per_second")
+_SEED_KEY = "run.seed"
+_PAIR = "center_of_mass"
+
+
+def row(case: Case, summary: Summary, statistics: "Mapping[str, Any]") -> "pl.DataFrame":
+    """Return the one row that stands for a finished case."""
+    import polars as pl
+
+    names = {CASE: case.id, **parameters(case.config), SEED: case.seed}
+    values = {**names, **_numbers(summary), **statistics}
+    return pl.DataFrame({name: [values[name]] for name in schema()}, schema=schema())
+
+
+def parameters(config: Config) -> dict[str, Any]:
+    """Return the configuration by dotted key, without the seed; "auto" among numbers is null."""
+    kinds = dict(_leaves(Config))
+    values = dict(_flat(config.model_dump(mode="json"), kinds))
+    return {key: _plain(values.get(key), kinds[key]) for key in kinds if key != _SEED_KEY}
+
+
+def differing(cases: "Sequence[Case]") -> list[str]:
+    """Return the columns, among parameters and seed, in which cases differ."""
+    rows = [{**parameters(case.config), SEED: case.seed} for case in cases]
+    return [name for name in rows[0] if any(row[name] != rows[0][name] for row in rows)]
+
+
+def sort_keys() -> list[str]:
+    """Return the columns that a table is sorted by: every parameter that has an order, the seed, the name."""
+    keys = [key for key, kind in _leaves(Config) if get_origin(_bare(kind)) is not tuple and key != _SEED_KEY]
+    return [*keys, SEED, CASE]
+
+
+@cache
+def schema() -> "dict[str, Any]":
+    """Return name and polars type of every column."""
+    import polars as pl
+
+    types = {key: _type(kind) for key, kind in _leaves(Config) if key != _SEED_KEY}
+    hints = get_type_hints(Summary)
+    summary: dict[str, Any] = {}
+    for field in fields(Summary):
+        if field.name == _PAIR:
+            summary |= {f"{_PAIR}_x": pl.Float64, f"{_PAIR}_y": pl.Float64}
+        elif field.name not in TIMINGS:
+            summary[field.name] = _type(hints[field.name])
+    told = {name: pl.Boolean if name == "drifting" else pl.Float64 for name in STATISTICS}
+    return {CASE: pl.String, **types, SEED: pl.Int64, **summary, **told}
+
+
+def _numbers(summary: Summary) -> dict[str, Any]:
+    values = asdict(summary)
+    x, y = values.pop(_PAIR)
+    return {**values, f"{_PAIR}_x": x, f"{_PAIR}_y": y}
+
+
+def _leaves(model: type[BaseModel], at: str = "") -> Iterator[tuple[str, Any]]:
+    """List the dotted keys that hold values, with their annotations."""
+    for key, field in model.model_fields.items():
+        part = part_of(model, key)
+        if part is not None:
+            yield from _leaves(part, f"{at}{key}.")
+        else:
+            yield f"{at}{key}", field.annotation
+
+
+def _flat(values: dict[str, Any], kinds: dict[str, Any], at: str = "") -> Iterator[tuple[str, Any]]:
+    for key, value in values.items():
+        if f"{at}{key}" in kinds:
+            yield f"{at}{key}", value
+        else:
+            yield from _flat(value, kinds, f"{at}{key}.")
+
+
+def _plain(value: Any, kind: Any) -> Any:
+    return None if isinstance(value, str) and get_origin(_bare(kind)) is not Literal else value
+
+
+def _bare(kind: Any) -> Any:
+    """Return the type of values that a column holds: `float` for a number that may be missing or "auto"."""
+    if get_origin(kind) is Annotated:
+        return _bare(get_args(kind)[0])
+    if get_origin(kind) in {Union, UnionType}:
+        choices = [choice for choice in get_args(kind) if choice is not NoneType]
+        numbers = [choice for choice in choices if get_origin(choice) is not Literal]
+        return _bare((numbers or choices)[0])
+    return kind
+
+
+def _type(kind: Any) -> Any:
+    import polars as pl
+
+    kind = _bare(kind)
+    if get_origin(kind) is tuple:
+        return pl.List(_type(get_args(kind)[0]))
+    if get_origin(kind) is Literal:
+        return pl.String
+    return {float: pl.Float64, int: pl.Int64, bool: pl.Boolean}[kind]

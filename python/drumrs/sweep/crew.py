@@ -1,0 +1,123 @@
+"""`Crew`: who runs the cases: threads of this process, spawned processes, or an executor that was given."""
+
+import multiprocessing
+import os
+import sys
+from collections.abc import Iterator
+from concurrent.futures import Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
+from contextlib import contextmanager
+from dataclasses import dataclass
+from multiprocessing.synchronize import Event
+
+from drumrs.errors import ConfigError
+from drumrs.sweep.case import Case
+from drumrs.sweep.worker import Report, Running, obey, run_case
+
+_MOST_JOBS = 1024
+# Enough to keep a worker busy until the next case is handed out.
+_SPARE = 2
+
+
+@dataclass(frozen=True)
+class Crew:
+    """Workers, and how many cases may be in their hands at once.
+
+    Attributes
+    ----------
+    executor
+        Whom the cases are submitted to.
+    limit
+        Cases submitted and not finished, at most; a few more than can run, so that stopping loses little time.
+    running
+        The simulations under way, where they run in this process.
+    halt
+        Set to stop those in processes of ours.
+    """
+
+    executor: Executor
+    limit: int
+    running: Running | None = None
+    halt: Event | None = None
+
+    def submit(self, case: Case, folder: str) -> "Future[Report]":
+        """Hand out a case.
+
+        Raises
+        ------
+        ConfigError
+            Where the executor takes no work.
+        """
+        arguments = (case.config.model_dump_json(), folder)
+        extra = () if self.running is None else (self.running,)
+        try:
+            return self.executor.submit(run_case, *arguments, *extra)
+        except RuntimeError as error:
+            raise ConfigError(f"executor is one that takes no work, but must be open: {error}") from None
+
+    def particle_steps(self) -> float:
+        """Return the particle-steps of the simulations under way, 0 where they cannot be seen."""
+        return 0.0 if self.running is None else self.running.particle_steps()
+
+    def stop(self) -> None:
+        """Stop what is under way; with an executor that was given, what has begun elsewhere comes to its end."""
+        if self.running is not None:
+            self.running.stop()
+        if self.halt is not None:
+            self.halt.set()
+
+
+def usable_cores() -> int:
+    """Return the number of cores that this process may use."""
+    if sys.platform == "linux":
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
+@contextmanager
+def crew(executor: Executor | str | None, jobs: int | None) -> Iterator[Crew]:
+    """Gather a crew, and send it home at the end unless it was given.
+
+    Parameters
+    ----------
+    executor
+        `None` or "threads", "processes" (spawned, for a fork does not go with polars), or any executor.
+    jobs
+        Cases at once: by default one a usable core, or with an executor that was given, as many as it takes.
+
+    Raises
+    ------
+    ConfigError
+        Where no crew can be had of these.
+    """
+    _check_jobs(jobs)
+    count = jobs or usable_cores()
+    if executor is None or executor == "threads":
+        with ThreadPoolExecutor(count, thread_name_prefix="drumrs") as pool:
+            yield Crew(pool, count + _SPARE, Running())
+    elif executor == "processes":
+        context = multiprocessing.get_context("spawn")
+        halt = context.Event()
+        with ProcessPoolExecutor(count, context, obey, (halt,)) as processes:
+            yield Crew(processes, count + _SPARE, halt=halt)
+    elif isinstance(executor, Executor):
+        _refuse_fork(executor)
+        running = Running() if isinstance(executor, ThreadPoolExecutor) else None
+        yield Crew(executor, jobs or _MOST_JOBS, running)
+    else:
+        raise ConfigError(f"executor is {executor!r:.60}, but must be 'threads', 'processes' or an Executor")
+
+
+def _check_jobs(jobs: int | None) -> None:
+    if jobs is None:
+        return
+    if isinstance(jobs, bool) or not isinstance(jobs, int) or not 1 <= jobs <= _MOST_JOBS:
+        raise ConfigError(f"jobs is {jobs!r}, but must be a whole number from 1 to {_MOST_JOBS}")
+
+
+def _refuse_fork(executor: Executor) -> None:
+    context = getattr(executor, "_mp_context", None)
+    if context is not None and context.get_start_method() == "fork":
+        raise ConfigError(
+            "executor forks its workers, but must spawn them, for a fork does not go with polars' threads: "
+            "ProcessPoolExecutor(mp_context=multiprocessing.get_context('spawn'))"
+        )

@@ -1,0 +1,86 @@
+"""Parquet files that know whose they are and notice damage.
+
+The file's metadata hold one JSON object under the key "drumrs": format, what the file holds, the case, the version of
+the physics, and the digest of all its bytes, itself counted as zeros. No time and no machine: equal data, equal bytes.
+"""
+
+import hashlib
+import io
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from drumrs.errors import ConfigError
+from drumrs.files import write_whole
+from drumrs.sweep.case import Case, physics_version
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    import polars as pl
+
+FORMAT = 1
+_KEY = "drumrs"
+_BLANK = "0" * hashlib.sha256().digest_size * 2
+
+
+def write_sealed(
+    path: Path, case: Case, content: str, table: "pl.DataFrame", metadata: "Mapping[str, str] | None" = None
+) -> None:
+    """Write the table of a case, whole or not at all.
+
+    Parameters
+    ----------
+    path
+        File to write.
+    case
+        Whose results they are.
+    content
+        What the file holds: "summary", "series", "frames".
+    table
+        The results.
+    metadata
+        Further words on the file, such as units.
+    """
+    buffer = io.BytesIO()
+    seal = json.dumps({**_claims(case, content), "sha256": _BLANK})
+    table.write_parquet(buffer, compression="uncompressed", metadata={**(metadata or {}), _KEY: seal})
+    data = buffer.getvalue()
+    head, _, tail = data.rpartition(_BLANK.encode())
+    write_whole(path, head + hashlib.sha256(data).hexdigest().encode() + tail)
+
+
+def read_sealed(path: Path, case: Case, content: str) -> io.BytesIO:
+    """Return the bytes of a file that is whole and the case's own.
+
+    Raises
+    ------
+    ConfigError
+        Where the file is missing, damaged, or holds something else; the sentence names it.
+    """
+    import polars as pl
+
+    try:
+        data = path.read_bytes()
+    except OSError as error:
+        raise ConfigError(f"{str(path)!r} cannot be read: {error.strerror}") from None
+    try:
+        # Polars raises what its parser meets, some of it not an `Exception` of a known class.
+        seal = json.loads(pl.read_parquet_metadata(io.BytesIO(data)).get(_KEY, "null"))
+    except Exception:  # noqa: BLE001 - whatever it was, the file is not one that drumrs wrote
+        raise ConfigError(f"{str(path)!r} is damaged or no parquet file") from None
+    if not isinstance(seal, dict):
+        raise ConfigError(f"{str(path)!r} was not written by drumrs")
+    for name, wanted in _claims(case, content).items():
+        if seal.get(name) != wanted:
+            raise ConfigError(
+                f"{str(path)!r} has {name} {seal.get(name)!r}, but must have {wanted!r}: it is another's file"
+            )
+    head, digest, tail = data.rpartition(str(seal.get("sha256")).encode())
+    if hashlib.sha256(head + _BLANK.encode() + tail).hexdigest().encode() != digest:
+        raise ConfigError(f"{str(path)!r} is damaged: its digest does not match")
+    return io.BytesIO(data)
+
+
+def _claims(case: Case, content: str) -> dict[str, object]:
+    return {"format": FORMAT, "content": content, "case": case.id, "physics_version": physics_version()}

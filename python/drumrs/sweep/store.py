@@ -1,0 +1,225 @@
+"""`Store`: the folder of a sweep, a few files a case, each whole or not there.
+
+| file | content |
+|---|---|
+| `<id>.toml` | the configuration |
+| `<id>.series.parquet` | the series |
+| `<id>.frames.parquet` | the frames, where the case wants them |
+| `<id>.facts.json` | time taken and machine: what differs from run to run |
+| `<id>.parquet` | one row of parameters and summary, written last: its being there means that the case is finished |
+| `<id>.error.json` | why the case failed |
+| `drumrs-sweep.json` | the version of this format |
+"""
+
+import contextlib
+import json
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from drumrs.analysis import statistics
+from drumrs.config.report import show
+from drumrs.errors import ConfigError
+from drumrs.files import NO_ROOM, write_whole
+from drumrs.frames import Frames
+from drumrs.result import Result, Summary
+from drumrs.sweep.case import Case
+from drumrs.sweep.columns import TIMINGS, row, schema
+from drumrs.sweep.sealed import FORMAT, read_sealed, write_sealed
+
+if TYPE_CHECKING:
+    import io
+    from collections.abc import Mapping
+
+    import polars as pl
+
+MARK = "drumrs-sweep.json"
+_HOUR = 3600.0
+
+
+class Store:
+    """The results of cases in a folder."""
+
+    def __init__(self, folder: str | Path) -> None:
+        self.folder = Path(folder)
+
+    def open(self) -> None:
+        """Make the folder where there is none, and mark it.
+
+        Raises
+        ------
+        ConfigError
+            Where it cannot be written, or a newer version of drumrs made it.
+        """
+        self.check_format()
+        try:
+            self.folder.mkdir(parents=True, exist_ok=True)
+            write_whole(self.folder / MARK, f"{json.dumps({'format': FORMAT})}\n".encode())
+        except OSError as error:
+            if error.errno in NO_ROOM:
+                raise
+            raise ConfigError(
+                f"folder is {str(self.folder)!r}, but must be a folder that can be written: {error.strerror}"
+            ) from None
+        self._remove_leftovers()
+
+    def check_format(self) -> None:
+        """Refuse a folder that a newer version of drumrs made; one that is not there yet is fine."""
+        path = self.folder / MARK
+        try:
+            found = json.loads(path.read_text(encoding="utf-8"))["format"]
+        except (FileNotFoundError, NotADirectoryError):
+            return
+        except (OSError, ValueError, TypeError, KeyError):
+            raise ConfigError(
+                f"{str(path)!r} is damaged, but must name the format of the folder, {FORMAT}"
+            ) from None
+        if not isinstance(found, int) or found > FORMAT:
+            raise ConfigError(
+                f"folder is {str(self.folder)!r} of format {show(found)}, but must be of format {FORMAT} at most: "
+                "a newer drumrs made it"
+            )
+
+    def is_settled(self, case: Case) -> bool:
+        """Tell whether a case has results or an error, without looking into them."""
+        return any(self._path(case, ending).exists() for ending in ("parquet", "error.json"))
+
+    def fault(self, case: Case) -> str | None:
+        """Say what keeps the results of a case from being whole; `None` where the case is finished.
+
+        A case that has not been finished has no record of completion, and an empty fault.
+        """
+        if not self._path(case, "parquet").exists():
+            return ""
+        try:
+            self._read_row(case)
+            for content in ("series", *(["frames"] if case.wants_frames else [])):
+                self._read(case, content)
+        except ConfigError as error:
+            return str(error)
+        return None
+
+    def write(self, case: Case, result: Result, facts: "Mapping[str, Any]") -> None:
+        """Keep the results of a case; the record of completion comes last.
+
+        Parameters
+        ----------
+        case
+            Whose results they are.
+        result
+            Summary, series and frames.
+        facts
+            What differs from run to run, beside the summary's timings.
+
+        Raises
+        ------
+        OSError
+            Where the folder is full or cannot be written.
+        """
+        write_whole(self._path(case, "toml"), case.config.to_toml().encode())
+        units = {"units": json.dumps(dict(result.units))}
+        write_sealed(self._parquet(case, "series"), case, "series", result.series, units)
+        if case.wants_frames:
+            frames = result.frames
+            write_sealed(self._parquet(case, "frames"), case, "frames", frames.table(), frames.metadata())
+        timings = {name: getattr(result.summary, name) for name in TIMINGS}
+        self._write_json(case, "facts", {"case": case.id, **timings, **facts})
+        self._write_row(case, result.summary, result.series)
+        self._path(case, "error.json").unlink(missing_ok=True)
+
+    def renew(self, case: Case) -> bool:
+        """Make the row of a finished case again where an older version wrote it with other columns.
+
+        Everything that the row tells beyond the summary comes from the series, so nothing is simulated.
+
+        Returns
+        -------
+        bool
+            Whether the results are whole now.
+        """
+        import polars as pl
+
+        try:
+            old = pl.read_parquet(self._read(case, "summary")).row(0, named=True)
+            summary = Summary.from_mapping({**dict.fromkeys(TIMINGS), **old})
+            self._write_row(case, summary, self.series(case))
+        except (ConfigError, KeyError):
+            return False
+        return self.fault(case) is None
+
+    def write_error(self, case: Case, error: Exception) -> None:
+        """Keep why a case failed, beside its configuration."""
+        write_whole(self._path(case, "toml"), case.config.to_toml().encode())
+        told = {"case": case.id, "error": type(error).__name__, "message": str(error)}
+        self._write_json(case, "error", {**told, "config": case.config.model_dump(mode="json")})
+
+    def error(self, case: Case) -> dict[str, Any] | None:
+        """Return what `write_error` kept, `None` where the case has not failed."""
+        try:
+            told = json.loads(self._path(case, "error.json").read_text(encoding="utf-8"))
+        except (OSError, ValueError):
+            return None
+        return told if isinstance(told, dict) else None
+
+    def summary_path(self, case: Case) -> Path | None:
+        """Return the file of a finished case's row once it has been found whole; `None` where there is none.
+
+        Raises
+        ------
+        ConfigError
+            Where the file is damaged or another's.
+        """
+        path = self._path(case, "parquet")
+        if not path.exists():
+            return None
+        self._read_row(case)
+        return path
+
+    def series(self, case: Case) -> "pl.DataFrame":
+        """Return the series of a finished case."""
+        import polars as pl
+
+        return pl.read_parquet(self._read(case, "series"))
+
+    def frames(self, case: Case) -> Frames:
+        """Return the frames of a finished case."""
+        return Frames.load(self._read(case, "frames"))
+
+    def facts(self, case: Case) -> dict[str, Any]:
+        """Return time taken and machine."""
+        try:
+            facts = json.loads(self._path(case, "facts.json").read_text(encoding="utf-8"))
+        except (OSError, ValueError):
+            return {}
+        return facts if isinstance(facts, dict) else {}
+
+    def _read(self, case: Case, content: str) -> "io.BytesIO":
+        return read_sealed(self._parquet(case, content), case, content)
+
+    def _write_row(self, case: Case, summary: Summary, series: "pl.DataFrame") -> None:
+        found = statistics(series, case.config.run.averaging_window, case.load_mass)
+        write_sealed(self._parquet(case, "summary"), case, "summary", row(case, summary, found))
+
+    def _read_row(self, case: Case) -> None:
+        """Refuse a row that is damaged, another's or of other columns."""
+        import polars as pl
+
+        if pl.read_parquet_schema(self._read(case, "summary")) != schema():
+            path = self._parquet(case, "summary")
+            raise ConfigError(f"{str(path)!r} has the columns of another version of drumrs")
+
+    def _parquet(self, case: Case, content: str) -> Path:
+        return self._path(case, "parquet" if content == "summary" else f"{content}.parquet")
+
+    def _path(self, case: Case, ending: str) -> Path:
+        return self.folder / f"{case.id}.{ending}"
+
+    def _write_json(self, case: Case, name: str, content: dict[str, Any]) -> None:
+        write_whole(self._path(case, f"{name}.json"), f"{json.dumps(content, indent=2)}\n".encode())
+
+    def _remove_leftovers(self) -> None:
+        """Remove what a killed run was writing; a young file may be in another run's hands."""
+        for path in self.folder.glob(".*.tmp"):
+            with contextlib.suppress(OSError):
+                if time.time() - path.stat().st_mtime > _HOUR:
+                    path.unlink()

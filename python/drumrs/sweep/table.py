@@ -1,0 +1,65 @@
+"""The table of a sweep: one row a finished case, sorted, whatever order they were finished in."""
+
+import io
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from drumrs.errors import ConfigError
+from drumrs.files import write_whole
+from drumrs.sweep.case import Case
+from drumrs.sweep.columns import schema, sort_keys
+from drumrs.sweep.store import Store
+
+if TYPE_CHECKING:
+    import polars as pl
+
+FILE = "table.parquet"
+
+
+def scan(cases: Sequence[Case], store: Store) -> "pl.LazyFrame":
+    """Scan the rows of the cases that are finished.
+
+    Raises
+    ------
+    ConfigError
+        Where a file is damaged or another's; it is named.
+    """
+    import polars as pl
+
+    try:
+        found = [path for case in cases if (path := store.summary_path(case)) is not None]
+    except ConfigError as error:
+        raise ConfigError(f"{error}; run the sweep again to compute it anew") from None
+    if not found:
+        return pl.LazyFrame(schema=schema())
+    return pl.scan_parquet(found, glob=False).sort(sort_keys(), maintain_order=True)
+
+
+def write(cases: Sequence[Case], store: Store) -> Path:
+    """Write the table beside the cases' files and return its path: equal results, equal bytes.
+
+    Raises
+    ------
+    OSError
+        Where it cannot be written; the cases' files are untouched.
+    """
+    buffer = io.BytesIO()
+    scan(cases, store).collect().write_parquet(buffer, compression="uncompressed")
+    path = store.folder / FILE
+    write_whole(path, buffer.getvalue())
+    return path
+
+
+def facts(cases: Sequence[Case], store: Store) -> "pl.DataFrame":
+    """Return time taken and machine of the finished cases: what differs from run to run."""
+    import polars as pl
+
+    rows = [told for case in cases if (told := store.facts(case))]
+    wanted = {
+        "case": pl.String,
+        "wall_time": pl.Float64,
+        "particle_steps_per_second": pl.Float64,
+        "machine": pl.String,
+    }
+    return pl.DataFrame([{name: told.get(name) for name in wanted} for told in rows], schema=wanted)

@@ -1,0 +1,145 @@
+"""One case, run to its end and kept: what every executor is handed, on threads and on other machines alike."""
+
+import json
+import platform
+import signal
+import threading
+from collections.abc import Callable
+from multiprocessing.synchronize import Event
+from typing import NamedTuple
+
+from drumrs.config import Config
+from drumrs.protocol import finish
+from drumrs.simulation import Simulation, info
+from drumrs.sweep.case import Case
+from drumrs.sweep.store import Store
+
+
+class Report(NamedTuple):
+    """What became of a case: "finished", "failed" with the error's class and sentence, or "stopped"."""
+
+    case: str
+    status: str
+    error: str = ""
+    message: str = ""
+
+
+class Running:
+    """The simulations under way in this process: how far they are together, and a way to stop them all."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._simulations: dict[Simulation, int] = {}
+        self._stopped = False
+
+    def begin(self, simulation: Simulation) -> Callable[[int], None]:
+        """Add a simulation; the function returned is to be called with its step number."""
+        with self._lock:
+            self._simulations[simulation] = 0
+            if self._stopped:
+                simulation.stop()
+
+        def report(step: int) -> None:
+            self._simulations[simulation] = step
+
+        return report
+
+    def end(self, simulation: Simulation) -> None:
+        """Take a simulation out."""
+        with self._lock:
+            self._simulations.pop(simulation, None)
+
+    def particle_steps(self) -> float:
+        """Return the particle-steps that the simulations under way have done."""
+        with self._lock:
+            return float(sum(simulation.count * step for simulation, step in self._simulations.items()))
+
+    def stop(self) -> None:
+        """Stop all, those to come included."""
+        with self._lock:
+            self._stopped = True
+            for simulation in self._simulations:
+                simulation.stop()
+
+
+# Those of a process that works for a sweep elsewhere.
+_here = Running()
+
+
+def obey(halt: Event) -> None:
+    """Make this process one that works for a sweep elsewhere, and stops when told so, not by Ctrl-C."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+    def wait() -> None:
+        halt.wait()
+        _here.stop()
+
+    threading.Thread(target=wait, daemon=True).start()
+
+
+def run_case(config_json: str, folder: str, running: Running | None = None) -> Report:
+    """Simulate a case and keep its results, or its error, in a sweep's folder.
+
+    Parameters
+    ----------
+    config_json
+        The configuration as JSON, every key given, seed included.
+    folder
+        The sweep's folder, which exists and is reached under this name wherever the function runs.
+    running
+        Where to enter the simulation, so that another thread can stop it.
+
+    Returns
+    -------
+    Report
+        What became of the case; a failure is reported, not raised.
+
+    Raises
+    ------
+    OSError
+        Where the results cannot be written: no fault of the case's.
+
+    Examples
+    --------
+    >>> import tempfile, drumrs
+    >>> from drumrs.sweep import run_case
+    >>> config = drumrs.baseline(fill=0.05).replace({"run.duration": 0.05})
+    >>> run_case(config.model_dump_json(), tempfile.mkdtemp()).status
+    'finished'
+    """
+    case = Case(Config.model_validate(json.loads(config_json)))
+    store = Store(folder)
+    # Another sweep may have finished it while it stood in the queue; an older version may have left it all but its row.
+    if store.fault(case) is None or store.renew(case):
+        return Report(case.id, "finished")
+    try:
+        kept = _simulate(case, store, running or _here)
+    except OSError:
+        raise
+    except Exception as error:  # noqa: BLE001 - whatever is wrong with one case, the others go on
+        store.write_error(case, error)
+        return Report(case.id, "failed", type(error).__name__, str(error))
+    return Report(case.id, "finished" if kept else "stopped")
+
+
+def _simulate(case: Case, store: Store, running: Running) -> bool:
+    simulation = Simulation(case.config)
+    report = running.begin(simulation)
+    try:
+        if not finish(simulation, report):
+            return False
+        store.write(case, simulation.result(), _facts())
+    finally:
+        running.end(simulation)
+    return True
+
+
+def _facts() -> dict[str, object]:
+    about = info()
+    return {
+        "drumrs": about["version"],
+        "machine": platform.node(),
+        "target": about["target"],
+        "cpu_features": about["cpu_features"],
+        "python": platform.python_version(),
+    }

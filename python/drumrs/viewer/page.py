@@ -1,0 +1,153 @@
+"""`Player`: a run's page, for a file, a notebook or as a part of a larger page."""
+
+import html
+import json
+from functools import cache
+from importlib.resources import files
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from drumrs.errors import ConfigError
+from drumrs.files import write_whole
+from drumrs.frames import Frames
+from drumrs.viewer.recording import recording
+
+if TYPE_CHECKING:
+    import polars as pl
+
+# In the order in which they use each other; together they are one module, whose names stay inside.
+_SCRIPTS = ("color.js", "recording.js", "coloring.js", "plot.js", "stage.js", "player.js")
+_NOTEBOOK_HEIGHT = 700  # CSS pixels
+
+_PAGE = """<!doctype html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta name="color-scheme" content="light dark">
+<title>{title}</title>
+<style>
+body {{ max-width: 1240px; margin: 0 auto; padding: 12px; background: Canvas; }}
+@media (max-width: 500px) {{ body {{ padding: 0; }} }}
+</style>
+</head>
+<body>
+{player}
+{assets}
+</body>
+</html>
+"""
+
+
+class Player:
+    """A run as a page with its own player: no server, no library, nothing loaded from elsewhere.
+
+    Parameters
+    ----------
+    frames
+        Frames of the run.
+    series
+        Table of the run, one row a sample, for power and energies; without it the curves come from the frames.
+    title
+        Written over the player.
+    window
+        Interval of the averages [s], shaded in the curves.
+
+    Raises
+    ------
+    ConfigError
+        Where there is no frame to show.
+
+    Examples
+    --------
+    >>> import drumrs
+    >>> simulation = drumrs.Simulation(drumrs.baseline(fill=0.1))
+    >>> simulation.run(duration=0.1)
+    >>> from drumrs.viewer import Player
+    >>> Player(simulation.frames, title="The first tenth of a second")
+    <Player of 40 bundles, 3 frames>
+    """
+
+    def __init__(
+        self,
+        frames: Frames,
+        series: "pl.DataFrame | None" = None,
+        *,
+        title: str = "",
+        window: tuple[float, float] | None = None,
+    ) -> None:
+        if not len(frames) or not frames.count:
+            raise ConfigError(
+                f"the run has {len(frames)} frames of {frames.count} bundles, but must have at least one to be shown"
+            )
+        self._frames = frames
+        self._series = series
+        self._title = title
+        self._window = window
+
+    def __repr__(self) -> str:
+        """Say what would be shown."""
+        return f"<Player of {self._frames.count} bundles, {len(self._frames)} frames>"
+
+    def element(self, *, autoplay: bool = False) -> str:
+        """Return the player as an HTML element; the page needs `assets` once, anywhere.
+
+        Parameters
+        ----------
+        autoplay
+            Whether to play at once, unless the reader's system asks for less motion.
+        """
+        data = json.dumps(recording(self._frames, self._series, self._title, self._window), allow_nan=False)
+        # A title may hold any text, but none that would end the script.
+        safe = data.replace("<", "\\u003c")
+        script = f'<script type="application/json">{safe}</script>'
+        attribute = " autoplay" if autoplay else ""
+        return f"<drumrs-player{attribute}>{script}</drumrs-player>"
+
+    def page(self, *, autoplay: bool = True) -> str:
+        """Return the player as a whole HTML page."""
+        return _PAGE.format(
+            title=html.escape(self._title or "drumrs"),
+            player=self.element(autoplay=autoplay),
+            assets=assets(),
+        )
+
+    def save(self, path: str | Path) -> Path:
+        """Write the page as one file, which any current browser opens without a server.
+
+        Raises
+        ------
+        OSError
+            Where the file cannot be written.
+        """
+        write_whole(path, self.page().encode())
+        return Path(path)
+
+    def _repr_html_(self) -> str:
+        """Show the player in a notebook, in a frame of its own, apart from the notebook's style and scripts."""
+        page = html.escape(self.page(autoplay=False), quote=True)
+        return (
+            f'<iframe srcdoc="{page}" sandbox="allow-scripts" title="Player of a simulation" '
+            f'style="width: 100%; height: {_NOTEBOOK_HEIGHT}px; border: 0;"></iframe>'
+        )
+
+
+@cache
+def assets() -> str:
+    """Return the template and script that all players of a page share.
+
+    Examples
+    --------
+    >>> from drumrs.viewer import assets
+    >>> assets().startswith('<template id="drumrs-player">')
+    True
+    """
+    folder = files(__package__ or "drumrs.viewer")
+    markup, style, *scripts = (
+        folder.joinpath(name).read_text(encoding="utf-8") for name in ("player.html", "player.css", *_SCRIPTS)
+    )
+    script = "\n".join(scripts)
+    return (
+        f'<template id="drumrs-player">\n<style>\n{style}</style>\n{markup}</template>\n'
+        f'<script type="module">\n{script}</script>'
+    )

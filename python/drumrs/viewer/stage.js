@@ -1,0 +1,207 @@
+// The drum and its load on a canvas.
+
+// Half the picture's width over the drum's radius: there is room for the arrow outside of the rim.
+const MARGIN = 1.13;
+const ARROW = 1.075;
+const TICKS = 24;
+const TRAIL = 1; // seconds
+
+// Match a canvas to its size on the screen, in the screen's own dots, and return a context in CSS pixels.
+function prepare(canvas) {
+  const dots = window.devicePixelRatio || 1;
+  const width = Math.max(1, canvas.clientWidth);
+  const height = Math.max(1, canvas.clientHeight);
+  const [across, down] = [Math.round(width * dots), Math.round(height * dots)];
+  if (canvas.width !== across || canvas.height !== down) [canvas.width, canvas.height] = [across, down];
+  const context = canvas.getContext("2d");
+  context.setTransform(across / width, 0, 0, down / height, 0, 0);
+  context.clearRect(0, 0, width, height);
+  return { context, width, height };
+}
+
+class Stage {
+  constructor(canvas, recording, theme) {
+    this.canvas = canvas;
+    this.recording = recording;
+    this.theme = theme;
+    this.marks = true;
+    this.riding = false;
+    this.selected = null;
+  }
+
+  // From meters to pixels: y points up, and the picture turns with the drum where one rides with it.
+  frame(scene) {
+    const { width, height } = this;
+    const unit = Math.min(width, height) / (2 * MARGIN * this.recording.reach);
+    return { unit, x: width / 2, y: height / 2, turn: this.riding ? -scene.drumAngle : 0 };
+  }
+
+  draw(scene, shades) {
+    const { context, width, height } = prepare(this.canvas);
+    [this.width, this.height] = [width, height];
+    const { unit, x, y, turn } = this.frame(scene);
+    this.context = context;
+    this.pixel = 1 / unit;
+    context.save();
+    context.translate(x, y);
+    context.scale(unit, -unit);
+    context.rotate(turn);
+    this.drawDrum(scene);
+    this.drawBundles(scene, shades);
+    if (this.marks) this.drawMarks(scene, shades);
+    if (this.selected !== null) this.drawSelected(scene);
+    context.restore();
+    this.drawArrow(scene);
+    this.drawScale(unit);
+  }
+
+  drawDrum({ drumAngle }) {
+    const { context, recording, pixel, theme } = this;
+    context.save();
+    context.rotate(drumAngle);
+    context.lineWidth = 2 * pixel;
+    context.strokeStyle = context.fillStyle = theme.steel;
+    if (recording.drumRadius) {
+      context.beginPath();
+      context.arc(0, 0, recording.drumRadius + pixel, 0, 2 * Math.PI);
+      context.fillStyle = theme.inside;
+      context.fill();
+      context.stroke();
+      this.drawTicks(recording.drumRadius + 2 * pixel);
+      context.fillStyle = theme.steel;
+    }
+    for (const line of recording.baffles) {
+      this.trace(line);
+      context.closePath();
+      context.fill();
+    }
+    for (const line of recording.walls) {
+      this.trace(line);
+      context.stroke();
+    }
+    context.restore();
+  }
+
+  // Ticks round the rim let a bare drum be seen to turn; one of them is longer.
+  drawTicks(radius) {
+    const { context, pixel } = this;
+    context.beginPath();
+    for (let k = 0; k < TICKS; k++) {
+      const [x, y] = [Math.cos((2 * Math.PI * k) / TICKS), Math.sin((2 * Math.PI * k) / TICKS)];
+      const tip = radius + (k === 0 ? 9 : 4) * pixel;
+      context.moveTo(radius * x, radius * y);
+      context.lineTo(tip * x, tip * y);
+    }
+    context.lineWidth = 1.25 * pixel;
+    context.stroke();
+  }
+
+  trace(points) {
+    this.context.beginPath();
+    points.forEach(([x, y], k) => (k ? this.context.lineTo(x, y) : this.context.moveTo(x, y)));
+  }
+
+  drawBundles({ bundles }, shades) {
+    const { context, recording, pixel, theme } = this;
+    context.lineWidth = 0.75 * pixel;
+    context.strokeStyle = theme.outline;
+    bundles.forEach(({ x, y }, k) => {
+      context.beginPath();
+      context.arc(x, y, Math.max(recording.radii[k] - 0.4 * pixel, pixel), 0, 2 * Math.PI);
+      context.fillStyle = shades[k].fill;
+      context.fill();
+      context.stroke();
+    });
+  }
+
+  // A radius on each bundle shows how it spins: black on light colors, white on dark ones.
+  drawMarks({ bundles }, shades) {
+    const { context, recording, pixel } = this;
+    context.lineWidth = Math.min(1.5 * pixel, 0.25 * Math.max(...recording.radii));
+    for (const light of [true, false]) {
+      context.beginPath();
+      bundles.forEach(({ x, y, angle }, k) => {
+        if (shades[k].light !== light) return;
+        const length = 0.85 * recording.radii[k];
+        context.moveTo(x, y);
+        context.lineTo(x + length * Math.cos(angle), y + length * Math.sin(angle));
+      });
+      context.strokeStyle = light ? "#000" : "#fff";
+      context.stroke();
+    }
+  }
+
+  // The chosen bundle's ring, and its path over the last second as seen from where one looks.
+  drawSelected(scene) {
+    const { context, recording, pixel, theme, selected } = this;
+    const here = scene.bundles[selected];
+    context.beginPath();
+    context.moveTo(here.x, here.y);
+    for (let frame = recording.frameAt(scene.time); frame >= 0; frame--) {
+      if (recording.times[frame] < scene.time - TRAIL) break;
+      const point = [0, 1].map((axis) => recording.coordinate(frame, selected, axis));
+      const back = this.riding ? scene.drumAngle - recording.drumAngles[frame] : 0;
+      const [sine, cosine] = [Math.sin(back), Math.cos(back)];
+      context.lineTo(cosine * point[0] - sine * point[1], sine * point[0] + cosine * point[1]);
+    }
+    context.lineJoin = "round";
+    for (const [color, width] of [[theme.inside, 5], [theme.accent, 2.5]]) {
+      context.strokeStyle = color;
+      context.lineWidth = width * pixel;
+      context.stroke();
+    }
+    context.beginPath();
+    context.arc(here.x, here.y, recording.radii[selected] + pixel, 0, 2 * Math.PI);
+    context.lineWidth = 3 * pixel;
+    context.stroke();
+  }
+
+  // An arc over the top of the drum with a head: which way the drum turns.
+  drawArrow({ spin }) {
+    const { context, recording, theme, width, height } = this;
+    if (!recording.drumRadius || spin === 0) return;
+    const radius = ARROW * recording.drumRadius * (1 / this.pixel);
+    const sense = Math.sign(spin);
+    const point = (degrees, r) => {
+      const angle = ((90 + sense * degrees) * Math.PI) / 180;
+      return [width / 2 + r * Math.cos(angle), height / 2 - r * Math.sin(angle)];
+    };
+    context.strokeStyle = context.fillStyle = theme.ink;
+    context.lineWidth = 1.75;
+    context.beginPath();
+    for (let degrees = -20; degrees <= 18; degrees += 2) context.lineTo(...point(degrees, radius));
+    context.stroke();
+    context.beginPath();
+    for (const [degrees, r] of [[21, radius], [17.5, radius - 5], [17.5, radius + 5]]) context.lineTo(...point(degrees, r));
+    context.fill();
+  }
+
+  // A bar of a round length, so that sizes can be read off.
+  drawScale(unit) {
+    const { context, theme, height } = this;
+    const length = steps(0, 0.5 * this.recording.reach, 1).step;
+    const label = length < 1 ? `${Number((1000 * length).toPrecision(3))} mm` : `${length} m`;
+    context.strokeStyle = context.fillStyle = theme.muted;
+    context.lineWidth = 1.5;
+    context.beginPath();
+    context.moveTo(8, height - 12);
+    context.lineTo(8, height - 8);
+    context.lineTo(8 + unit * length, height - 8);
+    context.lineTo(8 + unit * length, height - 12);
+    context.stroke();
+    context.font = theme.font;
+    context.textBaseline = "bottom";
+    context.textAlign = "left";
+    context.fillText(label, 8, height - 14);
+  }
+
+  // The bundle under a point of the canvas, or null.
+  bundleAt(left, top, scene) {
+    const { unit, x, y, turn } = this.frame(scene);
+    const [across, up] = [(left - x) / unit, (y - top) / unit];
+    const [sine, cosine] = [Math.sin(-turn), Math.cos(-turn)];
+    const [px, py] = [cosine * across - sine * up, sine * across + cosine * up];
+    const hit = scene.bundles.findIndex((bundle, k) => Math.hypot(bundle.x - px, bundle.y - py) <= this.recording.radii[k]);
+    return hit < 0 ? null : hit;
+  }
+}

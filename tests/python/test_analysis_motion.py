@@ -1,0 +1,157 @@
+"""Measures of motion, on made-up loads: rings that centrifuge, loads at rest, gases, flowing layers."""
+
+import math
+
+import numpy as np
+import pytest
+
+from drumrs import analysis
+from drumrs.analysis import depth
+from drumrs.errors import ConfigError
+from drumrs.frames import Frames
+
+RADIUS, DIAMETER = 1.0, 0.1
+TIMES = 0.04 * np.arange(151)
+OMEGA = 5.0
+WINDOW = (0.0, 6.0)
+
+
+def turned(points: np.ndarray, angle: float) -> np.ndarray:
+    c, s = math.cos(angle), math.sin(angle)
+    return points @ np.array([[c, s], [-s, c]])
+
+
+def made_up(positions: np.ndarray, omega: float = OMEGA) -> Frames:
+    frames, count = positions.shape[:2]
+    return Frames(
+        times=TIMES[:frames],
+        drum_angles=omega * TIMES[:frames],
+        positions=positions.astype(np.float32),
+        angles=np.zeros((frames, count), dtype=np.float32),
+        speeds=np.zeros((frames, count), dtype=np.float32),
+        radii=np.full(count, DIAMETER / 2.0),
+        drum_radius=RADIUS,
+    )
+
+
+def ring(count: int, radius: float) -> np.ndarray:
+    angles = 2.0 * math.pi * np.arange(count) / count
+    return radius * np.column_stack([np.cos(angles), np.sin(angles)])
+
+
+def bed() -> np.ndarray:
+    """Return a square packing that fills the lower half of the drum."""
+    line = np.arange(-0.95, 0.96, DIAMETER)
+    points = np.stack(np.meshgrid(line, line), axis=-1).reshape(-1, 2)
+    return points[(np.hypot(*points.T) < RADIUS - DIAMETER / 2.0) & (points[:, 1] < 0.0)]
+
+
+def moving(start: np.ndarray, omega: float = OMEGA) -> np.ndarray:
+    return np.stack([turned(start, omega * time) for time in TIMES])
+
+
+@pytest.mark.parametrize("omega", [OMEGA, -OMEGA])
+def test_a_ring_that_centrifuges_is_carried_round(omega):
+    frames = made_up(moving(ring(40, 0.95), omega), omega)
+    # 40 bundles in 6 · 5 / 2π turns: whole passages only.
+    assert analysis.carried_round(frames, WINDOW).value == pytest.approx(1.0, abs=0.02)
+
+
+def test_half_a_load_carried_round():
+    both = np.concatenate([ring(30, 0.95), ring(30, 0.5)])
+    assert analysis.carried_round(made_up(moving(both)), WINDOW).value == pytest.approx(0.5, abs=0.02)
+
+
+@pytest.mark.parametrize("speed", [0.0, 0.5, 1.5])
+def test_what_slips_is_not_carried(speed):
+    frames = made_up(moving(ring(40, 0.95), speed * OMEGA))
+    assert analysis.carried_round(frames, WINDOW).value == 0.0
+
+
+def test_what_flies_over_the_axis_is_not_carried():
+    # Straight through the line above the axis, at the drum's angular velocity when it passes.
+    x = 0.5 * OMEGA * (0.7 - TIMES % 1.4)
+    path = np.stack([np.column_stack([np.full(5, at), np.full(5, 0.5)]) for at in x])
+    assert analysis.carried_round(made_up(path), WINDOW).value == 0.0
+
+
+def test_a_rigid_body_does_not_mix():
+    turns, index = analysis.mixing(made_up(moving(bed())), WINDOW)
+    assert turns[-1] == pytest.approx(1.0, abs=0.02)
+    assert np.abs(index).max() < 1e-5
+    assert analysis.mixed_in_a_turn(made_up(moving(bed())), WINDOW).value == pytest.approx(0.0, abs=1e-5)
+
+
+def test_a_shuffled_load_is_mixed_at_once():
+    random = np.random.default_rng(2)
+    start = bed()
+    frames = made_up(np.stack([random.permutation(start) for _ in TIMES]))
+    _, index = analysis.mixing(frames, WINDOW)
+    assert index[:, 0] == pytest.approx(0.0)
+    assert index[:, 1:].mean() == pytest.approx(1.0, abs=0.02)
+
+
+def test_mixing_grows_with_disorder():
+    random = np.random.default_rng(4)
+    found = []
+    for stride in (0.0, 0.01, 0.03):
+        steps = stride * random.standard_normal((len(TIMES), 60, 2))
+        walk = ring(60, 0.5) + np.cumsum(steps, axis=0)
+        found.append(analysis.mixed_in_a_turn(made_up(walk), WINDOW).value)
+    assert found[0] < 0.01 < found[1] < found[2]
+
+
+def test_mixing_needs_a_turn():
+    frames = made_up(moving(bed()))
+    assert analysis.mixed_in_a_turn(frames, (0.0, 1.0)) is None
+    assert analysis.mixed_in_a_turn(made_up(moving(bed(), 0.0), 0.0), WINDOW) is None
+
+
+def test_depth_profile_of_a_flowing_layer():
+    start = bed()
+    flowing = start[:, 1] > -0.1
+    # Turns with the drum, but for the uppermost layer, which slides by 0.2 of the rim's speed: pairs of frames, each
+    # from the same start.
+    path = np.empty((2, *start.shape))
+    path[0] = start
+    path[1] = turned(start, OMEGA * TIMES[1])
+    path[1, flowing, 0] -= 0.2 * RADIUS * OMEGA * TIMES[1]
+    surface, middle, deep = analysis.depth_profile(made_up(path), (0.0, 0.04), (0.0, 0.75, 3.0, np.inf))
+    assert surface.value == pytest.approx(0.2, abs=0.005)
+    assert middle.value < 1e-5
+    assert deep.value < 1e-5
+    assert surface.error is None
+
+
+def test_depth_profile_without_a_surface():
+    alone = made_up(moving(ring(3, 0.95)), 0.0)
+    assert analysis.depth_profile(alone, WINDOW) == (None, None, None)
+    line = np.arange(-1.0, 1.01, 0.08)
+    full = np.stack(np.meshgrid(line, line), axis=-1).reshape(-1, 2)
+    surface, middle, deep = analysis.depth_profile(made_up(moving(full)), WINDOW)
+    # Nothing is empty in a full drum: all of it is deep.
+    assert surface is None
+    assert middle is None
+    assert deep.value == pytest.approx(0.0, abs=1e-5)
+
+
+def test_window_without_frames():
+    with pytest.raises(ConfigError, match="at least two frames"):
+        analysis.carried_round(made_up(moving(bed())), (7.0, 8.0))
+
+
+def test_a_baffle_is_no_free_surface():
+    baffle = np.array([[0.0, -0.95], [0.25, -0.95], [0.12, -0.6]])
+    start = bed()
+    # The bed makes room for the baffle, which is as large as several bundles.
+    near = (np.abs(start[:, 0] - 0.12) < 0.2) & (start[:, 1] < -0.55)
+    below = start[~near]
+    frames = made_up(moving(below))
+    with_baffle = Frames(**{**vars(frames), "baffles": (baffle,)})
+    places = depth._places(with_baffle, RADIUS)
+    assert not depth._is_inside(places, baffle).any()
+    assert depth._distance_to_outline(places, baffle).min() > DIAMETER / 2.0
+    bare = depth._places(frames, RADIUS)
+    assert len(places) < len(bare)
+    assert depth._is_inside(np.array([[0.12, -0.8]]), baffle).all()
+    assert depth._distance_to_outline(np.array([[0.12, -1.05]]), baffle) == pytest.approx(0.1)

@@ -1,0 +1,210 @@
+"""The player's data and files: what a page holds is what was recorded, and what cannot be shown is refused."""
+
+import base64
+import html
+import json
+import math
+import re
+
+import numpy as np
+import polars as pl
+import pytest
+
+import drumrs
+from drumrs import viewer
+from drumrs.frames import Frames
+from drumrs.viewer import curves
+from drumrs.viewer.recording import recording
+
+SCRIPT = re.compile(r'<script type="application/json">(.*?)</script>', re.DOTALL)
+
+
+def frames_of(count: int = 5, frames: int = 4, **scene) -> Frames:
+    random = np.random.default_rng(2)
+    times = 0.04 * np.arange(frames)
+    return Frames(
+        times=times,
+        drum_angles=3.0 * times,
+        positions=random.uniform(-0.2, 0.2, (frames, count, 2)).astype(np.float32),
+        angles=random.uniform(-math.pi, math.pi, (frames, count)).astype(np.float32),
+        speeds=random.uniform(0.0, 2.0, (frames, count)).astype(np.float32),
+        radii=np.linspace(0.01, 0.02, count),
+        **scene,
+    )
+
+
+def read_back(text: str, kind: str) -> np.ndarray:
+    return np.frombuffer(base64.b64decode(text), dtype=kind)
+
+
+def test_a_page_holds_what_was_recorded():
+    frames = frames_of(drum_radius=0.2375)
+    data = recording(frames, None, "title", (0.0, 0.1))
+    places = read_back(data["positions"], "<u2").reshape(4, 5, 2) / 65535 * 2.0 - 1.0
+    assert np.abs(places * data["reach"] - frames.positions).max() < 5e-6
+    turned = read_back(data["angles"], "<u2").reshape(4, 5) / 65536 * math.tau
+    assert np.abs(np.angle(np.exp(1j * (turned - frames.angles)))).max() < 1e-4
+    speeds = read_back(data["speeds"], "<u2").reshape(4, 5) / 65535 * data["fastest"]
+    assert np.abs(speeds - frames.speeds).max() < 3e-5
+    assert np.array_equal(read_back(data["times"], "<f8"), frames.times)
+    assert np.array_equal(read_back(data["drum_angles"], "<f8"), frames.drum_angles)
+    assert data["window"] == [0.0, 0.1]
+    assert data["drum_radius"] == data["reach"] == 0.2375
+
+
+@pytest.mark.parametrize(
+    ("scene", "reach"),
+    [({"walls": (np.array([[-0.9, -0.5], [0.9, -0.5]]),)}, 0.9), ({"drum_radius": 0.1}, 0.19)],
+)
+def test_the_picture_holds_everything(scene, reach):
+    # Bundles outside of a small drum are still seen.
+    assert recording(frames_of(**scene), None, "", None)["reach"] == pytest.approx(reach, rel=0.05)
+
+
+def test_too_many_frames_are_thinned_evenly(monkeypatch):
+    monkeypatch.setattr("drumrs.viewer.recording._MOST_PLACES", 10)
+    frames = frames_of(count=5, frames=7, drum_radius=0.3)
+    data = recording(frames, None, "", None)
+    assert read_back(data["times"], "<f8").tolist() == frames.times[::4].tolist()
+    assert len(read_back(data["positions"], "<u2")) == 2 * 5 * 2
+
+
+def test_a_load_at_rest_has_a_scale():
+    frames = frames_of(drum_radius=0.3)
+    still = Frames(**{**vars(frames), "speeds": np.zeros_like(frames.speeds)})
+    assert recording(still, None, "", None)["speed_scale"] == 1.0
+
+
+def series_of(power: float, rows: int = 301) -> pl.DataFrame:
+    time = 0.01 * np.arange(rows)
+    energies = ("kinetic_translation", "kinetic_rotation", "elastic_normal", "elastic_tangential")
+    flows = {"work_drum": power, "dissipated_normal": 0.6 * power, "dissipated_sliding": 0.4 * power}
+    return pl.DataFrame(
+        {
+            "time": time,
+            **{name: rate * time for name, rate in flows.items()},
+            **{name: np.full(rows, 2.0) for name in energies},
+        }
+    )
+
+
+def test_curves_are_exact_means():
+    power, energies = curves.panels_of_series(series_of(7.0))
+    for line, rate in zip(power.lines, (7.0, 4.2, 2.8), strict=True):
+        assert line.values == pytest.approx(rate)
+    assert power.limits[0] == 0.0
+    assert power.limits[1] > 7.0
+    assert [float(line.values.mean()) for line in energies.lines] == pytest.approx([2.0, 2.0, 4.0])
+    assert energies.logarithmic
+    assert 0.0 < energies.limits[0] < 2.0
+    assert energies.limits[1] > 4.0
+
+
+def test_a_few_samples_are_no_curve():
+    assert curves.panels_of_series(series_of(1.0, rows=2)) == []
+    assert curves.panels_of_frames(frames_of(frames=1)) == []
+    titles = [panel.title for panel in curves.panels_of_frames(frames_of())]
+    assert titles == ["Speed of the bundles", "Mean position of the bundles"]
+
+
+def test_a_title_cannot_end_its_script():
+    title = "</script><b>50 % & more"
+    page = viewer.Player(frames_of(), title=title).page()
+    assert json.loads(SCRIPT.search(page).group(1))["title"] == title
+    assert "</script><b>" not in page
+    assert f"<title>{html.escape(title)}</title>" in page
+
+
+def test_a_page_asks_for_nothing():
+    page = viewer.Player(frames_of(drum_radius=0.2)).page()
+    assert not re.findall(r"(?:src|href)\s*=|@import|url\(|fetch\(|https?:", page)
+
+
+def test_a_notebook_shows_the_page_in_a_frame_of_its_own():
+    player = viewer.Player(frames_of())
+    shown = player._repr_html_()
+    assert html.unescape(re.search(r'srcdoc="([^"]*)"', shown).group(1)) == player.page(autoplay=False)
+    assert 'sandbox="allow-scripts"' in shown
+
+
+def test_nothing_to_show_is_refused():
+    with pytest.raises(drumrs.ConfigError, match="0 frames of 5 bundles, but must have at least one"):
+        viewer.Player(frames_of(frames=0))
+
+
+@pytest.fixture(scope="module")
+def finished(tmp_path_factory):
+    """Return the folder of a finished run."""
+    folder = tmp_path_factory.mktemp("view") / "run"
+    config = drumrs.baseline(fill=0.05, baffles=True).replace({"run.duration": 0.2})
+    drumrs.run(config, progress=False).save(folder, pictures=False)
+    return folder
+
+
+def test_a_result_shows_itself(finished):
+    result = drumrs.load(finished)
+    data = json.loads(SCRIPT.search(result.player().page()).group(1))
+    assert data["title"] == "20 bundles (5 % fill), 3 baffles, 54 rpm, seed 1"
+    assert data["window"] == pytest.approx([0.2 * 2 / 3, 0.2])
+    assert [panel["unit"] for panel in data["panels"]] == ["W/m", "J/m"]
+    assert len(data["baffles"]) == 3
+
+
+def test_view_writes_the_page_and_opens_it(finished, drum, monkeypatch):
+    opened = []
+    monkeypatch.setattr("webbrowser.open", opened.append)
+    status, out, _ = drum("view", finished)
+    page = finished / "player.html"
+    assert (status, out) == (0, f"wrote {page}\n")
+    assert opened == [page.as_uri()]
+    assert "<title>20 bundles" in page.read_text(encoding="utf-8")
+    drum("view", finished, "--no-open")
+    other = finished / "other.html"
+    drum("view", finished / "frames.parquet", "--out", other)
+    assert opened == [page.as_uri()]
+    assert other.read_bytes() == page.read_bytes()
+
+
+def test_view_reads_a_case_of_a_sweep(finished, drum, tmp_path):
+    for name, case in (("config.toml", "1a2b.toml"), ("frames.parquet", "1a2b.frames.parquet")):
+        (tmp_path / case).write_bytes((finished / name).read_bytes())
+    assert drum("view", tmp_path / "1a2b.frames.parquet", "--no-open")[0] == 0
+    data = json.loads(SCRIPT.search((tmp_path / "1a2b.player.html").read_text(encoding="utf-8")).group(1))
+    assert data["title"].startswith("20 bundles")
+    assert data["panels"][0]["title"] == "Speed of the bundles"
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "says"),
+    [
+        ("missing.parquet", None, "is not there, but must be the frames.parquet of a run, or its folder"),
+        ("text.parquet", b"no parquet at all", "holds no frames, but must be a file that drumrs wrote"),
+        ("cut.parquet", "frames.parquet", "holds no frames, but must be a file that drumrs wrote"),
+        ("foreign.parquet", "series.parquet", "holds no frames, but must be a file that drumrs wrote"),
+    ],
+)
+def test_view_refuses_what_holds_no_frames(name, content, says, finished, drum, tmp_path):
+    if isinstance(content, str):
+        whole = (finished / content).read_bytes()
+        content = whole[: len(whole) // 2] if name.startswith("cut") else whole
+    if content is not None:
+        (tmp_path / name).write_bytes(content)
+    status, out, err = drum("view", tmp_path / name)
+    assert (status, out) == (2, "")
+    assert says in err
+    assert repr(str(tmp_path / name)) in err
+    assert not list(tmp_path.glob("*.html"))
+
+
+def test_view_refuses_a_damaged_series(finished, drum, tmp_path):
+    (tmp_path / "frames.parquet").write_bytes((finished / "frames.parquet").read_bytes())
+    (tmp_path / "series.parquet").write_bytes(b"PAR1")
+    status, _, err = drum("view", tmp_path)
+    assert status == 2
+    assert "series.parquet' is damaged, but must be the series that drumrs wrote" in err
+
+
+def test_view_refuses_a_page_that_cannot_be_written(finished, drum, tmp_path):
+    status, _, err = drum("view", finished, "--out", tmp_path / "none" / "page.html")
+    assert status == 2
+    assert "but must be a file that can be written (--out): No such file or directory" in err
