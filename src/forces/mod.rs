@@ -19,7 +19,7 @@ use crate::threads::{CHUNK, Chunked, Threads, chunk_count};
 use crate::vector::Rotation;
 use post::{Delivery, Outbox, Sink};
 
-/// All that a contact needs beyond its own slot.
+/// All that a contact needs beyond its own history.
 #[derive(Debug, Clone, Copy)]
 pub struct Scene<'a> {
     /// What each particle did in this step.
