@@ -10,75 +10,72 @@ use super::list::{ContactList, Entry, NO_CANDIDATE};
 use crate::lanes::LANES;
 use crate::threads::{CHUNK, chunk_count};
 
-/// Pairs of bodies near each other, in key order: (owner, other side); they are looked at in fours.
+/// Two bodies near each other.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Candidate {
+    /// The particle of lower id.
+    pub owner: u32,
+    /// The particle of higher id, or a feature of the drum.
+    pub other: u32,
+    /// The square of the distance at which two particles touch [m²].
+    pub squared_reach: f64,
+}
+
+/// Pairs of bodies near each other, in key order, and until when they may sleep.
 #[derive(Debug, Clone, Default)]
 pub struct Candidates {
-    /// Column by column, filled up to whole fours with candidates that never wake.
-    owner: Vec<[u32; LANES]>,
-    other: Vec<[u32; LANES]>,
-    squared_reach: Vec<[f64; LANES]>,
+    bodies: Vec<Candidate>,
+    /// Filled up to whole fours with numbers that never come.
     wake: Vec<[f64; LANES]>,
-    len: usize,
 }
 
 impl Candidates {
     /// Number of candidates.
     pub fn len(&self) -> usize {
-        self.len
+        self.bodies.len()
     }
 
     /// Whether there are none.
     pub fn is_empty(&self) -> bool {
-        self.len == 0
+        self.bodies.is_empty()
     }
 
     /// Forgets all, keeping the memory.
     pub fn clear(&mut self) {
-        self.owner.clear();
-        self.other.clear();
-        self.squared_reach.clear();
+        self.bodies.clear();
         self.wake.clear();
-        self.len = 0;
     }
 
-    /// Appends a candidate, awake: the particle of lower id, the particle of higher id or feature of the drum, and the
-    /// square of the distance at which they touch [m²].
-    pub fn push(&mut self, owner: u32, other: u32, squared_reach: f64) {
-        let lane = self.len % LANES;
-        if lane == 0 {
-            self.owner.push([owner; LANES]);
-            self.other.push([other; LANES]);
-            self.squared_reach.push([0.0; LANES]);
+    /// Appends a candidate, awake.
+    pub fn push(&mut self, candidate: Candidate) {
+        if self.len().is_multiple_of(LANES) {
             self.wake.push([f64::INFINITY; LANES]);
         }
-        let last = self.len / LANES;
-        (self.owner[last][lane], self.other[last][lane]) = (owner, other);
-        (self.squared_reach[last][lane], self.wake[last][lane]) = (squared_reach, 0.0);
-        self.len += 1;
+        self.bodies.push(candidate);
+        self.sleep(self.len() - 1, 0.0);
+    }
+
+    /// A candidate's bodies.
+    #[inline(always)]
+    pub fn bodies(&self, candidate: usize) -> &Candidate {
+        &self.bodies[candidate]
     }
 
     /// The key of a candidate.
     #[inline]
     pub fn key(&self, candidate: usize) -> (u32, u32) {
-        (self.owner[candidate / LANES][candidate % LANES], self.other[candidate / LANES][candidate % LANES])
+        (self.bodies[candidate].owner, self.bodies[candidate].other)
     }
 
     /// The candidates of one particle.
     pub fn of(&self, particle: u32) -> std::ops::Range<usize> {
-        let owner = &self.owner.as_flattened()[..self.len];
-        let start = owner.partition_point(|&owner| owner < particle);
-        start..start + owner[start..].partition_point(|&owner| owner == particle)
+        let start = self.bodies.partition_point(|bodies| bodies.owner < particle);
+        start..start + self.bodies[start..].partition_point(|bodies| bodies.owner == particle)
     }
 
-    /// The other sides of all candidates.
-    pub fn others(&self) -> &[u32] {
-        &self.other.as_flattened()[..self.len]
-    }
-
-    /// The square of the distance at which a candidate's bodies touch [m²].
-    #[inline(always)]
-    pub fn squared_reach(&self, candidate: usize) -> f64 {
-        self.squared_reach[candidate / LANES][candidate % LANES]
+    /// All candidates.
+    pub fn iter(&self) -> impl Iterator<Item = &Candidate> {
+        self.bodies.iter()
     }
 
     /// Number of fours, the last of which may be filled up.
@@ -226,7 +223,7 @@ mod tests {
     fn slots(candidates: &[(u32, u32)]) -> Slots {
         let mut slots = Slots::default();
         for &(owner, other) in candidates {
-            slots.candidates.push(owner, other, 1.0);
+            slots.candidates.push(Candidate { owner, other, squared_reach: 1.0 });
         }
         slots
     }

@@ -111,11 +111,11 @@ fn find_due(
 /// Looks at four candidates.
 fn look_at(scene: Scene, slots: &mut Slots, due: &[u32; LANES]) {
     let candidates = &mut slots.candidates;
-    let keys = due.map(|candidate| candidates.key(candidate as usize));
+    let bodies = due.map(|candidate| candidates.bodies(candidate as usize));
     let place = |id: u32| scene.motions[id as usize].place;
-    let [gap_x, gap_y, ..] = transpose(keys.map(|(owner, other)| place(other) - place(owner)));
+    let [gap_x, gap_y, ..] = transpose(bodies.map(|pair| place(pair.other) - place(pair.owner)));
     // Each of the two has to go half of the gap, which is (distance² − reach²) / (distance + reach).
-    let reach = lanes(|lane| candidates.squared_reach(due[lane] as usize));
+    let reach = lanes(|lane| bodies[lane].squared_reach);
     let excess = gap_x * gap_x + gap_y * gap_y - reach;
     let sleep = Lanes::splat(scene.way) + excess.fast_max(Lanes::ZERO) * scene.half_gap;
     for (&candidate, until) in due.iter().zip(sleep.to_array()) {

@@ -28,7 +28,7 @@ impl Outbox {
     pub fn address(&mut self, own: usize, table: &ContactTable) {
         let pairs = &table.chunks[own].pairs;
         let contacts = pairs.contacts.iter().map(|entry| entry.contact.other);
-        let others = pairs.candidates.others().iter().copied().chain(contacts);
+        let others = pairs.candidates.iter().map(|candidate| candidate.other).chain(contacts);
         self.targets.clear();
         self.targets.extend(others.map(|other| other / CHUNK as u32).filter(|&chunk| chunk as usize != own));
         self.targets.sort_unstable();

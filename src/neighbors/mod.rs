@@ -7,7 +7,7 @@ mod cells;
 
 use cells::CellGrid;
 
-use crate::contact::table::{ChunkSlots, ContactTable};
+use crate::contact::table::{Candidate, ChunkSlots, ContactTable};
 use crate::drum::{Drum, RIM};
 use crate::particles::Particles;
 use crate::threads::{CHUNK, Chunked, Threads};
@@ -117,10 +117,13 @@ impl Search<'_> {
             find_pairs(i, around.particles, grid, skin, &mut found);
             for j in found.drain(..) {
                 let reach = around.particles.radii[i] + around.particles.radii[j as usize];
-                pairs.candidates.push(i as u32, j, reach * reach);
+                let squared_reach = reach * reach;
+                pairs.candidates.push(Candidate { owner: i as u32, other: j, squared_reach });
             }
             find_walls(around.drum, center, around.particles.radii[i] + skin, &mut found);
-            found.drain(..).for_each(|feature| walls.candidates.push(i as u32, feature, 0.0));
+            for feature in found.drain(..) {
+                walls.candidates.push(Candidate { owner: i as u32, other: feature, squared_reach: 0.0 });
+            }
         }
         pairs.link();
         walls.link();
