@@ -5,7 +5,8 @@
 //! the simulation holds the turnstile, so a run cannot take the next slice before its reader.
 
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError, mpsc};
+use std::thread;
 use std::time::{Duration, Instant};
 
 use numpy::{IntoPyArray, PyArray1, PyArray2};
@@ -76,6 +77,28 @@ fn now() -> Instant {
     Instant::now()
 }
 
+/// Makes a simulation on a thread of its own, so that Ctrl-C is heard while a large load is packed; what is made after
+/// that ends unseen.
+fn on_a_thread(
+    py: Python<'_>,
+    action: &str,
+    make: impl FnOnce() -> Result<Core, Error> + Send + 'static,
+) -> PyResult<Core> {
+    let (sender, mut receiver) = mpsc::channel();
+    let made = thread::Builder::new().spawn(move || sender.send(make()).ok());
+    let refuse = |reason: String| to_python(py, &Error::System { action: action.into(), reason });
+    made.map_err(|error| refuse(error.to_string()))?;
+    loop {
+        let waited = py.detach(move || (receiver.recv_timeout(SLICE), receiver));
+        receiver = waited.1;
+        match waited.0 {
+            Ok(outcome) => return outcome.map_err(|error| to_python(py, &error)),
+            Err(mpsc::RecvTimeoutError::Timeout) => py.check_signals()?,
+            Err(mpsc::RecvTimeoutError::Disconnected) => return Err(refuse("the thread was lost".into())),
+        }
+    }
+}
+
 #[pymethods]
 impl Simulation {
     #[new]
@@ -87,21 +110,21 @@ impl Simulation {
         threads: usize,
         state: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
-        let build = || {
-            let config = SimulationConfig::from_json(config)?;
-            match state.map(arrays::initial_state).transpose()? {
-                Some(initial) => py.detach(|| Core::with_state(config, seed, threads, initial)),
-                None => py.detach(|| Core::new(config, seed, threads)),
-            }
+        let read =
+            || Ok((SimulationConfig::from_json(config)?, state.map(arrays::initial_state).transpose()?));
+        let (config, initial) = read().map_err(|error| to_python(py, &error))?;
+        let start = move || match initial {
+            Some(initial) => Core::with_state(config, seed, threads, initial),
+            None => Core::new(config, seed, threads),
         };
-        build().map(Self::around).map_err(|error| to_python(py, &error))
+        on_a_thread(py, "starting a simulation", start).map(Self::around)
     }
 
     #[staticmethod]
     #[pyo3(signature = (data, threads = 1))]
-    fn from_checkpoint(py: Python<'_>, data: &[u8], threads: usize) -> PyResult<Self> {
-        let core = py.detach(|| Core::from_checkpoint(data, threads));
-        core.map(Self::around).map_err(|error| to_python(py, &error))
+    fn from_checkpoint(py: Python<'_>, data: Vec<u8>, threads: usize) -> PyResult<Self> {
+        let read = move || Core::from_checkpoint(&data, threads);
+        on_a_thread(py, "reading a checkpoint", read).map(Self::around)
     }
 
     fn checkpoint<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {

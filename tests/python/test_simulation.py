@@ -182,6 +182,31 @@ def test_ctrl_c_is_answered_within_a_tenth_of_a_second():
     assert 0 < steps[0] < steps[1] < steps[2]
 
 
+PACKING = """
+import time, drumrs
+config = drumrs.baseline().replace({"load.diameter": 0.0008, "load.fill": 0.7, "run.time_step": "auto"})
+print("packing", flush=True)
+try:
+    drumrs.Simulation(config)
+except KeyboardInterrupt:
+    print(time.monotonic(), flush=True)
+"""
+
+
+def test_ctrl_c_is_answered_while_a_large_load_is_packed():
+    waits = []
+    for _ in range(3):
+        child = subprocess.Popen([sys.executable, "-c", PACKING], stdout=subprocess.PIPE, text=True)
+        assert child.stdout.readline() == "packing\n"
+        time.sleep(0.3)
+        asked = time.monotonic()
+        child.send_signal(signal.SIGINT)
+        waits.append(float(child.stdout.readline()) - asked)
+        assert child.wait(timeout=10) == 0
+        child.stdout.close()
+    assert min(waits) < 0.1
+
+
 def test_a_run_lets_readers_in(short):
     simulation = drumrs.Simulation(short.replace({"run.duration": 60.0}))
     thread = threading.Thread(target=simulation.run)
