@@ -44,6 +44,16 @@ def test_peak_has_the_error_that_noise_gives_it():
     assert np.mean(places) == pytest.approx(0.44, abs=0.002)
 
 
+def test_error_of_a_peak_is_that_of_its_derivatives():
+    x = np.array([0.30, 0.36, 0.41, 0.43, 0.52])
+    y, error, tiny = 1.0 - 2.0 * (x - 0.39) ** 2, 0.001, 1e-6
+    moved = [peak(curve(x, y + tiny * np.eye(5)[k])).place.mean for k in range(5)]
+    derivatives = (np.array(moved) - 0.39) / tiny
+    assert peak(curve(x, y, error)).place.error == pytest.approx(
+        error * np.linalg.norm(derivatives), rel=1e-3
+    )
+
+
 def test_flat_curves_have_no_peak():
     finding = claims_power._peak(curve(FILLS, 5.0 + 0.01 * np.cos(40.0 * FILLS), error=0.2))
     assert finding.outcome == "undecided"
