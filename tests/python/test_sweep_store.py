@@ -179,6 +179,14 @@ def test_foreign_parquet_is_named(copy):
     assert sweep.table(folder).collect().height == 2
 
 
+def test_damage_is_named_where_one_looks(copy, capsys):
+    sweep, folder = copy
+    path = folder / f"{sweep.cases[0].id}.parquet"
+    path.write_bytes(b"")
+    sweep.run(folder)
+    assert capsys.readouterr().err == f"{str(path)!r} is damaged or no parquet file; it is computed again\n"
+
+
 def test_a_missing_series_is_computed_again(copy):
     sweep, folder = copy
     path = folder / f"{sweep.cases[0].id}.series.parquet"
