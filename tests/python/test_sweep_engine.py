@@ -189,6 +189,18 @@ def test_an_executor_shut_down_is_refused(tmp_path):
         drumrs.Sweep(BASE).run(tmp_path, pool, progress=False)
 
 
+class Closed(Executor):
+    """An executor that refuses in its own way."""
+
+    def submit(self, *_):
+        raise LookupError("the client is closed")
+
+
+def test_an_executor_that_refuses_in_its_own_way_is_refused(tmp_path):
+    with pytest.raises(ConfigError, match="takes no work, but must be open: the client is closed"):
+        drumrs.Sweep(BASE).run(tmp_path, Closed(), progress=False)
+
+
 class Answering(Executor):
     """An executor whose futures come back with what it was made with."""
 
