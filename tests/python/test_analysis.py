@@ -224,6 +224,7 @@ def test_loads_that_pass_between_states_wander():
     assert sum(one < 1e-3 for one in steady) <= 2
     assert np.median(steady) == pytest.approx(0.5, abs=0.25)
     assert analysis.wandering(ratio_run(random, states), "above", "below", (0.0, 6.0)) is None
+    assert analysis.wandering(ratio_run(random, states), "above", "below", (5.0, 25.0)) is None
 
 
 def test_longest_blocks():

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from drumrs import analysis
-from drumrs.analysis import depth
+from drumrs.analysis import depth, motion
 from drumrs.errors import ConfigError
 from drumrs.frames import Frames
 
@@ -60,6 +60,17 @@ def test_a_ring_that_centrifuges_is_carried_round(omega):
 def test_half_a_load_carried_round():
     both = np.concatenate([ring(30, 0.95), ring(30, 0.5)])
     assert analysis.carried_round(made_up(moving(both)), WINDOW).value == pytest.approx(0.5, abs=0.02)
+
+
+def test_only_who_comes_to_the_top_passes_it():
+    angle, reach = 0.2, np.full(2, 0.85)
+    right, left = (0.95 * np.array([math.sin(a), math.cos(a)]) for a in (0.1, -0.1))
+    start = np.stack([right, left])
+    assert motion._passages(start, turned(start, angle), angle, reach) == 1
+    assert motion._passages(start, turned(start, -angle), -angle, reach) == 1
+    only_right, one = start[:1], reach[:1]
+    assert motion._passages(only_right, turned(only_right, angle), angle, one) == 1
+    assert motion._passages(only_right, turned(only_right, -angle), -angle, one) == 0
 
 
 @pytest.mark.parametrize("speed", [0.0, 0.5, 1.5])
@@ -154,4 +165,5 @@ def test_a_baffle_is_no_free_surface():
     bare = depth._places(frames, RADIUS)
     assert len(places) < len(bare)
     assert depth._is_inside(np.array([[0.12, -0.8]]), baffle).all()
-    assert depth._distance_to_outline(np.array([[0.12, -1.05]]), baffle) == pytest.approx(0.1)
+    around = np.array([[0.12, -1.05], [0.45, -0.95], [0.12, -0.5]])
+    assert depth._distance_to_outline(around, baffle) == pytest.approx([0.1, 0.2, 0.1])

@@ -4,6 +4,7 @@ import errno
 import json
 import os
 import threading
+import time
 from concurrent.futures import Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
 
 import polars as pl
@@ -11,7 +12,7 @@ import pytest
 
 import drumrs
 from drumrs.errors import ConfigError
-from drumrs.sweep import engine, worker
+from drumrs.sweep import Case, engine, run_case, worker
 from drumrs.sweep.worker import Report
 
 BASE = drumrs.baseline(fill=0.05).replace({"run.duration": 0.05, "run.frame_every": 0.05})
@@ -103,6 +104,26 @@ def test_a_failing_case_leaves_its_error_and_the_rest_go_on(tmp_path):
     assert sweep.table().collect()["case"].to_list() == [good.id]
 
 
+def test_a_worker_reports_a_failure_and_leaves_its_error(tmp_path):
+    config = BASE.replace({"load.fill": 0.9})
+    told = run_case(config.model_dump_json(), str(tmp_path))
+    assert told[:3] == (Case(config).id, "failed", "ConfigError")
+    assert json.loads((tmp_path / f"{told.case}.error.json").read_text())["message"] == told.message
+
+
+def test_a_disk_in_trouble_is_no_fault_of_the_case(tmp_path, monkeypatch):
+    def fail(*_):
+        raise OSError(errno.EIO, os.strerror(errno.EIO))
+
+    monkeypatch.setattr("drumrs.sweep.store.Store.write", fail)
+    with pytest.raises(OSError, match="Input/output error"):
+        run_case(BASE.model_dump_json(), str(tmp_path))
+    assert not list(tmp_path.iterdir())
+    with pytest.raises(OSError, match="Input/output error"):
+        drumrs.Sweep(BASE).run(tmp_path, progress=False)
+    assert not list(tmp_path.glob("*.error.json"))
+
+
 def test_failures_are_run_again_only_when_asked(tmp_path, monkeypatch):
     sweep = drumrs.Sweep(BASE, seeds=2)
 
@@ -168,6 +189,18 @@ def test_an_executor_shut_down_is_refused(tmp_path):
         drumrs.Sweep(BASE).run(tmp_path, pool, progress=False)
 
 
+class Closed(Executor):
+    """An executor that refuses in its own way."""
+
+    def submit(self, *_):
+        raise LookupError("the client is closed")
+
+
+def test_an_executor_that_refuses_in_its_own_way_is_refused(tmp_path):
+    with pytest.raises(ConfigError, match="takes no work, but must be open: the client is closed"):
+        drumrs.Sweep(BASE).run(tmp_path, Closed(), progress=False)
+
+
 class Answering(Executor):
     """An executor whose futures come back with what it was made with."""
 
@@ -224,11 +257,12 @@ def test_a_full_disk_is_told_once_and_nothing_finished_is_lost(tmp_path, monkeyp
     assert (outcome.finished, outcome.replaced) == (2, ())
 
 
-def test_an_interrupt_stops_what_runs_and_keeps_what_is_finished(tmp_path, monkeypatch):
-    sweep = drumrs.Sweep(BASE, {"run.duration": [0.05, 1000.0, 2000.0]})
+@pytest.mark.parametrize("executor", ["threads", "processes"])
+def test_an_interrupt_stops_what_runs_and_keeps_what_is_finished(tmp_path, monkeypatch, executor):
+    sweep = drumrs.Sweep(BASE, {"run.duration": [0.05, 100.0, 150.0]})
     short = sweep.cases[0]
     drumrs.Sweep.from_configs([short.config]).run(tmp_path, progress=False)
-    calls = iter(range(3))
+    calls = iter(range(8))
 
     def interrupted_wait(*arguments, **options):
         if next(calls, None) is None:
@@ -237,7 +271,10 @@ def test_an_interrupt_stops_what_runs_and_keeps_what_is_finished(tmp_path, monke
 
     real_wait = engine.wait
     monkeypatch.setattr(engine, "wait", interrupted_wait)
+    began = time.monotonic()
     with pytest.raises(KeyboardInterrupt, match="interrupted; 1 cases are finished and kept"):
-        sweep.run(tmp_path, progress=False)
+        sweep.run(tmp_path, executor, progress=False)
+    # Two seconds before the interrupt; left alone, the long cases take half a minute.
+    assert time.monotonic() - began < 12.0
     assert sweep.table().collect()["case"].to_list() == [short.id]
     assert not list(tmp_path.glob("*.error.json"))

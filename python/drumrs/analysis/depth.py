@@ -17,7 +17,7 @@ _LAYERS = (0.0, 1.5, 3.0, np.inf)
 # Pairs of frames that are plenty for a mean.
 _PLENTY = 50
 # Points along a radius of the grid on which the empty part of the drum is found.
-_FINENESS = 40
+_FINENESS = 30
 
 
 def depth_profile(

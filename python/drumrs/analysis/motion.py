@@ -48,7 +48,7 @@ def _passages(before: Array, after: Array, angle: float, reach: Array) -> int:
     """Count the bundles carried over the top between two frames."""
     swept = _swept(before, after)
     carried = np.abs(swept - angle) <= _NEAR * abs(angle)
-    outside = (np.hypot(*before.T) >= reach) & (np.hypot(*after.T) >= reach)
+    outside = np.hypot(*before.T) >= reach
     # Angle still to go to the top, in the sense of rotation.
     ahead = np.sign(angle) * (np.pi / 2.0 - np.arctan2(before[:, 1], before[:, 0])) % (2.0 * np.pi)
     return int((carried & outside & (ahead < np.abs(swept))).sum())

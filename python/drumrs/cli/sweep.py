@@ -31,7 +31,8 @@ def sweep(
 
     STUDY.toml has `[base]`, keys of `drumrs config` laid over the baseline; `[axes]`, a list of values for each key to
     vary, every combination of which is a case; and `seeds`, a list of seeds or their number. The same command goes on
-    after Ctrl-C, a power cut or a change of the study; what is finished is not simulated again.
+    after Ctrl-C, a power cut or a change of the study; what is finished is not simulated again. Of every case the
+    series is kept, by `run.sample_every`, and the frames where `run.frame_every` is smaller than `run.duration`.
 
     Parameters
     ----------

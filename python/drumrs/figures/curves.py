@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
 from drumrs.figures.shared import drumrs_style, write_at_ends
 
@@ -75,6 +76,7 @@ def draw_curves(axes: "Axes", points: "pl.DataFrame", labels: Labels) -> None:
         _draw_line(axes, rows, labels.x_scale, {"color": color, "marker": _MARKERS[k % len(_MARKERS)]})
         ends.append((float(rows["mean"][-1]), str(label), color))
     axes.set(xlabel=labels.x, ylabel=labels.y)
+    axes.xaxis.set_major_locator(MaxNLocator(steps=[1, 2, 5, 10]))
     if labels.from_zero:
         axes.set_ylim(bottom=min(0.0, float(points["mean"].min() or 0.0)))  # type: ignore[arg-type]
     write_at_ends(axes, ends)

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 _FILL = "fill N d²/D² [%]"
 _POWER = "drum power [W per m of depth]"
 _SPECIFIC = "specific power [W/kg]"
-_RATIO = "N/T, power into normal over tangential contacts"
+_RATIO = "N/T, normal over tangential power"
 _FRICTION = "coefficient of friction μ"
 # Running means over that long [s]: some two turns of the drum.
 _LONG = 2.0
@@ -116,7 +116,7 @@ def _two_readings(points: "pl.DataFrame", other: "pl.DataFrame", labels: Labels)
     figure = curves(points, labels)
     axes = figure.axes[0]
     x, y = labels.x_scale * other["x"].to_numpy(), other["mean"].to_numpy()
-    axes.plot(x, y, "x", color="black", markersize=3.0, markeredgewidth=0.7, zorder=4)
+    axes.plot(x, y, "x", color="black", markersize=6.5, markeredgewidth=0.6, zorder=4)
     axes.set_title("by dissipation; × by work of the contact forces", fontsize="small", color="0.35")
     return figure
 

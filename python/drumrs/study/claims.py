@@ -91,7 +91,7 @@ CLAIMS = (
         "C9",
         "At small μ the load rocks as a rigid body: normal power zero, tangential power small but not zero; with "
         "rising μ the load abruptly starts to circulate.",
-        "At 25, 50 and 75 % fill, at the smallest friction above 0, normal power is less than 1 % and "
+        "At 25, 50 and 75 % fill, at the smallest friction above 0 (0.05 at most), normal power is less than 1 % and "
         "tangential power from 1 to 25 % of the usual (μ = 0.5); from less than a tenth to more than half of "
         "the usual angular momentum it takes at most 0.1 in μ.",
         "F9",

@@ -15,6 +15,7 @@ from drumrs.study.words import (
     CIRCULATING,
     LITTLE_MOTION,
     SMALL,
+    SMALL_FRICTION,
     STILL,
     ZERO,
 )
@@ -34,7 +35,8 @@ def rocks_then_circulates(results: Results) -> Finding:
     for fill in THIRDS:
         usual = results.curve("friction", "drum_specific_power", fill=fill).at(0.5).mean
         for kind, low, high in (("normal", -ZERO, ZERO), ("tangential", ZERO, SMALL)):
-            curve = results.curve("friction", f"{kind}_specific_power", fill=fill).above(0.0)
+            curve = results.curve("friction", f"{kind}_specific_power", fill=fill)
+            curve = curve.above(0.0).between(high=SMALL_FRICTION)
             least = curve.points[0]
             name = f"{kind.capitalize()} over usual power at μ = {least.x:g}, {curve.label}"
             findings.append(within(name, _over(least.estimate, usual), low, high))

@@ -86,7 +86,7 @@ def constant_above_some_friction(results: Results) -> Finding:
         usual = curve.at(0.5).mean
         none = combine(curve.at(0.0).mean / usual, [(1.0 / usual, curve.at(0.0))])
         findings.append(within(f"Power without friction over the usual, {curve.label}", none, -ZERO, ZERO))
-        findings.append(steady_level(curve.between(0.3, least=2), f"power at {curve.label}", "μ = "))
+        findings.append(steady_level(curve.between(0.3, least=2), f"Power at {curve.label}", "μ = "))
     return all_of(findings)
 
 
@@ -97,7 +97,7 @@ def steady_level(curve: Curve, name: str, prefix: str = "") -> Finding:
         (f"{prefix}{point.x:.4g}", combine(point.estimate.mean / level, [(1.0 / level, point.estimate)]))
         for point in curve.points
     ]
-    return each_within(f"{name} over its mean".capitalize(), relative, 1.0 - ABOUT, 1.0 + ABOUT)
+    return each_within(f"{name} over its mean", relative, 1.0 - ABOUT, 1.0 + ABOUT)
 
 
 def what_matters_most(results: Results) -> Finding:

@@ -10,6 +10,10 @@ from drumrs.analysis.estimate import LEVEL
 HOLDS, FAILS, UNDECIDED = "holds", "does not hold", "undecided"
 
 
+# Numbers below this are round-off.
+_NOTHING = 1e-9
+
+
 class MissingError(LookupError):
     """A point that a claim needs and the table does not have."""
 
@@ -42,8 +46,8 @@ class Number:
         unit = f" {self.unit}" if self.unit else ""
         if not math.isfinite(self.half_width):
             return f"{self.value:.3g} ± ?{unit}"
-        if self.half_width < 1e-9 * max(abs(self.value), 1e-3):
-            return f"{self.value:.3g}{unit}"
+        if self.half_width < _NOTHING:
+            return f"{self.value if abs(self.value) > _NOTHING else 0.0:.3g}{unit}"
         digits = max(0, 1 - math.floor(math.log10(self.half_width)))
         return f"{self.value:.{digits}f} ± {self.half_width:.{digits}f}{unit}"
 

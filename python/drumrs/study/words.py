@@ -9,6 +9,8 @@ WEAK = 0.25
 ZERO = 0.01
 # "Small but not zero": more than that, and below a quarter of the usual value.
 SMALL = 0.25
+# "At small μ": up to here.
+SMALL_FRICTION = 0.05
 # "Abruptly": within a tenth of the coefficient of friction, from a tenth of the usual circulation to half of it.
 ABRUPT = 0.10
 STILL, CIRCULATING = 0.1, 0.5

@@ -1,8 +1,9 @@
 """Sweeps: many cases, each simulated once, kept in a folder, taken up again after any break.
 
-`case` names a case, `design` turns axes and rows into cases, `store` keeps their results in files that are whole or not
-there, `worker` runs one of them anywhere, `engine` hands them out, `columns` and `table` put the results side by side,
-`study_file` reads what `drumrs sweep` is given, and `sweep` is the face of it all.
+`case` names a case, `design` turns axes and rows into cases, `store` keeps their results in a folder, in the `sealed`
+files that know whose they are; `worker` runs one case anywhere, `crew` is who runs them, `engine` hands them out;
+`columns` and `table` put the results side by side, `study_file` reads what `drumrs sweep` is given, and `sweep` is the
+face of it all. Nothing here knows what is made of the results.
 """
 
 from drumrs.sweep.case import Case

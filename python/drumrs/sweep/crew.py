@@ -51,7 +51,7 @@ class Crew:
         extra = () if self.running is None else (self.running,)
         try:
             return self.executor.submit(run_case, *arguments, *extra)
-        except RuntimeError as error:
+        except Exception as error:  # noqa: BLE001 - every executor has a class of its own for it
             raise ConfigError(f"executor is one that takes no work, but must be open: {error}") from None
 
     def particle_steps(self) -> float:

@@ -22,7 +22,8 @@ class Sweep:
     """A design of many cases, and their results in a folder.
 
     Each case is named by its configuration, its seed and the version of the physics. What is finished is never
-    simulated again: the same sweep, or another that shares cases with it, goes on where the folder stands.
+    simulated again: the same sweep, or another that shares cases with it, goes on where the folder stands. Of every
+    case the series is kept, and the frames where ``run.frame_every`` is smaller than ``run.duration``.
 
     Parameters
     ----------
