@@ -121,7 +121,7 @@ fn python_keeps_to_its_own_rules() {
         if inside != "__main__.py" && !inside.starts_with("cli/") {
             assert!(!imports("cli"), "{inside} imports the command line");
         }
-        if ["figures", "analysis", "viewer"].iter().any(|seer| inside.starts_with(seer)) {
+        if ["figures", "analysis", "study", "viewer"].iter().any(|seer| inside.starts_with(seer)) {
             assert!(!imports("simulation"), "{inside} sees a Simulation");
         }
         if inside.starts_with("sweep") {

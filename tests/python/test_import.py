@@ -12,7 +12,7 @@ import drumrs
 PACKAGE = Path(drumrs.__file__).parent
 
 
-@pytest.mark.parametrize("statement", ["import drumrs", "import drumrs.cli"])
+@pytest.mark.parametrize("statement", ["import drumrs", "import drumrs.cli", "import drumrs.study"])
 def test_import_is_light(statement):
     code = f"{statement}; import sys; print({{'matplotlib', 'polars', 'rich.progress'}} & set(sys.modules))"
     found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
@@ -44,6 +44,8 @@ def test_import_rules():
                     module,
                     name,
                 )
+            if module.startswith("study/"):
+                assert not name.startswith(("drumrs.simulation", "drumrs.protocol")), (module, name)
             if module.startswith("sweep/"):
                 assert not name.startswith(("drumrs.figures", "drumrs.study", "drumrs.report")), (
                     module,
