@@ -1,8 +1,12 @@
 """Files that are either whole or not there: written under a temporary name, flushed to disk, renamed."""
 
+import errno
 import os
 import secrets
 from pathlib import Path
+
+# What a write says where there is no room: disk, quota, limit of a process.
+NO_ROOM = frozenset({errno.ENOSPC, errno.EDQUOT, errno.EFBIG})
 
 
 def write_whole(path: str | Path, data: bytes) -> None:

@@ -172,6 +172,20 @@ class Simulation:
         self._stop.set()
         self._core.stop()
 
+    def prolong(self, duration: float) -> None:
+        """Let the run, and the window of its averages, end later [s]: it becomes that of the longer configuration.
+
+        Raises
+        ------
+        ConfigError
+            Where `duration` is shorter than the configuration's.
+        """
+        run = self._config.run
+        if not run.duration <= duration < math.inf:
+            raise ConfigError(f"duration is {duration}, but must be at least run.duration = {run.duration}")
+        window = (run.averaging_window[0], duration)
+        self._config = self._config.replace({"run": {"duration": duration, "window": window}})
+
     @property
     def config(self) -> Config:
         """The configuration, seed included."""

@@ -74,7 +74,7 @@ def test_time_series_is_written(rows, tmp_path):
 
 def test_means_of_power_are_exact():
     time = 0.01 * np.arange(301)
-    _, power = history._mean_rate(time, 7.0 * time, 1.0)
+    _, power = history.mean_rate(time, 7.0 * time, 1.0)
     assert power == pytest.approx(7.0)
 
 

@@ -13,6 +13,7 @@ from drumrs.cli.run import run
 from drumrs.cli.sweep import sweep
 from drumrs.cli.view import view
 from drumrs.errors import CheckpointError, ConfigError, UnstableError
+from drumrs.files import NO_ROOM
 
 _BAD_INPUT = 2
 _FAILED = 1
@@ -55,8 +56,11 @@ def run_command(arguments: Sequence[str] | None = None) -> int:
         return _complain(str(error), _BAD_INPUT)
     except CycloptsError as error:
         return _complain(" ".join(str(error).split()), _BAD_INPUT)
-    except (UnstableError, OSError) as error:
+    except UnstableError as error:
         return _complain(str(error), _FAILED)
+    except OSError as error:
+        full = error.errno in NO_ROOM and error.strerror
+        return _complain(f"cannot write: {error.strerror}" if full else str(error), _FAILED)
     except KeyboardInterrupt as interrupt:
         return _complain(str(interrupt) or "interrupted", _INTERRUPTED)
     return status if isinstance(status, int) else 0

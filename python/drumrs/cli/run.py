@@ -1,5 +1,6 @@
 """`drumrs run`: one case, from the start or from a checkpoint."""
 
+import math
 import sys
 from pathlib import Path
 from typing import Annotated
@@ -10,6 +11,7 @@ from drumrs.cli.options import Seed, Settings, Threads, check_folder, layered
 from drumrs.cli.tables import print_paths, print_table
 from drumrs.config import Config
 from drumrs.errors import ConfigError
+from drumrs.precision import Goal, pursue
 from drumrs.progress import board
 from drumrs.protocol import announce, finish
 from drumrs.simulation import Simulation
@@ -27,6 +29,8 @@ def run(
     out: Path | None = None,
     json: Annotated[bool, Parameter(negative="")] = False,
     resume: Path | None = None,
+    until: float | None = None,
+    limit: float | None = None,
 ) -> None:
     """Run a case: the paper's baseline, a TOML file laid over it, settings laid over the file.
 
@@ -44,6 +48,11 @@ def run(
         Print the summary as one JSON object, and nothing else, on standard output.
     resume
         Go on from the checkpoint in this folder; the results are those of a run without a break.
+    until
+        Go on beyond the duration until the standard error of the specific power is this share of it: 0.01 is 1 %. The
+        averages' window then ends with the run.
+    limit
+        Simulated time [s] at which to give that up; ten times the duration unless given.
     """
     if resume is not None:
         if case is not None or set_ or seed is not None or out is not None:
@@ -52,14 +61,16 @@ def run(
             )
         out = resume
         simulation = Simulation.load(out / _CHECKPOINT, threads)
+        goal = _goal(until, limit, _first_duration(out, simulation.config))
         check_folder(out, "--resume")
     else:
         config = layered(case, set_, seed)
+        goal = _goal(until, limit, config.run.duration)
         if out is not None:
             check_folder(out)
         simulation = Simulation(config, threads=threads)
         _open_folder(out, simulation.config)
-    _finish(simulation, out)
+    reached = _finish(simulation, out, goal)
     result = simulation.result()
     written = result.save(out) if out is not None else []
     if json:
@@ -67,6 +78,20 @@ def run(
     else:
         print_table({"": result})
         print_paths(written)
+    if reached:
+        sys.stderr.write(f"drumrs: {reached}\n")
+
+
+def _goal(until: float | None, limit: float | None, duration: float) -> Goal | None:
+    if until is None and limit is not None:
+        raise ConfigError(f"--limit is {limit}, but must not be given without --until")
+    return Goal.of(until, limit, duration) if until is not None else None
+
+
+def _first_duration(folder: Path, config: Config) -> float:
+    """Return the duration [s] that a run was begun with: its checkpoint may be of a prolonged one."""
+    begun = folder / "config.toml"
+    return min(Config.read(begun).run.duration if begun.exists() else math.inf, config.run.duration)
 
 
 def _open_folder(folder: Path | None, config: Config) -> None:
@@ -83,13 +108,17 @@ def _open_folder(folder: Path | None, config: Config) -> None:
         ) from None
 
 
-def _finish(simulation: Simulation, out: Path | None) -> None:
+def _finish(simulation: Simulation, out: Path | None, goal: Goal | None) -> str:
+    """Run to the end, or on to the goal; return what of that was reached."""
     checkpoint = out / _CHECKPOINT if out is not None else None
     try:
         with board(show=True) as shown:
+            if goal is not None:
+                return pursue(simulation, goal, shown, checkpoint)
             finish(simulation, announce(shown, simulation), checkpoint)
+            return ""
     except KeyboardInterrupt:
-        hint = (
-            f"go on with: drumrs run --resume {out}" if out is not None else "nothing is kept without --out"
-        )
+        words = f"--until {goal.precision:g} --limit {goal.limit:g}" if goal is not None else ""
+        hint = f"go on with: drumrs run --resume {out} {words}".rstrip()
+        hint = hint if out is not None else "nothing is kept without --out"
         raise KeyboardInterrupt(f"interrupted at t = {simulation.time:.3f} s; {hint}") from None

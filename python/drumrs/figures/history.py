@@ -66,7 +66,7 @@ def _power(axes: "Axes", columns: dict[str, Array]) -> None:
         ("dissipated_normal", "normal damping"),
         ("dissipated_sliding", "sliding"),
     ):
-        middle, power = _thinned(*_mean_rate(time, columns[name], long))
+        middle, power = _thinned(*mean_rate(time, columns[name], long))
         axes.plot(middle, power, label=label)
         steady.extend(power[len(power) // 10 :][np.isfinite(power[len(power) // 10 :])])
     # From zero, so that heights compare; the first moments, when the load drops, may leave the picture.
@@ -109,7 +109,7 @@ def _averaging_time(time: Array) -> float:
     return min(1.0, float(time[-1] - time[0]) / 30.0) if len(time) > 1 else 1.0
 
 
-def _mean_rate(time: Array, total: Array, interval: float) -> tuple[Array, Array]:
+def mean_rate(time: Array, total: Array, interval: float) -> tuple[Array, Array]:
     """Return running means of a rate from its running integral: exact, whatever the sampling."""
     if not len(time) > 1:
         return time, np.full_like(time, np.nan)

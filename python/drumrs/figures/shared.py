@@ -37,18 +37,27 @@ def write(figure: Figure, path: str | Path) -> None:
 
 def label_lines(axes: "Axes") -> None:
     """Write each line's name at its right end, in its color, kept apart from the others."""
-    ends: list[tuple[float, Any]] = []
-    # Asking for the limits settles them; until then the transform is not the final one.
-    axes.get_ylim()
+    ends: list[tuple[float, str, Any]] = []
     for line in axes.get_lines():
         values = np.asarray(line.get_ydata(), dtype=float)
         finite = values[np.isfinite(values)]
         if len(finite):
-            shown = axes.transData.transform((0.0, finite[-max(1, len(finite) // 20) :].mean()))
-            ends.append((float(axes.transAxes.inverted().transform(shown)[1]), line))
-    ends.sort(key=lambda end: end[0])
-    for place, (_, line) in zip(apart([height for height, _ in ends]), ends, strict=True):
-        name, color = str(line.get_label()), line.get_color()
+            ends.append(
+                (float(finite[-max(1, len(finite) // 20) :].mean()), str(line.get_label()), line.get_color())
+            )
+    write_at_ends(axes, ends)
+
+
+def write_at_ends(axes: "Axes", ends: Sequence[tuple[float, str, Any]]) -> None:
+    """Write names in their colors at the right of the axes, at their values, kept apart from each other."""
+    # Asking for the limits settles them; until then the transform is not the final one.
+    axes.get_ylim()
+    heights = [
+        axes.transAxes.inverted().transform(axes.transData.transform((0.0, value)))[1] for value, *_ in ends
+    ]
+    order = np.argsort(heights, kind="stable")
+    for place, k in zip(apart([float(heights[k]) for k in order]), order, strict=True):
+        _, name, color = ends[k]
         axes.annotate(name, (1.01, place), xycoords="axes fraction", color=color, va="center")
 
 

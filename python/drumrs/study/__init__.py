@@ -9,8 +9,24 @@ Nothing here runs a simulation: `cases` says what to run, and everything else re
 
 from drumrs.study.cases import cases, cost
 from drumrs.study.claims import CLAIMS, Claim, judge
+from drumrs.study.figures import FIGURES, Material, StudyFigure
 from drumrs.study.measure import measure
 from drumrs.study.scales import SCALES, Scale
-from drumrs.study.verdict import Number, Verdict
+from drumrs.study.verdict import MissingError, Number, Verdict
 
-__all__ = ["CLAIMS", "SCALES", "Claim", "Number", "Scale", "Verdict", "cases", "cost", "judge", "measure"]
+__all__ = [
+    "CLAIMS",
+    "FIGURES",
+    "SCALES",
+    "Claim",
+    "Material",
+    "MissingError",
+    "Number",
+    "Scale",
+    "StudyFigure",
+    "Verdict",
+    "cases",
+    "cost",
+    "judge",
+    "measure",
+]

@@ -67,8 +67,8 @@ CLAIMS = (
     Claim(
         "C6",
         "Without baffles N/T is about 1 below 40 % fill and rises steeply to near 2 at about 50 %.",
-        "Below 40 % every N/T is within 10 % of 1; at 50 % it is within 10 % of 2; from 40 to 50 % it rises"
-        " by more than 0.5.",
+        "Below 40 % every N/T is within 10 % of 1; at 50 % it is within 10 % of 2; from 40 to 50 % it rises "
+        "by more than 0.5.",
         "F6",
         claims_ratio.rises_steeply_without_baffles,
     ),
@@ -92,8 +92,8 @@ CLAIMS = (
         "At small μ the load rocks as a rigid body: normal power zero, tangential power small but not zero; with "
         "rising μ the load abruptly starts to circulate.",
         "At 25, 50 and 75 % fill, at the smallest friction above 0, normal power is less than 1 % and "
-        "tangential power less than 25 % of the usual (μ = 0.5), but surely above 0; from less than a tenth"
-        " to more than half of the usual angular momentum it takes at most 0.1 in μ.",
+        "tangential power from 1 to 25 % of the usual (μ = 0.5); from less than a tenth to more than half of "
+        "the usual angular momentum it takes at most 0.1 in μ.",
         "F9",
         claims_motion.rocks_then_circulates,
     ),

@@ -33,7 +33,7 @@ def rocks_then_circulates(results: Results) -> Finding:
     findings = []
     for fill in THIRDS:
         usual = results.curve("friction", "drum_specific_power", fill=fill).at(0.5).mean
-        for kind, low, high in (("normal", -ZERO, ZERO), ("tangential", 0.0, SMALL)):
+        for kind, low, high in (("normal", -ZERO, ZERO), ("tangential", ZERO, SMALL)):
             curve = results.curve("friction", f"{kind}_specific_power", fill=fill).above(0.0)
             least = curve.points[0]
             name = f"{kind.capitalize()} over usual power at μ = {least.x:g}, {curve.label}"

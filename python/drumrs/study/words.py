@@ -7,7 +7,7 @@ ABOUT = 0.10
 WEAK = 0.25
 # "Zero": below one per cent of the usual value.
 ZERO = 0.01
-# "Small but not zero": below a quarter of the usual value, and surely above 0.
+# "Small but not zero": more than that, and below a quarter of the usual value.
 SMALL = 0.25
 # "Abruptly": within a tenth of the coefficient of friction, from a tenth of the usual circulation to half of it.
 ABRUPT = 0.10

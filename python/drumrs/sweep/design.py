@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Mapping, Sequence
 from itertools import product
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 from drumrs.config import Config
 from drumrs.config.report import dotted_keys, show
@@ -76,7 +76,7 @@ def _check_keys(base: Config, keys: Iterable[str]) -> None:
 
 
 def _values(key: str, axis: Iterable[Any]) -> list[Any]:
-    listed = [] if isinstance(axis, (str, bytes, Mapping)) or not hasattr(axis, "__iter__") else list(axis)
+    listed = _items(axis)
     if not listed:
         raise ConfigError(f"the axis {key} is {show(axis)}, but must be a list of at least one value")
     return listed
@@ -95,12 +95,17 @@ def _with_seeds(
 
 def _listed(seeds: Iterable[int] | int) -> list[int]:
     """Return the seeds; a number n stands for 0 … n − 1."""
-    listed = seeds
-    if isinstance(seeds, int) and not isinstance(seeds, bool):
-        listed = range(seeds)
-    if isinstance(listed, bool) or not isinstance(listed, Iterable) or not (known := list(listed)):
+    is_number = isinstance(seeds, int) and not isinstance(seeds, bool)
+    listed = _items(range(cast("int", seeds)) if is_number else seeds)
+    if not listed:
         raise ConfigError(f"seeds is {show(seeds)}, but must be a list of at least one seed, or their number")
-    return known
+    return listed
+
+
+def _items(values: Any) -> list[Any]:
+    """Return the items of a list, none of what is no list."""
+    listed = isinstance(values, Iterable) and not isinstance(values, (str, bytes, Mapping))
+    return list(values) if listed else []
 
 
 def _distinct(base: Config, changes: Sequence[Mapping[str, Any]]) -> tuple[Case, ...]:

@@ -1,12 +1,13 @@
 """The engine: which cases are to be run, in which order, and what becomes of them."""
 
-import errno
-from collections.abc import Sequence
-from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
+from collections.abc import Iterator, Sequence
+from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from drumrs.errors import ConfigError
+from drumrs.files import NO_ROOM
 from drumrs.progress import Board, Campaign, board
 from drumrs.sweep.case import Case
 from drumrs.sweep.crew import Crew, crew
@@ -15,7 +16,6 @@ from drumrs.sweep.worker import Report
 
 # How often progress is shown; a Ctrl-C is seen at once.
 _TICK = 0.25
-_FULL = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
 
 
 @dataclass(frozen=True)
@@ -92,14 +92,14 @@ def run_cases(cases: Sequence[Case], folder: Path, order: Order) -> Outcome:
     """
     ordered = sorted(cases, key=lambda case: (-case.cost, case.id))
     mine = shard_of(ordered, order.shard)
-    with crew(order.executor, order.jobs) as workers, board(show=order.progress) as shown:
-        store = Store(folder)
+    store, tally = Store(folder), _Tally()
+    with _clear_words(store, tally), crew(order.executor, order.jobs) as workers:
         store.open()
-        tally = _Tally()
         waiting = _take_stock(mine, store, tally, retry=order.retry)
-        for sentence in tally.replaced:
-            shown.note(f"{sentence}; it is computed again")
-        _hand_out(waiting, workers, store, tally, shown)
+        with board(show=order.progress) as shown:
+            for sentence in tally.replaced:
+                shown.note(f"{sentence}; it is computed again")
+            _hand_out(waiting, workers, store, tally, shown)
     own = {case.id for case in mine}
     left = [case for case in ordered if case.id not in own and not store.is_settled(case)]
     return Outcome(
@@ -110,6 +110,27 @@ def run_cases(cases: Sequence[Case], folder: Path, order: Order) -> Outcome:
         left=len(left),
         replaced=tuple(tally.replaced),
     )
+
+
+@contextmanager
+def _clear_words(store: Store, tally: _Tally) -> Iterator[None]:
+    """Say, where a sweep is broken off, what is kept and how to go on."""
+    try:
+        yield
+    except KeyboardInterrupt:
+        count = len(tally.finished)
+        raise KeyboardInterrupt(
+            f"interrupted; {count} cases are finished and kept, and the same sweep goes on with the others"
+        ) from None
+    except OSError as error:
+        if error.errno not in NO_ROOM:
+            raise
+        told = OSError(
+            f"cannot write to {str(store.folder)!r}: {error.strerror}; {len(tally.finished)} cases are finished and "
+            "kept, and the same sweep goes on with the others once there is room"
+        )
+        told.errno = error.errno
+        raise told from None
 
 
 def shard_of(ordered: Sequence[Case], shard: tuple[int, int] | None) -> list[Case]:
@@ -158,20 +179,30 @@ def _hand_out(waiting: Sequence[Case], workers: Crew, store: Store, tally: _Tall
                 return
             done, _ = wait(flying, timeout=_TICK, return_when=FIRST_COMPLETED)
             for future in done:
-                _enter(flying.pop(future), future.result(), tally)
+                case = flying.pop(future)
+                _enter(case, _told(future, case, store), tally)
             report(tally.settled, tally.cost + workers.particle_steps())
-    except BaseException as error:
+    except BaseException:
         for future in flying:
             future.cancel()
         workers.stop()
-        if isinstance(error, KeyboardInterrupt):
-            count = len(tally.finished)
-            raise KeyboardInterrupt(
-                f"interrupted; {count} cases are finished and kept, and the same sweep goes on with the others"
-            ) from None
-        if isinstance(error, OSError) and error.errno in _FULL:
-            raise _full(store, tally, error) from None
         raise
+
+
+def _told(future: "Future[Report]", case: Case, store: Store) -> Report:
+    """Return what the worker reports, or that it was lost with the case."""
+    try:
+        told = future.result()
+    except (OSError, BrokenExecutor):
+        raise
+    except Exception as error:  # noqa: BLE001 - executors say in classes of their own that a worker died
+        store.write_error(case, error)
+        return Report(case.id, "failed", type(error).__name__, str(error))
+    if told.case != case.id:
+        raise ConfigError(
+            "executor has workers with another version of drumrs, but must have workers with this one"
+        )
+    return told
 
 
 def _enter(case: Case, told: Report, tally: _Tally) -> None:
@@ -183,13 +214,3 @@ def _enter(case: Case, told: Report, tally: _Tally) -> None:
         tally.failed.pop(case.id, None)
     elif told.status == "failed":
         tally.failed[case.id] = Failure(case, told.error, told.message)
-
-
-def _full(store: Store, tally: _Tally, error: OSError) -> OSError:
-    sentence = (
-        f"cannot write to {str(store.folder)!r}: {error.strerror}; {len(tally.finished)} cases are finished and kept, "
-        "and the same sweep goes on with the others once there is room"
-    )
-    told = OSError(sentence)
-    told.errno = error.errno
-    return told

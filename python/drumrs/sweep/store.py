@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any
 
 from drumrs.config.report import show
 from drumrs.errors import ConfigError
-from drumrs.files import write_whole
+from drumrs.files import NO_ROOM, write_whole
 from drumrs.frames import Frames
 from drumrs.result import Result
 from drumrs.sweep.case import Case
@@ -54,7 +54,9 @@ class Store:
         try:
             self.folder.mkdir(parents=True, exist_ok=True)
             write_whole(self.folder / MARK, f"{json.dumps({'format': FORMAT})}\n".encode())
-        except (FileExistsError, NotADirectoryError, PermissionError) as error:
+        except OSError as error:
+            if error.errno in NO_ROOM:
+                raise
             raise ConfigError(
                 f"folder is {str(self.folder)!r}, but must be a folder that can be written: {error.strerror}"
             ) from None

@@ -37,7 +37,13 @@ def scan(cases: Sequence[Case], store: Store) -> "pl.LazyFrame":
 
 
 def write(cases: Sequence[Case], store: Store) -> Path:
-    """Write the table beside the cases' files and return its path: equal results, equal bytes."""
+    """Write the table beside the cases' files and return its path: equal results, equal bytes.
+
+    Raises
+    ------
+    OSError
+        Where it cannot be written; the cases' files are untouched.
+    """
     buffer = io.BytesIO()
     scan(cases, store).collect().write_parquet(buffer, compression="uncompressed")
     path = store.folder / FILE

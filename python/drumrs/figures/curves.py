@@ -1,0 +1,97 @@
+"""Curves with error bars: one frame of points in, axes drawn."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.figure import Figure
+
+from drumrs.figures.shared import drumrs_style, write_at_ends
+
+if TYPE_CHECKING:
+    import polars as pl
+    from matplotlib.axes import Axes
+
+_MARKERS = ("o", "s", "^", "D")
+_SIZE = (5.6, 3.5)
+
+
+@dataclass(frozen=True)
+class Labels:
+    """What stands at the axes, and how the values are shown.
+
+    Attributes
+    ----------
+    x, y
+        Labels of the axes, with units.
+    x_scale
+        What values of x are multiplied with: 100 for per cent.
+    from_zero
+        Whether the vertical axis starts at 0, so that heights compare.
+    """
+
+    x: str
+    y: str
+    x_scale: float = 1.0
+    from_zero: bool = True
+
+
+def curves(points: "pl.DataFrame", labels: Labels) -> Figure:
+    """Draw means with their 95 % intervals, one line a label.
+
+    Open markers are of loads that drift. Where seeds disagree, each is a faint dot.
+
+    Parameters
+    ----------
+    points
+        One row a point: ``label``, ``x``, ``mean``, ``half_width`` (not finite where unknown), ``drifting``,
+        ``disagree``, and ``values``, the list of the seeds' own means.
+    labels
+        Labels of the axes.
+
+    Raises
+    ------
+    ValueError
+        Where there is nothing to draw.
+    """
+    if points.is_empty():
+        raise ValueError("points is empty, but must hold at least one point")
+    with drumrs_style():
+        figure = Figure(figsize=_SIZE)
+        axes = figure.subplots()
+        draw_curves(axes, points, labels)
+    return figure
+
+
+def draw_curves(axes: "Axes", points: "pl.DataFrame", labels: Labels) -> None:
+    """Draw the curves of `curves` into axes."""
+    colors = mpl.rcParams["axes.prop_cycle"].by_key()["color"]
+    ends: list[tuple[float, str, str]] = []
+    for k, label in enumerate(points["label"].unique(maintain_order=True)):
+        rows = points.filter(points["label"] == label).sort("x")
+        color = colors[k % len(colors)]
+        _draw_line(axes, rows, labels.x_scale, {"color": color, "marker": _MARKERS[k % len(_MARKERS)]})
+        ends.append((float(rows["mean"][-1]), str(label), color))
+    axes.set(xlabel=labels.x, ylabel=labels.y)
+    if labels.from_zero:
+        axes.set_ylim(bottom=min(0.0, float(points["mean"].min() or 0.0)))  # type: ignore[arg-type]
+    write_at_ends(axes, ends)
+
+
+def _draw_line(axes: "Axes", rows: "pl.DataFrame", scale: float, look: Mapping[str, Any]) -> None:
+    x, mean = scale * rows["x"].to_numpy(), rows["mean"].to_numpy()
+    known = np.isfinite(rows["half_width"].to_numpy())
+    bars = np.where(known, rows["half_width"].to_numpy(), 0.0)
+    axes.errorbar(x, mean, yerr=bars, fmt="none", ecolor=look["color"], elinewidth=1.0, capsize=2.0)
+    axes.plot(x, mean, color=look["color"], linewidth=1.0, zorder=2)
+    for drifting, face in ((False, look["color"]), (True, "white")):
+        chosen = rows["drifting"].to_numpy() == drifting
+        axes.plot(
+            x[chosen], mean[chosen], linestyle="none", markersize=4.5, markerfacecolor=face, zorder=3, **look
+        )
+    for at, values, apart in zip(x, rows["values"].to_list(), rows["disagree"].to_list(), strict=True):
+        if apart:
+            dots = axes.plot([at] * len(values), values, ".", color=look["color"], markersize=4.0)
+            dots[0].set(alpha=0.45, zorder=1, markeredgewidth=0.0)

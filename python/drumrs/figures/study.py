@@ -1,0 +1,167 @@
+"""The figures of the paper's study, one function each: points, frames or series in, a figure out.
+
+Points are tables as `curves` takes them.
+"""
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from drumrs.figures.curves import Labels, curves
+from drumrs.figures.history import mean_rate
+from drumrs.figures.shared import Array, drumrs_style
+from drumrs.figures.snapshots import View, snapshots
+from drumrs.frames import Frames
+
+if TYPE_CHECKING:
+    import polars as pl
+    from matplotlib.axes import Axes
+
+_FILL = "fill N d²/D² [%]"
+_POWER = "drum power [W per m of depth]"
+_SPECIFIC = "specific power [W/kg]"
+_RATIO = "N/T, power into normal over tangential contacts"
+_FRICTION = "coefficient of friction μ"
+# Running means over that long [s]: some two turns of the drum.
+_LONG = 2.0
+
+
+def snapshots_of_fills(frames: Mapping[str, Frames], index: int = -1) -> Figure:
+    """Draw F2 or F3: the last frame of each fill in a row, lettered as in the paper.
+
+    Parameters
+    ----------
+    frames
+        Frames by fill, in words.
+    index
+        Which frame of each.
+    """
+    letters = "abcdefghij"
+    return snapshots(
+        [View(one, index, f"({letters[k]}) {fill}") for k, (fill, one) in enumerate(frames.items())]
+    )
+
+
+def power_against_fill(points: "pl.DataFrame") -> Figure:
+    """Draw F4: drum power against fill, without and with baffles; shaded is where the paper has the peak."""
+    figure = curves(points, Labels(_FILL, _POWER, x_scale=100.0))
+    figure.axes[0].axvspan(40.0, 50.0, color="0.93", zorder=0, linewidth=0)
+    _say_below(figure.axes[0], 45.0, "the paper’s peak")
+    return figure
+
+
+def specific_power_against_fill(points: "pl.DataFrame") -> Figure:
+    """Draw F5: specific power against fill, without and with baffles."""
+    return curves(points, Labels(_FILL, _SPECIFIC, x_scale=100.0))
+
+
+def ratio_against_fill(points: "pl.DataFrame", other: "pl.DataFrame") -> Figure:
+    """Draw F6: N/T against fill, without and with baffles.
+
+    Parameters
+    ----------
+    points
+        N/T by dissipation.
+    other
+        N/T by work of the contact forces: crosses.
+    """
+    return _two_readings(points, other, Labels(_FILL, _RATIO, x_scale=100.0))
+
+
+def specific_power_against_size(points: "pl.DataFrame") -> Figure:
+    """Draw F7: specific power against D/d at 40 % fill, without and with baffles."""
+    return curves(points, Labels("drum over bundle diameter D/d", _SPECIFIC))
+
+
+def specific_power_against_friction(points: "pl.DataFrame") -> Figure:
+    """Draw F8: specific power against friction without baffles, at three fills."""
+    return curves(points, Labels(_FRICTION, _SPECIFIC))
+
+
+def ratio_against_friction(points: "pl.DataFrame", other: "pl.DataFrame") -> Figure:
+    """Draw F9: N/T against friction without baffles, at three fills; `other` as in `ratio_against_fill`."""
+    return _two_readings(points, other, Labels(_FRICTION, _RATIO))
+
+
+def specific_power_against_speed(points: "pl.DataFrame", centrifuging: float) -> Figure:
+    """Draw specific power against the drum's speed, without and with baffles.
+
+    Parameters
+    ----------
+    points
+        The points.
+    centrifuging
+        Speed at which the rim's acceleration equals gravity [rpm], marked by a line.
+    """
+    figure = curves(points, Labels("drum speed [rpm]", _SPECIFIC))
+    axes = figure.axes[0]
+    axes.axvline(centrifuging, color="0.7", linewidth=0.8, zorder=0)
+    _say_below(axes, centrifuging, "Ω²R = g ")
+    return figure
+
+
+def specific_power_against_restitution(points: "pl.DataFrame") -> Figure:
+    """Draw specific power against restitution, without and with baffles."""
+    return curves(points, Labels("coefficient of restitution e", _SPECIFIC))
+
+
+def _say_below(axes: "Axes", x: float, text: str) -> None:
+    where = axes.get_xaxis_transform()
+    axes.text(x, 0.02, text, transform=where, ha="center", va="bottom", color="0.45", fontsize="small")
+
+
+def _two_readings(points: "pl.DataFrame", other: "pl.DataFrame", labels: Labels) -> Figure:
+    figure = curves(points, labels)
+    axes = figure.axes[0]
+    x, y = labels.x_scale * other["x"].to_numpy(), other["mean"].to_numpy()
+    axes.plot(x, y, "x", color="black", markersize=3.0, markeredgewidth=0.7, zorder=4)
+    axes.set_title("by dissipation; × by work of the contact forces", fontsize="small", color="0.35")
+    return figure
+
+
+def drift_over_time(
+    runs: Mapping[str, Sequence["pl.DataFrame"]], mass: Mapping[str, float], window: tuple[float, float]
+) -> Figure:
+    """Draw how loads wander: running means of specific power and of N/T over each run, seed by seed.
+
+    Parameters
+    ----------
+    runs
+        Series of the seeds by drum, in words.
+    mass
+        Mass of the load by drum [kg/m].
+    window
+        Interval of the averages [s], shaded.
+    """
+    with drumrs_style():
+        figure = Figure(figsize=(8.4, 4.6))
+        grid = figure.subplots(2, len(runs), sharex=True, sharey="row", squeeze=False)
+        for column, (drum, series) in enumerate(runs.items()):
+            power, ratio = grid[0, column], grid[1, column]
+            power.set_title(drum)
+            for one in series:
+                power.plot(*_running(one, "work_drum", scale=mass[drum]), linewidth=1.0)
+                ratio.plot(*_running(one, "dissipated_normal", "dissipated_sliding"), linewidth=1.0)
+            ratio.set_xlabel("time [s]")
+        for axes in grid.flat:
+            axes.axvspan(*window, color="0.94", zorder=0, linewidth=0)
+        grid[0, 0].set_ylabel(_SPECIFIC)
+        grid[1, 0].set_ylabel("N/T")
+        _say_below(grid[0, 0], sum(window) / 2.0, "averages")
+    return figure
+
+
+def _running(
+    series: "pl.DataFrame", above: str, below: str | None = None, scale: float = 1.0
+) -> tuple[Array, Array]:
+    """Return times and running means of a rate over `scale`, or of the ratio of two."""
+    time = series["time"].to_numpy()
+    long = min(_LONG, float(time[-1] - time[0]) / 3.0)
+    middle, rate = mean_rate(time, series[above].to_numpy(), long)
+    if below is None:
+        return middle, rate / scale
+    _, under = mean_rate(time, series[below].to_numpy(), long)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return middle, np.where(under > 0.0, rate / under, np.nan)

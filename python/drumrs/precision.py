@@ -1,0 +1,99 @@
+"""Runs that go on until their mean power is known well enough."""
+
+import math
+from dataclasses import dataclass
+from pathlib import Path
+
+from drumrs.errors import ConfigError
+from drumrs.progress import Board
+from drumrs.protocol import announce, finish
+from drumrs.simulation import Simulation
+
+# A longer window is asked for by the error found, and a little more; never more than twice the window at once, since
+# that error is uncertain itself.
+_MARGIN, _MOST = 1.1, 2.0
+# Where no limit is given, so many times the duration.
+LIMIT = 10.0
+
+
+@dataclass(frozen=True)
+class Goal:
+    """How well the specific power is to be known, and how long that may take.
+
+    Attributes
+    ----------
+    precision
+        Standard error over the specific power.
+    limit
+        Simulated time at which to give up [s].
+    """
+
+    precision: float
+    limit: float
+
+    @classmethod
+    def of(cls, precision: float, limit: float | None, duration: float) -> "Goal":
+        """Check what was asked for; the limit is ten times the duration unless given.
+
+        Raises
+        ------
+        ConfigError
+            Where one of them is not accepted.
+        """
+        if not 0.0 < precision < 1.0:
+            raise ConfigError(
+                f"--until is {precision}, but must be between 0 and 1: the error over the power"
+            )
+        if limit is None:
+            return cls(precision, LIMIT * duration)
+        if not duration <= limit < math.inf:
+            raise ConfigError(f"--limit is {limit}, but must be at least run.duration = {duration}")
+        return cls(precision, limit)
+
+
+def pursue(simulation: Simulation, goal: Goal, shown: Board, checkpoint: Path | None = None) -> str:
+    """Run to the end of the duration, and on until the goal or its limit; return what was reached, in a sentence.
+
+    When to look is decided by the results alone: a run that was interrupted ends like one that was not.
+
+    Parameters
+    ----------
+    simulation
+        What to run; its configuration ends where the run does.
+    goal
+        What to reach.
+    shown
+        Where to show progress.
+    checkpoint
+        File of the checkpoints.
+    """
+    finish(simulation, announce(shown, simulation), checkpoint)
+    while (end := _next_end(simulation, goal)) is not None:
+        simulation.prolong(end)
+        finish(simulation, announce(shown, simulation, f"to {end:.4g} s"), checkpoint)
+    reached = _precision(simulation)
+    found = f"{100.0 * reached:.2g} %" if math.isfinite(reached) else "not known"
+    asked, time = f"{100.0 * goal.precision:.3g} %", f"t = {simulation.time:.4g} s"
+    words = f"the standard error of the specific power is {found} of it"
+    if reached <= goal.precision:
+        return f"at {time} {words} ({asked} was asked for)"
+    return f"the limit of {goal.limit:.4g} s is reached, but {words}, not {asked}"
+
+
+def _precision(simulation: Simulation) -> float:
+    """Return the standard error over the specific power; infinite where there is none."""
+    summary = simulation.summary()
+    if summary.specific_power_error is None or summary.specific_power == 0.0:
+        return math.inf
+    return summary.specific_power_error / abs(summary.specific_power)
+
+
+def _next_end(simulation: Simulation, goal: Goal) -> float | None:
+    """Return when to look again [s]; `None` where the goal or its limit is reached."""
+    start, end = simulation.config.run.averaging_window
+    found = _precision(simulation)
+    if found <= goal.precision or end >= goal.limit:
+        return None
+    # Errors of means fall with the root of the time.
+    factor = min(max(_MARGIN * (found / goal.precision) ** 2, _MARGIN), _MOST)
+    return min(start + factor * (end - start), goal.limit)

@@ -1,0 +1,243 @@
+"""Who runs the cases, in which order, and what becomes of a sweep that meets trouble."""
+
+import errno
+import json
+import os
+import threading
+from concurrent.futures import Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
+
+import polars as pl
+import pytest
+
+import drumrs
+from drumrs.errors import ConfigError
+from drumrs.sweep import engine, worker
+from drumrs.sweep.worker import Report
+
+BASE = drumrs.baseline(fill=0.05).replace({"run.duration": 0.05, "run.frame_every": 0.05})
+SOFT = {
+    "contact.bundle.normal_stiffness": 1e3,
+    "contact.drum.normal_stiffness": 1e3,
+    "run.overlap_limit": 0.01,
+}
+
+
+def contents(folder) -> dict[str, bytes]:
+    """Every result file of a folder; timings and machine are apart, and may differ."""
+    return {
+        path.name: path.read_bytes() for path in folder.iterdir() if not path.name.endswith(".facts.json")
+    }
+
+
+class Recorder(Executor):
+    """Threads that note the order of what they are given, and how much of it is in their hands at once."""
+
+    def __init__(self) -> None:
+        self.pool = ThreadPoolExecutor(2)
+        self.lock = threading.Lock()
+        self.order: list[str] = []
+        self.flying = self.most = 0
+
+    def submit(self, function, /, *arguments):
+        self.order.append(json.loads(arguments[0])["load"]["fill"])
+        with self.lock:
+            self.flying += 1
+            self.most = max(self.most, self.flying)
+        future = self.pool.submit(function, *arguments)
+        future.add_done_callback(self._landed)
+        return future
+
+    def _landed(self, _: Future) -> None:
+        with self.lock:
+            self.flying -= 1
+
+
+def test_long_cases_first_and_few_at_once(tmp_path):
+    recorder = Recorder()
+    fills = [0.01 * number for number in range(1, 9)]
+    sweep = drumrs.Sweep(BASE, {"load.fill": fills})
+    outcome = sweep.run(tmp_path, recorder, jobs=3, progress=False)
+    assert recorder.order == fills[::-1]
+    assert recorder.most == 3
+    assert (outcome.finished, outcome.computed, outcome.left) == (8, 8, 0)
+
+
+def test_nothing_is_done_twice(tmp_path):
+    recorder = Recorder()
+    drumrs.Sweep(BASE, {"load.fill": [0.02, 0.05]}).run(tmp_path, progress=False)
+    before = contents(tmp_path)
+    outcome = drumrs.Sweep(BASE, {"load.fill": [0.03, 0.05, 0.02]}).run(tmp_path, recorder, progress=False)
+    assert recorder.order == [0.03]
+    assert (outcome.finished, outcome.computed) == (3, 1)
+    assert before.items() <= contents(tmp_path).items()
+
+
+def test_processes_give_the_same_bytes_as_threads(tmp_path):
+    sweep = drumrs.Sweep(BASE, {"load.fill": [0.05, 0.9], "drum.baffles.count": [0, 3]})
+    for executor in ("threads", "processes"):
+        outcome = sweep.run(tmp_path / executor, executor, jobs=2, progress=False)
+        assert (outcome.finished, len(outcome.failures)) == (2, 2)
+        sweep.write_table()
+    assert contents(tmp_path / "threads") == contents(tmp_path / "processes")
+
+
+def test_a_failing_case_leaves_its_error_and_the_rest_go_on(tmp_path):
+    rows = pl.DataFrame(
+        {"load.fill": [0.05, 0.9, 0.3], **{key: [None, None, value] for key, value in SOFT.items()}}
+    )
+    sweep = drumrs.Sweep.from_rows(BASE.replace({"run.duration": 0.3}), rows)
+    outcome = sweep.run(tmp_path, progress=False)
+    good, packed, soft = sweep.cases
+    assert outcome.finished == 1
+    assert [(failure.case, failure.error) for failure in outcome.failures] == [
+        (packed, "ConfigError"),
+        (soft, "UnstableError"),
+    ]
+    assert "load.fill is 0.9 (360 bundles)" in outcome.failures[0].message
+    for failure in outcome.failures:
+        told = json.loads((tmp_path / f"{failure.case.id}.error.json").read_text())
+        assert (told["error"], told["message"]) == (failure.error, failure.message)
+        assert drumrs.Config.model_validate(told["config"]) == failure.case.config
+        assert drumrs.Config.read(tmp_path / f"{failure.case.id}.toml") == failure.case.config
+        assert not (tmp_path / f"{failure.case.id}.parquet").exists()
+    assert sweep.table().collect()["case"].to_list() == [good.id]
+
+
+def test_failures_are_run_again_only_when_asked(tmp_path, monkeypatch):
+    sweep = drumrs.Sweep(BASE, seeds=2)
+
+    def fail(_):
+        raise MemoryError("no memory for this one")
+
+    with monkeypatch.context() as patch:
+        patch.setattr(worker, "Simulation", fail)
+        first = sweep.run(tmp_path, progress=False)
+    assert [failure.error for failure in first.failures] == ["MemoryError", "MemoryError"]
+    second = sweep.run(tmp_path, progress=False)
+    assert (second.computed, second.failures) == (0, first.failures)
+    third = sweep.run(tmp_path, retry=True, progress=False)
+    assert (third.computed, third.finished, third.failures) == (2, 2, ())
+    assert not list(tmp_path.glob("*.error.json"))
+
+
+def test_shards_share_a_folder(tmp_path):
+    sweep = drumrs.Sweep(BASE, {"load.fill": [0.02, 0.03, 0.05]})
+    first = sweep.run(tmp_path / "parts", shard=(1, 2), progress=False)
+    assert (first.finished, first.left) == (2, 1)
+    second = sweep.run(tmp_path / "parts", shard=(2, 2), progress=False)
+    assert (second.finished, second.left) == (1, 0)
+    sweep.run(tmp_path / "whole", progress=False)
+    assert contents(tmp_path / "parts") == contents(tmp_path / "whole")
+
+
+@pytest.mark.parametrize("shard", [(0, 2), (3, 2), (1, 0)])
+def test_bad_shard(tmp_path, shard):
+    with pytest.raises(ConfigError, match=f"shard is {shard[0]}/{shard[1]}, but must be k/n"):
+        drumrs.Sweep(BASE).run(tmp_path / "out", shard=shard)
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        ({"jobs": 0}, "jobs is 0, but must be"),
+        ({"jobs": 1.5}, "jobs is 1.5, but must be"),
+        ({"jobs": True}, "jobs is True, but must be"),
+        ({"executor": "fork"}, "executor is 'fork', but must be"),
+        ({"executor": 3}, "executor is 3, but must be"),
+    ],
+)
+def test_bad_crew(tmp_path, arguments, sentence):
+    with pytest.raises(ConfigError, match=sentence):
+        drumrs.Sweep(BASE).run(tmp_path / "out", **arguments)
+    assert not (tmp_path / "out").exists()
+
+
+def test_processes_that_fork_are_refused(tmp_path):
+    import multiprocessing
+
+    refused = pytest.raises(ConfigError, match="executor forks its workers, but must spawn them")
+    with ProcessPoolExecutor(1, multiprocessing.get_context("fork")) as pool, refused:
+        drumrs.Sweep(BASE).run(tmp_path / "out", pool)
+
+
+def test_an_executor_shut_down_is_refused(tmp_path):
+    pool = ThreadPoolExecutor(1)
+    pool.shutdown()
+    with pytest.raises(ConfigError, match="executor is one that takes no work, but must be open"):
+        drumrs.Sweep(BASE).run(tmp_path, pool, progress=False)
+
+
+class Answering(Executor):
+    """An executor whose futures come back with what it was made with."""
+
+    def __init__(self, answer) -> None:
+        self.answer = answer
+
+    def submit(self, *_):
+        future: Future = Future()
+        if isinstance(self.answer, Exception):
+            future.set_exception(self.answer)
+        else:
+            future.set_result(self.answer)
+        return future
+
+
+def test_a_worker_that_dies_with_a_case_fails_it(tmp_path):
+    sweep = drumrs.Sweep(BASE)
+    outcome = sweep.run(tmp_path, Answering(RuntimeError("the worker was killed")), progress=False)
+    assert [(failure.error, failure.message) for failure in outcome.failures] == [
+        ("RuntimeError", "the worker was killed")
+    ]
+    assert sweep.run(tmp_path, retry=True, progress=False).finished == 1
+
+
+def test_workers_of_another_version_are_refused(tmp_path):
+    with pytest.raises(ConfigError, match="workers with another version of drumrs"):
+        drumrs.Sweep(BASE).run(tmp_path, Answering(Report("other", "finished")), progress=False)
+
+
+@pytest.mark.parametrize("room", range(10))
+def test_a_full_disk_is_told_once_and_nothing_finished_is_lost(tmp_path, monkeypatch, room):
+    """The disk is full after so many files: in every place where a case may be caught."""
+    sweep = drumrs.Sweep(BASE, {"load.fill": [0.01, 0.02]})
+    written = iter(range(room))
+
+    def flush(_: int) -> None:
+        if next(written, None) is None:
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    with monkeypatch.context() as patch:
+        patch.setattr("drumrs.files.os.fsync", flush)
+        if room == 9:
+            # A mark and four files a case: there was room for all.
+            assert sweep.run(tmp_path, jobs=1, progress=False).finished == 2
+        else:
+            with pytest.raises(
+                OSError, match="cases are finished and kept, and the same sweep goes"
+            ) as caught:
+                sweep.run(tmp_path, jobs=1, progress=False)
+            assert caught.value.errno == errno.ENOSPC
+    assert not [path for path in tmp_path.iterdir() if path.name.endswith(".tmp")]
+    assert sweep.table().collect().height == sum(room > 4 * case for case in (1, 2))
+    outcome = sweep.run(tmp_path, progress=False)
+    assert (outcome.finished, outcome.replaced) == (2, ())
+
+
+def test_an_interrupt_stops_what_runs_and_keeps_what_is_finished(tmp_path, monkeypatch):
+    sweep = drumrs.Sweep(BASE, {"run.duration": [0.05, 1000.0, 2000.0]})
+    short = sweep.cases[0]
+    drumrs.Sweep.from_configs([short.config]).run(tmp_path, progress=False)
+    calls = iter(range(3))
+
+    def interrupted_wait(*arguments, **options):
+        if next(calls, None) is None:
+            raise KeyboardInterrupt
+        return real_wait(*arguments, **options)
+
+    real_wait = engine.wait
+    monkeypatch.setattr(engine, "wait", interrupted_wait)
+    with pytest.raises(KeyboardInterrupt, match="interrupted; 1 cases are finished and kept"):
+        sweep.run(tmp_path, progress=False)
+    assert sweep.table().collect()["case"].to_list() == [short.id]
+    assert not list(tmp_path.glob("*.error.json"))
