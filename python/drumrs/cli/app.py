@@ -9,6 +9,7 @@ import drumrs
 from drumrs.cli.baseline import baseline
 from drumrs.cli.config import config
 from drumrs.cli.info import info
+from drumrs.cli.reproduce import reproduce
 from drumrs.cli.run import run
 from drumrs.cli.sweep import sweep
 from drumrs.cli.view import view
@@ -38,7 +39,7 @@ app = App(
     result_action="return_value",
 )
 
-for _command in (run, baseline, sweep, view, config, info):
+for _command in (run, baseline, reproduce, sweep, view, config, info):
     app.command(_command)
 
 

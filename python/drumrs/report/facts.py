@@ -7,6 +7,7 @@ from importlib.metadata import version
 from pathlib import Path
 
 from drumrs.report.findings import Findings
+from drumrs.report.table1 import power
 from drumrs.simulation import info
 
 # The citation, as in CITATION.cff.
@@ -57,7 +58,7 @@ def times(findings: Findings) -> dict[str, str]:
     spent = float(facts["wall_time"].sum())
     told = {
         "runs finished": f"{findings.table.height} of {len(findings.sweep)}",
-        "particle-steps": f"{steps:.3g}",
+        "particle-steps": power(steps),
         "computing time, all runs": duration(spent),
     }
     if spent > 0.0:

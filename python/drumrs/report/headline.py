@@ -9,6 +9,7 @@ import numpy as np
 from drumrs.report.findings import Findings
 from drumrs.study import MissingError, Number
 from drumrs.study.cases import THIRDS
+from drumrs.study.claims_power import percent
 from drumrs.study.curves import Curve
 from drumrs.study.verdict import FAILS, HOLDS, UNDECIDED
 
@@ -65,7 +66,7 @@ def _peak(findings: Findings) -> Sentence:
     told = []
     for curve, (_, drum) in zip(_both(findings, "fill", "drum_power"), _DRUMS, strict=True):
         x = _highest(curve)
-        told.append(f"{100.0 * x:.3g} % {drum} ({_value(curve, x, 'W/m')})")
+        told.append(f"{percent(x)} {drum} ({_value(curve, x, 'W/m')})")
     return Sentence(
         f"Of the fills that were run, drum power is greatest at {' and at '.join(told)}.",
         "F4",
@@ -81,7 +82,8 @@ def _fall(findings: Findings) -> Sentence:
     for curve, (_, drum) in zip(_both(findings, "fill", "drum_specific_power"), _DRUMS, strict=True):
         first, last = curve.points[0].x, curve.points[-1].x
         told.append(
-            f"from {_value(curve, first)} W/kg at {first:.0%} fill to {_value(curve, last)} W/kg at {last:.0%} {drum}"
+            f"from {_value(curve, first, 'W/kg')} at {percent(first)} fill to {_value(curve, last, 'W/kg')} "
+            f"at {percent(last)} {drum}"
         )
     return Sentence(f"Specific power goes {', and '.join(told)}.", "F5")
 
@@ -91,7 +93,9 @@ def _ratio(findings: Findings) -> Sentence:
     for curve, (_, drum) in zip(_both(findings, "fill", "dissipation_ratio"), _DRUMS, strict=True):
         means = sorted((one.mean, point.x) for one, point in zip(curve.estimates, curve.points, strict=True))
         least, most = means[0], means[-1]
-        told.append(f"{least[0]:.2f} (at {least[1]:.3g}) to {most[0]:.2f} (at {most[1]:.3g} fill) {drum}")
+        told.append(
+            f"{least[0]:.2f} (at {percent(least[1])} fill) to {most[0]:.2f} ({percent(most[1])}) {drum}"
+        )
     return Sentence(
         f"Damping in normal contacts takes N/T times what sliding takes: {', and '.join(told)}.", "F6"
     )
@@ -119,8 +123,8 @@ def _variations(findings: Findings) -> Sentence:
 def _motion(findings: Findings) -> Sentence:
     bare, baffled = _both(findings, "fill", "carried_round")
     return Sentence(
-        f"In a turn of the drum at 25 % fill, {_value(bare, 0.25)} of the load without baffles and "
-        f"{_value(baffled, 0.25)} with them is carried over the top along the rim.",
+        "In a turn of the drum at 25 % fill, the share of the load that is carried over the top along the rim is "
+        f"{_value(bare, 0.25)} without baffles and {_value(baffled, 0.25)} with them.",
         "F3",
     )
 
@@ -138,8 +142,8 @@ _LINES = (
     ("specific power", "W/kg", "drum_specific_power"),
     ("drum power", "W/m", "drum_power"),
     ("N/T by dissipation", "", "dissipation_ratio"),
-    ("N/T by work of the contact forces", "", "work_ratio"),
-    ("share carried over the top in a turn", "", "carried_round"),
+    ("N/T by work of forces", "", "work_ratio"),
+    ("carried over the top in a turn", "", "carried_round"),
     ("mixing in a turn", "", "mixed_in_a_turn"),
 )
 

@@ -1,6 +1,7 @@
 """The report's page: findings in, one HTML file out that needs nothing else."""
 
 import math
+import re
 from functools import cache
 from importlib.resources import files
 from pathlib import Path
@@ -64,7 +65,9 @@ def write(findings: Findings, path: str | Path, figures_folder: str | Path) -> l
 
 def render(findings: Findings, drawn: list[pictures.Picture]) -> str:
     """Return the report's page."""
-    shown = [player.element() for player in players(findings)]
+    shown = [
+        player.element(start=player.window[0] if player.window else None) for player in players(findings)
+    ]
     contents = [(anchor, name) for anchor, name in _CONTENTS.items() if shown or anchor != "motion"]
     return _template().render(
         title=_TITLE,
@@ -157,6 +160,13 @@ def _text(name: str) -> str:
     return files("drumrs.report").joinpath(name).read_text(encoding="utf-8")
 
 
+def _subscripts(text: str) -> str:
+    """Set what follows an underscore lower: k_N."""
+    from markupsafe import Markup, escape
+
+    return Markup(re.sub(r"_(\w)", r"<sub>\1</sub>", str(escape(text))))  # noqa: S704 - escaped before
+
+
 @cache
 def _template() -> "Template":
     from jinja2 import Environment, StrictUndefined
@@ -165,4 +175,5 @@ def _template() -> "Template":
     environment = Environment(
         autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
     )
+    environment.filters["subscripts"] = _subscripts
     return environment.from_string(_text("report.html.j2"))

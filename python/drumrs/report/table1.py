@@ -61,9 +61,7 @@ class Contact:
     def scanned_steps(self) -> float:
         """Time steps that a collision would last by the scan."""
         name = self.name
-        return (
-            duration(SCANNED_STIFFNESS[name], SCANNED_DAMPING[name], self.effective_mass) / SCANNED_STEP
-        )
+        return duration(SCANNED_STIFFNESS[name], SCANNED_DAMPING[name], self.effective_mass) / SCANNED_STEP
 
 
 def damping(law: LinearContact, mass: float) -> float:
@@ -124,12 +122,18 @@ def rows() -> list[Row]:
         Row("bundle diameter d", "2.375 cm", f"{load.diameter:g} m (D/d = {ratio:g})"),
         Row("bundle density ρ", "1000 kg/m³", f"{load.density:g} kg/m³, {bundle_mass(config):.4f} kg per m"),
         Row("number of bundles N", "100 (25 %)", f"{config.bundle_count} at fill N d²/D² = {load.fill:.0%}"),
-        Row("friction μ, both", "0.5 (symbol lost)", f"{law.friction:g}", "the only number of its size left"),
-        Row("restitution e, both", "0.1 (symbol lost)", f"{law.restitution:g}", "fits the damping, see below"),
+        Row("friction μ, both", "0.5 (symbol lost)", f"{law.friction:g}", "the other of the two rows"),
+        Row(
+            "restitution e, both", "0.1 (symbol lost)", f"{law.restitution:g}", "fits the damping, see below"
+        ),
         *_stiffness_rows(bundle, "bundle–bundle"),
         *_stiffness_rows(drum, "bundle–drum"),
         Row("k_S / k_N, both", "1", f"{law.stiffness_ratio:g}"),
-        Row("time step", f"{power(SCANNED_STEP)} s", f"{power(step)} s, 1/{bundle.collision_time / step:.0f} of a collision"),
+        Row(
+            "time step",
+            f"{power(SCANNED_STEP)} s",
+            f"{power(step)} s, 1/{bundle.collision_time / step:.1f} of a collision",
+        ),
         Row("baffles", "–", _baffles(config), _ASSUMED),
     ]
 
@@ -137,7 +141,12 @@ def rows() -> list[Row]:
 def _stiffness_rows(contact: Contact, name: str) -> tuple[Row, Row]:
     scanned = power(SCANNED_STIFFNESS[contact.name]), power(SCANNED_DAMPING[contact.name])
     return (
-        Row(f"{name} k_N", f"{scanned[0]} N/m", f"{power(contact.stiffness)} N/m", "exponent repaired, see below"),
+        Row(
+            f"{name} k_N",
+            f"{scanned[0]} N/m",
+            f"{power(contact.stiffness)} N/m",
+            "exponent repaired, see below",
+        ),
         Row(f"{name} ν_N", f"{scanned[1]} N s/m", f"{power(contact.damping)} N s/m", "follows from e"),
     )
 
