@@ -1,9 +1,8 @@
-//! One rebuild of the neighbor list: cells, search, and the merge that carries contacts over.
+//! One rebuild of the neighbor list: cells, search, and the link to the contacts.
 
 mod scenes;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use drumrs::contact::laws::Laws;
 use drumrs::neighbors::{Surroundings, VerletList};
 use drumrs::threads::Threads;
 use drumrs::vector::Rotation;
@@ -15,16 +14,13 @@ fn rebuilds(criterion: &mut Criterion) {
         group.throughput(Throughput::Elements(count as u64));
         group.bench_function(BenchmarkId::from_parameter(count), |bencher| {
             let simulation = scenes::tumbling(count, 3);
-            let config = simulation.config();
-            let laws = Laws::new(&config.contact.bundle, &config.contact.drum);
             let around = Surroundings {
                 particles: &simulation.state().particles,
                 drum: simulation.drum(),
-                laws: &laws,
                 rotation: Rotation::new(simulation.drum_angle()),
             };
             let mut table = simulation.contacts().clone();
-            let mut list = VerletList::new(0.3 * scenes::common::RADIUS, count);
+            let mut list = VerletList::new(0.3 * scenes::common::RADIUS);
             bencher.iter(|| list.rebuild(around, &mut table, &threads));
         });
     }

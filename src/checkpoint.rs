@@ -11,8 +11,9 @@ use sha2::{Digest, Sha256};
 
 use crate::PHYSICS_VERSION;
 use crate::config::SimulationConfig;
+use crate::contact::Contact;
 use crate::contact::laws::Laws;
-use crate::contact::table::{Contact, ContactTable, SlotRows};
+use crate::contact::table::ContactTable;
 use crate::drum::Drum;
 use crate::error::Error;
 use crate::particles::Particles;
@@ -53,8 +54,8 @@ impl Simulation {
             seed: self.seed(),
             state: self.state().clone(),
             contacts: TouchingContacts {
-                pairs: self.contacts().pairs.touching().collect(),
-                walls: self.contacts().walls.touching().collect(),
+                pairs: self.contacts().pairs().map(|entry| entry.contact).collect(),
+                walls: self.contacts().walls().map(|entry| entry.contact).collect(),
             },
         };
         let body = postcard::to_stdvec(&snapshot).map_err(|error| refuse(error.to_string()))?;
@@ -176,10 +177,15 @@ fn restore(contacts: &TouchingContacts, laws: &Laws, particles: &Particles) -> R
     if particles.materials.iter().any(|&material| usize::from(material) >= laws.materials()) {
         return Err(refuse("a bundle is of a material that is not there"));
     }
-    let count = particles.len();
     let body = |id: u32| (particles.materials[id as usize], particles.masses[id as usize]);
-    Ok(ContactTable {
-        pairs: SlotRows::from_contacts(count, &contacts.pairs, |i, j| laws.pair_slot(body(i), body(j))),
-        walls: SlotRows::from_contacts(count, &contacts.walls, |i, _| laws.wall_slot(body(i))),
-    })
+    let radius = |id: u32| particles.radii[id as usize];
+    let mut table = ContactTable::empty(particles.len());
+    for &contact in &contacts.pairs {
+        let law = laws.pair_slot(body(contact.particle), body(contact.other));
+        table.add_pair(contact, law, [radius(contact.particle), radius(contact.other)]);
+    }
+    for &contact in &contacts.walls {
+        table.add_wall(contact, laws.wall_slot(body(contact.particle)), radius(contact.particle));
+    }
+    Ok(table)
 }

@@ -21,6 +21,13 @@ pub fn lanes(number: impl Fn(usize) -> f64) -> Lanes {
     Lanes::new([number(0), number(1), number(2), number(3)])
 }
 
+/// Rows to columns: entry `k` of row `l` becomes entry `l` of row `k`.
+#[inline(always)]
+pub fn transpose(rows: [Lanes; LANES]) -> [Lanes; LANES] {
+    let rows = rows.map(Lanes::to_array);
+    std::array::from_fn(|column| lanes(|row| rows[row][column]))
+}
+
 /// Four vectors.
 #[derive(Debug, Clone, Copy)]
 pub struct Vec2Lanes {

@@ -7,7 +7,7 @@ use crate::drum::Drum;
 use crate::energy::{Balance, EnergyLedger, StoredEnergy};
 use crate::error::Error;
 use crate::forces::{ForcePass, Scene};
-use crate::integrator::{DriftSums, Integrator};
+use crate::integrator::{DriftSums, Integrator, Load};
 use crate::neighbors::{Surroundings, VerletList};
 use crate::packing::pack;
 use crate::particles::Particles;
@@ -134,7 +134,7 @@ impl Simulation {
     ) -> Self {
         let count = state.particles.len();
         let skin = config.run.skin.unwrap_or(DEFAULT_SKIN * state.particles.largest_radius());
-        let list = VerletList::new(skin, count);
+        let list = VerletList::new(skin);
         Self {
             half_gap: list.half_gap(state.particles.largest_radius()),
             list,
@@ -226,8 +226,9 @@ impl Simulation {
     fn drift(&mut self, turn: f64) -> DriftSums {
         let (particles, threads) = (&mut self.state.particles, &self.threads);
         if std::mem::take(&mut self.kick_waits) {
-            self.integrator.kick_and_drift(particles, &self.forces.loads, turn, threads)
+            self.integrator.kick_and_drift(particles, &mut self.forces.loads, turn, threads)
         } else {
+            self.forces.loads.fill(Load::default());
             self.integrator.drift(particles, turn, threads)
         }
     }
@@ -249,19 +250,15 @@ impl Simulation {
     }
 
     fn rebuild(&mut self, rotation: Rotation) {
-        let around = Surroundings {
-            particles: &self.state.particles,
-            drum: &self.fixed.drum,
-            laws: &self.fixed.laws,
-            rotation,
-        };
+        let around = Surroundings { particles: &self.state.particles, drum: &self.fixed.drum, rotation };
         self.list.rebuild(around, &mut self.table, &self.threads);
-        self.forces.prepare(&self.table, &self.threads);
+        self.forces.prepare(&self.table);
     }
 
     fn evaluate(&mut self, instant: Instant) {
         let scene = Scene {
             motions: &self.integrator.motions,
+            particles: &self.state.particles,
             laws: &self.fixed.laws,
             drum: &self.fixed.drum,
             rotation: instant.rotation,
@@ -291,7 +288,7 @@ impl Simulation {
         let mut outer_moment = mass_moment.x * gravity.y - mass_moment.y * gravity.x;
         if self.config.load.spin_locked {
             // What holds the spins takes the contacts' moments out of the load.
-            outer_moment -= self.forces.loads.iter().fold(0.0, |sum, load| sum + load.moment);
+            outer_moment -= self.forces.loads.iter().fold(0.0, |sum, load| sum + load.moment());
         }
         Balance { mass_moment, outer_moment, angular_momentum: 0.0 }
     }
@@ -325,7 +322,6 @@ impl Simulation {
         let angular_momentum = self.state.particles.angular_momentum();
         let state = &mut self.state;
         state.ledger.note(&stored);
-        let touching = |rows: &crate::contact::table::SlotRows| rows.touching().count();
         let snapshot = Snapshot {
             time,
             angle: self.config.rotation.angle(time),
@@ -335,7 +331,7 @@ impl Simulation {
             angular_momentum,
             balance_work: state.ledger.balance_work(angular_momentum, self.fixed.steady_speed),
             mass: self.fixed.mass,
-            contacts: (touching(&self.table.pairs), touching(&self.table.walls)),
+            contacts: self.table.counts(),
             count: state.particles.len(),
             interval: time - state.series.last_time().unwrap_or(time),
             earlier: &state.series.earlier().clone(),

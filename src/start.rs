@@ -125,10 +125,10 @@ pub fn mass_moment(particles: &Particles) -> Vec2 {
 /// Energy in all springs [J/m]: (normal, tangential).
 pub fn elastic_energies(table: &ContactTable, laws: &Laws) -> (f64, f64) {
     let mut sums = (0.0, 0.0);
-    let pairs = table.pairs.records.iter().map(|record| (&record.history, laws.pair(record.law)));
-    let walls = table.walls.records.iter().map(|record| (&record.history, laws.wall(record.law)));
-    for (history, law) in pairs.chain(walls).filter(|(history, _)| history.is_touching()) {
-        let (normal, tangential) = law.stored(history);
+    let pairs = table.pairs().map(|entry| (entry.contact.history, laws.pair(entry.law)));
+    let walls = table.walls().map(|entry| (entry.contact.history, laws.wall(entry.law)));
+    for (history, law) in pairs.chain(walls) {
+        let (normal, tangential) = law.stored(&history);
         sums.0 += normal;
         sums.1 += tangential;
     }
@@ -138,11 +138,10 @@ pub fn elastic_energies(table: &ContactTable, laws: &Laws) -> (f64, f64) {
 /// The particle with the deepest overlap, and that overlap over the smaller radius.
 pub fn deepest_overlap(table: &ContactTable, particles: &Particles) -> (usize, f64) {
     let radius = |i: u32| particles.radii[i as usize];
-    let pairs = table
-        .pairs
-        .touching()
+    let pairs = (table.pairs().map(|entry| entry.contact))
         .map(|c| (c.particle, c.history.overlap / radius(c.particle).min(radius(c.other))));
-    let walls = table.walls.touching().map(|c| (c.particle, c.history.overlap / radius(c.particle)));
+    let walls = (table.walls().map(|entry| entry.contact))
+        .map(|c| (c.particle, c.history.overlap / radius(c.particle)));
     pairs.chain(walls).fold(
         (0, 0.0),
         |deepest, (particle, ratio)| {

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::contact::table::Contact;
+use crate::contact::Contact;
 use crate::energy::EnergyLedger;
 use crate::particles::Particles;
 use crate::recorder::{Frames, Series};

@@ -124,6 +124,10 @@ fn python_keeps_to_its_own_rules() {
         if ["figures", "analysis", "viewer"].iter().any(|seer| inside.starts_with(seer)) {
             assert!(!imports("simulation"), "{inside} sees a Simulation");
         }
+        if inside.starts_with("sweep") {
+            let painters = ["figures", "study", "report", "viewer"];
+            assert!(!painters.iter().any(|name| imports(name)), "{inside} knows what is made of its results");
+        }
     }
 }
 

@@ -15,7 +15,7 @@ use proptest::prelude::*;
 const STEPS: u64 = 6001;
 
 fn touching(simulation: &Simulation) -> (usize, usize) {
-    (simulation.contacts().pairs.touching().count(), simulation.contacts().walls.touching().count())
+    simulation.contacts().counts()
 }
 
 fn packed(config: &SimulationConfig, threads: usize) -> Simulation {

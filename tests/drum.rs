@@ -27,7 +27,7 @@ fn force_and_spring_survive_a_tip() {
     let mut features = Vec::new();
     // On the vertex the center's path bends, so the force changes by m v²/r, damped, over a collision time; the first
     // step takes the dashpot's share of it: νₙ (v²/r) Δt.
-    let damping = simulation.contacts().walls.records[0].law.damping;
+    let damping = simulation.contacts().walls().next().unwrap().law.damping;
     let bend = damping * speed * speed / RADIUS * simulation.time_step();
     let mut last_force = None;
     let (mut last_stretch, mut greatest) = (0.0_f64, 0.0_f64);
@@ -35,7 +35,7 @@ fn force_and_spring_survive_a_tip() {
     let swing = (3.0 * 9.70e7 / mass()).sqrt() * simulation.time_step();
     for _ in 0..30_000 {
         simulation.run(1).unwrap();
-        let touching: Vec<_> = simulation.contacts().walls.touching().collect();
+        let touching: Vec<_> = simulation.contacts().walls().map(|entry| entry.contact).collect();
         if touching.is_empty() {
             break;
         }
@@ -101,7 +101,7 @@ fn a_disc_at_the_foot_has_two_contacts() {
     let orbit = DRUM_RADIUS - RADIUS - 1e-4;
     let mut simulation = start(&config, single(polar(orbit, angle), [0.0, 0.0], 0.0));
     run(&mut simulation, 1.0);
-    let features: Vec<u32> = simulation.contacts().walls.touching().map(|contact| contact.other).collect();
+    let features: Vec<u32> = simulation.contacts().walls().map(|entry| entry.contact.other).collect();
     assert_eq!(features.len(), 2, "{features:?}");
     assert_eq!(features[0], RIM);
     assert!(simulation.state().particles.velocities[0].norm() < 1e-4);

@@ -150,7 +150,7 @@ fn co_rotation_leaves_the_springs_alone() {
     for _ in 0..10 {
         run(&mut simulation, 0.02);
         let contacts = simulation.contacts();
-        let histories: Vec<_> = contacts.pairs.touching().chain(contacts.walls.touching()).collect();
+        let histories: Vec<_> = contacts.pairs().chain(contacts.walls()).map(|entry| entry.contact).collect();
         assert_eq!(histories.len(), 2);
         for contact in histories {
             let (pressed, held) = (contact.history.normal_force, contact.history.tangential_force);

@@ -37,7 +37,7 @@ fn watch(simulation: &mut Simulation) -> (f64, f64) {
     for _ in 0..100_000 {
         simulation.run(1).unwrap();
         let contacts = simulation.contacts();
-        let touching = contacts.pairs.touching().chain(contacts.walls.touching()).next();
+        let touching = contacts.pairs().chain(contacts.walls()).map(|entry| entry.contact).next();
         match touching {
             Some(contact) => {
                 deepest = deepest.max(contact.history.overlap);

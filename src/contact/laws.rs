@@ -1,7 +1,6 @@
 //! The laws of a simulation: which one, with which damping, acts between two materials or a material and the drum.
 
-use super::linear::{LinearLanes, LinearLaw, LinearParameters};
-use crate::lanes::LANES;
+use super::linear::{LinearLaw, LinearParameters};
 
 /// What a contact's slot needs of its law, worked out once when the slot is made.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -45,16 +44,14 @@ impl Laws {
         &self.walls[slot.law as usize]
     }
 
-    /// The laws of four slots between particles.
-    #[inline(always)]
-    pub fn pair_lanes(&self, slots: [SlotLaw; LANES]) -> LinearLanes {
-        of_slots(&self.pairs, slots)
+    /// The laws between particles.
+    pub fn pairs(&self) -> &[LinearLaw] {
+        &self.pairs
     }
 
-    /// The laws of four slots between particles and the drum.
-    #[inline(always)]
-    pub fn wall_lanes(&self, slots: [SlotLaw; LANES]) -> LinearLanes {
-        of_slots(&self.walls, slots)
+    /// The laws between particles and the drum.
+    pub fn walls(&self) -> &[LinearLaw] {
+        &self.walls
     }
 
     /// The slot between two particles, each given as (material, mass); m* = m₁ m₂ / (m₁ + m₂).
@@ -76,15 +73,5 @@ impl Laws {
             laws.iter().map(|law| law.collision_time(effective_mass)).fold(f64::INFINITY, f64::min)
         };
         (shortest(&self.pairs, 0.5 * mass), shortest(&self.walls, mass))
-    }
-}
-
-/// A load of one material has one law, which is then read once.
-#[inline(always)]
-fn of_slots(laws: &[LinearLaw], slots: [SlotLaw; LANES]) -> LinearLanes {
-    if let [law] = laws {
-        LinearLanes::splat(law)
-    } else {
-        LinearLanes::new(|lane| &laws[slots[lane].law as usize])
     }
 }

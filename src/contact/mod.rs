@@ -12,11 +12,12 @@
 
 pub mod laws;
 pub mod linear;
+pub mod list;
 pub mod table;
 
 use serde::{Deserialize, Serialize};
 
-use crate::lanes::{LANES, Lanes, Vec2Lanes, lanes};
+use crate::lanes::{Lanes, Vec2Lanes, lanes};
 use crate::vector::{Vec2, perpendicular};
 
 /// What must survive a step, and nothing else: the tangential spring, and the force with the frame it acted in,
@@ -48,6 +49,17 @@ impl History {
     pub fn force(&self) -> Vec2 {
         perpendicular(self.normal) * self.tangential_force - self.normal * self.normal_force
     }
+}
+
+/// One contact that has a history: its owner, its other side, and what it remembers.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct Contact {
+    /// The owner's id.
+    pub particle: u32,
+    /// A particle of higher id, or a feature of the drum.
+    pub other: u32,
+    /// What it remembers.
+    pub history: History,
 }
 
 /// Histories of four contacts.
@@ -82,22 +94,6 @@ impl HistoryLanes {
     #[inline(always)]
     pub fn force(&self) -> Vec2Lanes {
         self.normal.perpendicular() * self.tangential_force - self.normal * self.normal_force
-    }
-
-    /// The histories, one by one.
-    #[inline(always)]
-    pub fn to_array(self) -> [History; LANES] {
-        let (overlap, stretch) = (self.overlap.to_array(), self.tangential_displacement.to_array());
-        let (normal_force, tangential_force) =
-            (self.normal_force.to_array(), self.tangential_force.to_array());
-        let normal = self.normal.to_array();
-        std::array::from_fn(|lane| History {
-            overlap: overlap[lane],
-            tangential_displacement: stretch[lane],
-            normal_force: normal_force[lane],
-            tangential_force: tangential_force[lane],
-            normal: normal[lane],
-        })
     }
 }
 

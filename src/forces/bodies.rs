@@ -4,8 +4,7 @@ use crate::contact::linear::LinearLanes;
 use crate::contact::{Displacement, Encounter, HistoryLanes};
 use crate::energy::StepFlows;
 use crate::integrator::Motion;
-use crate::lanes::{LANES, Lanes, Vec2Lanes, lanes};
-use crate::vector::Vec2;
+use crate::lanes::{LANES, Lanes, Vec2Lanes, transpose};
 
 /// Where bodies meet now.
 #[derive(Debug, Clone, Copy)]
@@ -43,18 +42,25 @@ pub struct Pairs {
 }
 
 impl Pairs {
-    /// Particles given as (owner, other) for each index.
+    /// Owners, others, and the radii of both.
     #[inline(always)]
-    pub fn new(pair: [(&Motion, &Motion); LANES]) -> Self {
-        let between = |of: fn(&Motion) -> Vec2| Vec2Lanes::new(|lane| of(pair[lane].1) - of(pair[lane].0));
+    pub fn new(
+        own: [&Motion; LANES],
+        other: [&Motion; LANES],
+        [own_radius, other_radius]: [Lanes; 2],
+    ) -> Self {
+        let [gap_x, gap_y, apart_x, apart_y] =
+            transpose(std::array::from_fn(|lane| other[lane].place - own[lane].place));
+        let [own_x, own_y, own_turn, _] = transpose(own.map(|motion| motion.pace));
+        let [other_x, other_y, other_turn, _] = transpose(other.map(|motion| motion.pace));
         Self {
-            gap: between(|motion| motion.position),
-            apart: between(|motion| motion.displacement),
-            velocity: between(|motion| motion.velocity),
-            own_turn: lanes(|lane| pair[lane].0.turn),
-            other_turn: lanes(|lane| pair[lane].1.turn),
-            own_radius: lanes(|lane| pair[lane].0.radius),
-            other_radius: lanes(|lane| pair[lane].1.radius),
+            gap: Vec2Lanes { x: gap_x, y: gap_y },
+            apart: Vec2Lanes { x: apart_x, y: apart_y },
+            velocity: Vec2Lanes { x: other_x - own_x, y: other_y - own_y },
+            own_turn,
+            other_turn,
+            own_radius,
+            other_radius,
         }
     }
 
@@ -115,18 +121,28 @@ pub struct Walls {
 }
 
 impl Walls {
-    /// A particle for each index, and how the drum turns.
+    /// The particles, their radii, and how the drum turns.
     #[inline(always)]
-    pub fn new(own: [&Motion; LANES], drum_turn: f64, angular_velocity: f64) -> Self {
+    pub fn new(own: [&Motion; LANES], radius: Lanes, drum_turn: f64, angular_velocity: f64) -> Self {
+        let [x, y, displacement_x, displacement_y] = transpose(own.map(|motion| motion.place));
+        let [velocity_x, velocity_y, turn, _] = transpose(own.map(|motion| motion.pace));
         Self {
-            position: Vec2Lanes::new(|lane| own[lane].position),
-            displacement: Vec2Lanes::new(|lane| own[lane].displacement),
-            velocity: Vec2Lanes::new(|lane| own[lane].velocity),
-            turn: lanes(|lane| own[lane].turn),
-            radius: lanes(|lane| own[lane].radius),
+            position: Vec2Lanes { x, y },
+            displacement: Vec2Lanes { x: displacement_x, y: displacement_y },
+            velocity: Vec2Lanes { x: velocity_x, y: velocity_y },
+            turn,
+            radius,
             drum_turn,
             angular_velocity,
         }
+    }
+
+    /// Where they meet a rim of radius `rim` about the axis.
+    #[inline(always)]
+    pub fn meet_rim(&self, rim: f64) -> Meeting {
+        let distance = self.position.dot(self.position).sqrt();
+        let overlap = self.radius - (Lanes::splat(rim) - distance);
+        Meeting { overlap, normal: self.position * (Lanes::ONE / distance) }
     }
 
     /// From the centers to the points of contact [m].

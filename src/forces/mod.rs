@@ -1,31 +1,31 @@
-//! The pass over contact slots: geometry, law, history; then each particle's sum of forces in key order.
+//! The pass over contacts: who touches now, geometry, law, history; then each particle's sum of forces in a fixed order.
 //!
-//! Each slot writes only its own history, which holds the force. A serial pass adds it to both particles at once: slots
-//! come in key order, so every particle receives its contacts in key order. A parallel pass leaves that to a gather
-//! that reads the same histories in the same order; the bits are the same.
+//! Each contact writes only its own history. Its load goes to the particles of its own chunk at once and to others by
+//! post; see `post` for the order.
 
-mod batch;
 mod bodies;
-mod gather;
 mod pairs;
-mod slots;
+mod post;
 mod walls;
 
 use crate::contact::laws::Laws;
-use crate::contact::table::ContactTable;
+use crate::contact::table::{ChunkSlots, ContactTable};
 use crate::drum::Drum;
 use crate::energy::{StepFlows, SurfaceLoad};
 use crate::integrator::{Load, Motion};
-use crate::threads::{Chunked, Threads, chunk_count};
-use crate::vector::{Rotation, Vec2};
-use gather::{Gather, Incidence};
-use slots::SlotSlice;
+use crate::lanes::{LANES, Lanes, lanes};
+use crate::particles::Particles;
+use crate::threads::{CHUNK, Chunked, Threads, chunk_count};
+use crate::vector::Rotation;
+use post::{Delivery, Outbox, Sink};
 
 /// All that a contact needs beyond its own slot.
 #[derive(Debug, Clone, Copy)]
 pub struct Scene<'a> {
     /// What each particle did in this step.
     pub motions: &'a [Motion],
+    /// What they are: materials and masses.
+    pub particles: &'a Particles,
     /// The laws.
     pub laws: &'a Laws,
     /// Rim and outlines.
@@ -47,7 +47,7 @@ pub struct Scene<'a> {
 /// Scratch and results of the pass.
 #[derive(Debug, Clone)]
 pub struct ForcePass {
-    /// Force and moment on each particle.
+    /// Force and moment on each particle; empty before a pass.
     pub loads: Vec<Load>,
     /// Load on the particles by each of the drum's surfaces.
     pub surfaces: Vec<SurfaceLoad>,
@@ -55,7 +55,7 @@ pub struct ForcePass {
     pub flows: StepFlows,
     chunk_flows: Vec<StepFlows>,
     chunk_surfaces: Vec<SurfaceLoad>,
-    incidence: Incidence,
+    outboxes: Vec<Outbox>,
 }
 
 impl ForcePass {
@@ -68,43 +68,33 @@ impl ForcePass {
             flows: StepFlows::default(),
             chunk_flows: vec![StepFlows::default(); chunks],
             chunk_surfaces: vec![SurfaceLoad::default(); chunks * surfaces],
-            incidence: Incidence::default(),
+            outboxes: vec![Outbox::default(); chunks],
         }
     }
 
-    /// Takes note of new slots; only a parallel pass needs to know them by their higher particle.
-    pub fn prepare(&mut self, table: &ContactTable, threads: &Threads) {
-        if threads.serve(self.loads.len()) {
-            self.incidence.index(&table.pairs);
+    /// Takes note of new candidates: which chunk may have post for which.
+    pub fn prepare(&mut self, table: &ContactTable) {
+        for (chunk, outbox) in self.outboxes.iter_mut().enumerate() {
+            outbox.address(chunk, table);
         }
     }
 
-    /// Evaluates every slot.
+    /// Evaluates every contact; the loads must be empty.
     pub fn evaluate(&mut self, scene: Scene, table: &mut ContactTable, threads: &Threads) {
         let count = self.loads.len();
         let work = Chunks {
-            pairs: (&mut table.pairs).into(),
-            walls: (&mut table.walls).into(),
+            first: 0,
+            slots: &mut table.chunks,
+            loads: &mut self.loads,
+            outboxes: &mut self.outboxes,
             flows: &mut self.chunk_flows,
             surfaces: &mut self.chunk_surfaces,
             surfaces_per_chunk: self.surfaces.len(),
         };
-        if threads.serve(count) {
-            threads.for_each_chunk(count, work, &|chunk: Chunks| chunk.run(scene, &mut Leave));
-            let gather = Gather::of(&mut self.loads);
-            let (table, incidence) = (&*table, &self.incidence);
-            threads
-                .for_each_chunk(count, gather, &|chunk: Gather| chunk.run(scene.motions, table, incidence));
-        } else {
-            self.loads.fill(Load::default());
-            let mut scatter = Scatter { loads: &mut self.loads };
-            let mut rest = work;
-            while rest.chunks() > 1 {
-                let (chunk, others) = rest.split(1);
-                chunk.run(scene, &mut scatter);
-                rest = others;
-            }
-            rest.run(scene, &mut scatter);
+        threads.for_each_chunk(count, work, &|chunk: Chunks| chunk.run(scene));
+        if self.outboxes.len() > 1 {
+            let (delivery, outboxes) = (Delivery { first: 0, loads: &mut self.loads }, &self.outboxes[..]);
+            threads.for_each_chunk(count, delivery, &|chunk: Delivery| chunk.collect(outboxes));
         }
         self.add_up();
     }
@@ -125,38 +115,24 @@ impl ForcePass {
     }
 }
 
-/// Where a contact's force goes right away.
-trait Sink {
-    fn add(&mut self, particle: usize, force: Vec2, moment: f64);
-}
-
-/// Nowhere: a gather will read it from the history.
-struct Leave;
-
-impl Sink for Leave {
-    #[inline]
-    fn add(&mut self, _: usize, _: Vec2, _: f64) {}
-}
-
-/// To the particles' loads.
-struct Scatter<'a> {
-    loads: &'a mut [Load],
-}
-
-impl Sink for Scatter<'_> {
-    #[inline]
-    fn add(&mut self, particle: usize, force: Vec2, moment: f64) {
-        let load = &mut self.loads[particle];
-        load.force += force;
-        load.moment += moment;
+/// All ones in the first `count` lanes.
+#[inline(always)]
+fn in_use(count: usize) -> Lanes {
+    let ones = f64::from_bits(u64::MAX);
+    if count >= LANES {
+        return Lanes::splat(ones);
     }
+    lanes(|lane| if lane < count { ones } else { 0.0 })
 }
 
-/// The slots of whole chunks of particles, and where their sums go.
+/// The slots of whole chunks of particles, and where their loads and sums go.
 #[derive(Debug)]
 struct Chunks<'a> {
-    pairs: SlotSlice<'a>,
-    walls: SlotSlice<'a>,
+    /// The chunk that the slices start with.
+    first: usize,
+    slots: &'a mut [ChunkSlots],
+    loads: &'a mut [Load],
+    outboxes: &'a mut [Outbox],
     flows: &'a mut [StepFlows],
     surfaces: &'a mut [SurfaceLoad],
     surfaces_per_chunk: usize,
@@ -164,30 +140,36 @@ struct Chunks<'a> {
 
 impl Chunks<'_> {
     /// Evaluates one chunk: its pairs, then its walls, so that every particle meets its contacts in key order.
-    fn run(self, scene: Scene, sink: &mut impl Sink) {
-        let Some(flows) = self.flows.first_mut() else { return };
-        *flows = pairs::evaluate(scene, self.pairs, sink);
+    fn run(self, scene: Scene) {
+        let (Some(slots), Some(outbox)) = (self.slots.first_mut(), self.outboxes.first_mut()) else { return };
+        outbox.clear();
+        let mut sink = Sink { first: self.first * CHUNK, loads: self.loads, outbox };
         self.surfaces.fill(SurfaceLoad::default());
-        flows.add(&walls::evaluate(scene, self.walls, self.surfaces, sink));
+        let mut flows = pairs::evaluate(scene, &mut slots.pairs, &mut sink);
+        flows.add(&walls::evaluate(scene, &mut slots.walls, self.surfaces, &mut sink));
+        self.flows[0] = flows;
     }
 }
 
 impl Chunked for Chunks<'_> {
     fn chunks(&self) -> usize {
-        self.flows.len()
+        self.slots.len()
     }
 
     fn split(self, chunks: usize) -> (Self, Self) {
-        let (pairs, more_pairs) = self.pairs.split(chunks);
-        let (walls, more_walls) = self.walls.split(chunks);
+        let (slots, more_slots) = self.slots.split_at_mut(chunks);
+        let (loads, more_loads) = self.loads.split_at_mut(chunks * CHUNK);
+        let (outboxes, more_outboxes) = self.outboxes.split_at_mut(chunks);
         let (flows, more_flows) = self.flows.split_at_mut(chunks);
         let surfaces_per_chunk = self.surfaces_per_chunk;
         let (surfaces, more_surfaces) = self.surfaces.split_at_mut(chunks * surfaces_per_chunk);
         (
-            Self { pairs, walls, flows, surfaces, surfaces_per_chunk },
+            Self { first: self.first, slots, loads, outboxes, flows, surfaces, surfaces_per_chunk },
             Self {
-                pairs: more_pairs,
-                walls: more_walls,
+                first: self.first + chunks,
+                slots: more_slots,
+                loads: more_loads,
+                outboxes: more_outboxes,
                 flows: more_flows,
                 surfaces: more_surfaces,
                 surfaces_per_chunk,

@@ -1,44 +1,16 @@
-//! Slots between particles: those awake are looked at, those in contact are worked out four at a time.
-//!
-//! Which slots are awake, and which of them touch, is hard to foretell for a CPU. Both are therefore listed by loops
-//! without branches.
+//! Contacts between particles: candidates that are awake are looked at, contacts are worked out four at a time.
 
-use super::batch::{Batch, in_use};
 use super::bodies::{FlowLanes, Pairs, settle};
-use super::slots::SlotSlice;
-use super::{Scene, Sink};
-use crate::contact::HistoryLanes;
-use crate::contact::table::SlotRows;
+use super::post::Sink;
+use super::{Scene, in_use};
+use crate::contact::linear::LinearLanes;
+use crate::contact::list::Block;
+use crate::contact::table::{Candidates, Slots};
 use crate::energy::StepFlows;
-use crate::integrator::Motion;
-use crate::lanes::{LANES, Lanes, lanes};
-use crate::vector::{dot, larger};
+use crate::lanes::{LANES, Lanes, lanes, transpose};
 
-/// Slots searched at a time.
+/// Candidates searched at a time; a power of two.
 const BLOCK: usize = 128;
-
-/// Evaluates the slots in their order.
-pub fn evaluate(scene: Scene, slots: SlotSlice, sink: &mut impl Sink) -> StepFlows {
-    let mut pass = Pass { scene, slots, flows: FlowLanes::zero() };
-    let mut awake = [0_u32; BLOCK + LANES];
-    // Contacts wait here until there are four of them.
-    let mut waiting = [0_u32; 2 * BLOCK];
-    let mut count = 0;
-    for start in (0..pass.slots.wake.len()).step_by(BLOCK) {
-        let found = pass.find_awake(start, &mut awake);
-        count = pass.find_contacts(&awake[..found], &mut waiting, count);
-        let full = count - count % LANES;
-        for batch in waiting[..full].chunks_exact(LANES) {
-            pass.work_out(&Batch::full(batch), sink);
-        }
-        waiting.copy_within(full..count, 0);
-        count -= full;
-    }
-    if count > 0 {
-        pass.work_out(&Batch::partial(&waiting[..count]), sink);
-    }
-    pass.flows.total()
-}
 
 /// For each set of lanes, as bits: its lanes in front, in their order.
 const IN_FRONT: [[u32; LANES]; 1 << LANES] = {
@@ -58,88 +30,143 @@ const IN_FRONT: [[u32; LANES]; 1 << LANES] = {
     table
 };
 
-struct Pass<'a> {
-    scene: Scene<'a>,
-    slots: SlotSlice<'a>,
-    flows: FlowLanes,
+/// Evaluates the pairs of one chunk in key order.
+pub fn evaluate(scene: Scene, slots: &mut Slots, sink: &mut Sink) -> StepFlows {
+    open_contacts(scene, slots);
+    // A load of one material has one law, which is then read once.
+    let laws = scene.laws.pairs();
+    let (flows, all_touch) = if let [law] = laws {
+        let law = LinearLanes::splat(law);
+        work_through(scene, slots, sink, |_| law)
+    } else {
+        work_through(scene, slots, sink, |block| LinearLanes::new(|lane| &laws[block.laws()[lane] as usize]))
+    };
+    if !all_touch {
+        slots.close_ended();
+    }
+    flows.total()
 }
 
-impl<'a> Pass<'a> {
-    #[inline(always)]
-    fn motions(&self, slot: usize) -> (&'a Motion, &'a Motion) {
-        let motions = self.scene.motions;
-        (&motions[self.slots.owner[slot] as usize], &motions[self.slots.other[slot] as usize])
+/// Works out all contacts; returns the flows, and whether all of them still touch.
+#[inline(always)]
+fn work_through(
+    scene: Scene,
+    slots: &mut Slots,
+    sink: &mut Sink,
+    law_of: impl Fn(&Block) -> LinearLanes,
+) -> (FlowLanes, bool) {
+    let mut flows = FlowLanes::zero();
+    let mut all_touch = true;
+    let (blocks, len) = slots.contacts.blocks_mut();
+    let (full, rest) = blocks.split_at_mut(len / LANES);
+    for block in full {
+        let law = law_of(block);
+        all_touch &= work_out(scene, (block, LANES), &law, &mut flows, sink);
     }
-
-    /// Lists the slots of a block that may matter at this step: a slot sleeps until the particles could have closed
-    /// its gap.
-    #[inline(always)]
-    fn find_awake(&self, start: usize, awake: &mut [u32; BLOCK + LANES]) -> usize {
-        let end = (start + BLOCK).min(self.slots.wake.len());
-        let (fours, rest) = self.slots.wake[start..end].as_chunks::<LANES>();
-        let way = Lanes::splat(self.scene.way);
-        let (mut first, mut count) = (start as u32, 0);
-        for &four in fours {
-            let due = Lanes::new(four).simd_le(way).to_bitmask() as usize;
-            // All four are written, those awake in front; the next four overwrite the others.
-            let front = &IN_FRONT[due & 15];
-            for lane in 0..LANES {
-                awake[(count & (BLOCK - 1)) + lane] = first + front[lane];
-            }
-            count += due.count_ones() as usize;
-            first += LANES as u32;
-        }
-        for &due in rest {
-            awake[count & (BLOCK - 1)] = first;
-            count += usize::from(due <= self.scene.way);
-            first += 1;
-        }
-        count
+    if let Some(block) = rest.first_mut() {
+        let law = law_of(block);
+        all_touch &= work_out(scene, (block, len % LANES), &law, &mut flows, sink);
     }
+    (flows, all_touch)
+}
 
-    /// Appends to the first `count` of `waiting` those slots whose particles touch, or touched at the last step; puts
-    /// the others to sleep. Returns the new count.
-    #[inline(always)]
-    fn find_contacts(&mut self, awake: &[u32], waiting: &mut [u32; 2 * BLOCK], mut count: usize) -> usize {
-        for &slot in awake {
-            let (own, other) = self.motions(slot as usize);
-            let gap = other.position - own.position;
-            let reach = own.radius + other.radius;
-            // Each of the two has to go half of the gap, which is (distance² − reach²) / (distance + reach).
-            let excess = dot(gap, gap) - reach * reach;
-            // Not `||`: a branch here would be foretold wrongly every other time.
-            #[allow(clippy::needless_bitwise_bool)]
-            let in_contact = (excess < 0.0) | (self.slots.wake[slot as usize] < 0.0);
-            self.slots.wake[slot as usize] = self.scene.way + self.scene.half_gap * larger(excess, 0.0);
-            waiting[count & (2 * BLOCK - 1)] = slot;
-            count += usize::from(in_contact);
-        }
-        count
-    }
-
-    /// Works out the slots of a batch.
-    #[inline(always)]
-    fn work_out(&mut self, batch: &Batch, sink: &mut impl Sink) {
-        let slots = batch.slots;
-        let bodies = slots.map(|slot| self.motions(slot));
-        let pairs = Pairs::new(bodies);
-        let meeting = pairs.meet();
-        let history = HistoryLanes::new(|lane| &self.slots.records[slots[lane]].history);
-        let keys = slots.map(|slot| self.slots.records[slot].law);
-        let law = self.scene.laws.pair_lanes(keys);
-        let law = (&law, lanes(|lane| keys[lane].damping), self.scene.step_rate);
-        let now = settle(&pairs, (meeting, &history), law, in_use(batch.count), &mut self.flows);
-
-        let forces = now.force().to_array();
-        let own_moments = (pairs.own_arm(now.overlap) * now.tangential_force).to_array();
-        let other_moments = (pairs.other_arm(now.overlap) * now.tangential_force).to_array();
-        let histories = now.to_array();
-        for lane in 0..batch.count {
-            let slot = slots[lane];
-            self.slots.wake[slot] = SlotRows::wake_of(&histories[lane]);
-            self.slots.records[slot].history = histories[lane];
-            sink.add(self.slots.owner[slot] as usize, forces[lane], own_moments[lane]);
-            sink.add(self.slots.other[slot] as usize, -forces[lane], other_moments[lane]);
+/// Makes contacts of the candidates that touch; puts the others to sleep until the particles could have closed the gap.
+fn open_contacts(scene: Scene, slots: &mut Slots) {
+    let mut due = [0; BLOCK + LANES];
+    let fours = slots.candidates.fours();
+    for start in (0..fours).step_by(BLOCK / LANES) {
+        let end = fours.min(start + BLOCK / LANES);
+        let count = find_due(&slots.candidates, start..end, scene.way, &mut due);
+        // The last four are filled up with the last one.
+        let last = due[count.saturating_sub(1)];
+        due[count..count + LANES].fill(last);
+        for four in due[..count.next_multiple_of(LANES)].as_chunks().0 {
+            look_at(scene, slots, four);
         }
     }
+}
+
+/// Lists the candidates that are due, without a branch that a CPU could not foretell. Returns their number.
+fn find_due(
+    candidates: &Candidates,
+    fours: std::ops::Range<usize>,
+    way: f64,
+    due: &mut [u32; BLOCK + LANES],
+) -> usize {
+    let way = Lanes::splat(way);
+    let mut count = 0;
+    for four in fours {
+        let set =
+            Lanes::new(candidates.wakes(four)).simd_le(way).to_bitmask() as usize & (IN_FRONT.len() - 1);
+        // All four are written, those that are due in front; the next four overwrite the others.
+        let first = (LANES * four) as u32;
+        for (lane, front) in IN_FRONT[set].iter().enumerate() {
+            due[(count & (BLOCK - 1)) + lane] = first + front;
+        }
+        count += set.count_ones() as usize;
+    }
+    count.min(BLOCK)
+}
+
+/// Looks at four candidates.
+fn look_at(scene: Scene, slots: &mut Slots, due: &[u32; LANES]) {
+    let candidates = &mut slots.candidates;
+    let keys = due.map(|candidate| candidates.key(candidate as usize));
+    let place = |id: u32| scene.motions[id as usize].place;
+    let [gap_x, gap_y, ..] = transpose(keys.map(|(owner, other)| place(other) - place(owner)));
+    // Each of the two has to go half of the gap, which is (distance² − reach²) / (distance + reach).
+    let reach = lanes(|lane| candidates.squared_reach(due[lane] as usize));
+    let excess = gap_x * gap_x + gap_y * gap_y - reach;
+    let sleep = Lanes::splat(scene.way) + excess.fast_max(Lanes::ZERO) * scene.half_gap;
+    for (&candidate, until) in due.iter().zip(sleep.to_array()) {
+        candidates.sleep(candidate as usize, until);
+    }
+    if !excess.simd_lt(Lanes::ZERO).any() {
+        return;
+    }
+    for lane in 0..LANES {
+        // Candidates that fill up the last four come again.
+        let again = due[..lane].contains(&due[lane]);
+        if excess.to_array()[lane] < 0.0 && !again {
+            open(scene, slots, due[lane] as usize);
+        }
+    }
+}
+
+#[cold]
+fn open(scene: Scene, slots: &mut Slots, candidate: usize) {
+    let (owner, other) = slots.candidates.key(candidate);
+    let (i, j) = (owner as usize, other as usize);
+    let particles = scene.particles;
+    let body = |id: usize| (particles.materials[id], particles.masses[id]);
+    slots.open(candidate, scene.laws.pair_slot(body(i), body(j)), [particles.radii[i], particles.radii[j]]);
+}
+
+/// Works out the first `count` contacts of a block; returns whether all of them still touch.
+#[inline(always)]
+fn work_out(
+    scene: Scene,
+    (block, count): (&mut Block, usize),
+    law: &LinearLanes,
+    flows: &mut FlowLanes,
+    sink: &mut Sink,
+) -> bool {
+    let motion = |id: u32| &scene.motions[id as usize];
+    let pairs = Pairs::new(block.owner.map(motion), block.other.map(motion), block.radii());
+    let meeting = pairs.meet();
+    let history = block.history();
+    let used = in_use(count);
+    let now = settle(&pairs, (meeting, &history), (law, block.damping(), scene.step_rate), used, flows);
+    block.remember(&now);
+
+    let force = now.force();
+    let own_moment = pairs.own_arm(now.overlap) * now.tangential_force;
+    let other_moment = pairs.other_arm(now.overlap) * now.tangential_force;
+    let rows = transpose([force.x, force.y, own_moment, -other_moment]);
+    for (lane, row) in rows.into_iter().enumerate().take(count) {
+        sink.add(block.owner[lane], row);
+        let [x, y, own_moment, other_moment] = row.to_array();
+        sink.take_off(block.other[lane], Lanes::new([x, y, other_moment, own_moment]));
+    }
+    !(used & now.overlap.simd_le(Lanes::ZERO)).any()
 }

@@ -1,49 +1,39 @@
-//! Slots between particles and the drum: rim, edges, vertices.
+//! Contacts of particles with the drum: rim, edges, vertices.
 
-use super::batch::{Batch, in_use};
 use super::bodies::{FlowLanes, Meeting, Walls, settle};
-use super::slots::SlotSlice;
-use super::{Scene, Sink};
-use crate::contact::HistoryLanes;
-use crate::contact::table::Record;
-use crate::drum::{Drum, FeatureId, RIM};
+use super::post::Sink;
+use super::{Scene, in_use};
+use crate::contact::linear::LinearLanes;
+use crate::contact::list::Block;
+use crate::contact::table::Slots;
+use crate::drum::{FeatureId, RIM};
 use crate::energy::{StepFlows, SurfaceLoad};
 use crate::integrator::Motion;
-use crate::lanes::{LANES, Vec2Lanes, lanes};
+use crate::lanes::{LANES, Lanes, Vec2Lanes, lanes, transpose};
 use crate::vector::{Vec2, cross, dot};
 
-/// Evaluates the slots in their order and adds the loads by surface.
-pub fn evaluate(
-    scene: Scene,
-    slots: SlotSlice,
-    surfaces: &mut [SurfaceLoad],
-    sink: &mut impl Sink,
-) -> StepFlows {
-    let mut pass = Pass { scene, slots, surfaces, flows: FlowLanes::zero() };
-    if pass.surfaces.len() > 1 {
-        for (start, end) in rows(pass.slots.owner) {
-            let particle = pass.slots.owner[start] as usize;
-            hand_over(scene, particle, &pass.slots.other[start..end], &mut pass.slots.records[start..end]);
-        }
+/// Evaluates the contacts of one chunk with the drum in key order and adds the loads by surface.
+pub fn evaluate(scene: Scene, slots: &mut Slots, surfaces: &mut [SurfaceLoad], sink: &mut Sink) -> StepFlows {
+    if surfaces.len() > 1 {
+        hand_over(scene, slots);
     }
-    // Contacts wait here until there are four of them.
-    let (mut waiting, mut spots, mut count) = ([0_u32; LANES], [Spot::default(); LANES], 0);
-    for slot in 0..pass.slots.owner.len() {
-        if pass.slots.wake[slot] > scene.way {
-            continue;
-        }
-        let Some(spot) = pass.contact(slot) else { continue };
-        (waiting[count], spots[count]) = (slot as u32, spot);
-        count += 1;
-        if count == LANES {
-            pass.work_out(&Batch::full(&waiting), &spots, sink);
-            count = 0;
-        }
+    open_contacts(scene, slots);
+    let mut flows = FlowLanes::zero();
+    let mut all_touch = true;
+    let laws = scene.laws.walls();
+    let (blocks, len) = slots.contacts.blocks_mut();
+    for (index, block) in blocks.iter_mut().enumerate() {
+        let count = (len - LANES * index).min(LANES);
+        let law = match laws {
+            [law] => LinearLanes::splat(law),
+            _ => LinearLanes::new(|lane| &laws[block.laws()[lane] as usize]),
+        };
+        all_touch &= work_out(scene, (block, count), &law, &mut flows, &mut (&mut *surfaces, sink));
     }
-    if count > 0 {
-        pass.work_out(&Batch::partial(&waiting[..count]), &spots, sink);
+    if !all_touch {
+        slots.close_ended();
     }
-    pass.flows.total()
+    flows.total()
 }
 
 /// Where one particle meets the drum.
@@ -53,122 +43,133 @@ struct Spot {
     normal: Vec2,
 }
 
-struct Pass<'a> {
-    scene: Scene<'a>,
-    slots: SlotSlice<'a>,
-    surfaces: &'a mut [SurfaceLoad],
-    flows: FlowLanes,
-}
-
-impl Pass<'_> {
-    /// Where a slot's particle touches its feature, or touched it at the last step; if it does not, the slot sleeps
-    /// where its gap is known.
-    #[inline]
-    fn contact(&mut self, slot: usize) -> Option<Spot> {
-        let own = &self.scene.motions[self.slots.owner[slot] as usize];
-        let touched = self.slots.records[slot].history.is_touching();
-        let spot = meet(self.scene, own, self.slots.other[slot], touched)?;
-        if spot.overlap > 0.0 || touched {
-            self.slots.wake[slot] = 0.0;
-            return Some(spot);
+/// Makes contacts of the candidates that touch; puts the others to sleep where their gap is known.
+fn open_contacts(scene: Scene, slots: &mut Slots) {
+    for candidate in 0..slots.candidates.len() {
+        if slots.candidates.wake_of(candidate) > scene.way {
+            continue;
         }
+        let (id, feature) = slots.candidates.key(candidate);
         // Only the particle moves, as seen from the drum. Slightly less than the gap covers round-off.
-        self.slots.wake[slot] = self.scene.way - (1.0 - 1e-6) * spot.overlap;
-        None
-    }
-
-    /// Works out the slots of a batch, whose particles meet the drum at `spots`.
-    fn work_out(&mut self, batch: &Batch, spots: &[Spot; LANES], sink: &mut impl Sink) {
-        let slots = batch.slots;
-        let bodies = slots.map(|slot| &self.scene.motions[self.slots.owner[slot] as usize]);
-        let walls = Walls::new(bodies, self.scene.turn, self.scene.angular_velocity);
-        let meeting = Meeting {
-            overlap: lanes(|lane| spots[lane].overlap),
-            normal: Vec2Lanes::new(|lane| spots[lane].normal),
-        };
-        let history = HistoryLanes::new(|lane| &self.slots.records[slots[lane]].history);
-        let keys = slots.map(|slot| self.slots.records[slot].law);
-        let law = self.scene.laws.wall_lanes(keys);
-        let law = (&law, lanes(|lane| keys[lane].damping), self.scene.step_rate);
-        let now = settle(&walls, (meeting, &history), law, in_use(batch.count), &mut self.flows);
-
-        let forces = now.force().to_array();
-        let moments = (walls.arm(now.overlap) * now.tangential_force).to_array();
-        let points = walls.point(now.overlap, now.normal).to_array();
-        let histories = now.to_array();
-        for lane in 0..batch.count {
-            let slot = slots[lane];
-            self.slots.records[slot].history = histories[lane];
-            sink.add(self.slots.owner[slot] as usize, forces[lane], moments[lane]);
-            let surface = &mut self.surfaces[self.scene.drum.surface_of(self.slots.other[slot])];
-            surface.force += forces[lane];
-            surface.moment += cross(points[lane], forces[lane]);
+        match gap(scene, &scene.motions[id as usize], feature) {
+            Some(gap) if gap >= 0.0 => slots.candidates.sleep(candidate, scene.way + (1.0 - 1e-6) * gap),
+            Some(_) => open(scene, slots, candidate),
+            None => {}
         }
     }
 }
 
-/// The ranges of slots that belong to one particle each.
-fn rows(owner: &[u32]) -> impl Iterator<Item = (usize, usize)> + '_ {
-    let mut start = 0;
-    std::iter::from_fn(move || {
-        let first = *owner.get(start)?;
-        let length = owner[start..].iter().take_while(|&&i| i == first).count();
-        let range = (start, start + length);
-        start += length;
-        Some(range)
-    })
+#[cold]
+fn open(scene: Scene, slots: &mut Slots, candidate: usize) {
+    let id = slots.candidates.key(candidate).0 as usize;
+    let particles = scene.particles;
+    let law = scene.laws.wall_slot((particles.materials[id], particles.masses[id]));
+    slots.open(candidate, law, [particles.radii[id], 0.0]);
 }
 
-/// Where a particle meets a feature of the drum, or none where it is some other feature's turn. A contact that has just
-/// ended is answered with an overlap of zero, so that its last work is charged.
+/// The gap between a particle and a feature of the drum, below zero where they overlap, or slightly less than the gap;
+/// none where it is some other feature's turn.
 #[inline]
-fn meet(scene: Scene, own: &Motion, feature: FeatureId, touching: bool) -> Option<Spot> {
-    if feature == RIM {
-        return meet_rim(scene.drum, own, touching);
+fn gap(scene: Scene, own: &Motion, feature: FeatureId) -> Option<f64> {
+    if feature != RIM {
+        return meet(scene, own, feature).map(|spot| -spot.overlap);
     }
-    let center = scene.rotation.apply_inverse(own.position);
-    match scene.drum.proximity(feature, center) {
-        Some(near) => {
-            Some(Spot { overlap: own.radius - near.distance, normal: scene.rotation.apply(near.direction) })
+    let rim = scene.drum.radius()?;
+    let (position, free) = (own.position(), rim - own.radius());
+    // free − distance = (free² − distance²) / (free + distance), whose divisor is below 2 rim.
+    let excess = free * free - dot(position, position);
+    if excess > 0.0 {
+        return Some(excess * (0.5 / rim));
+    }
+    Some((rim - dot(position, position).sqrt()) - own.radius())
+}
+
+/// Where a particle meets a feature of an outline, or none where it is some other feature's turn.
+#[inline]
+fn meet(scene: Scene, own: &Motion, feature: FeatureId) -> Option<Spot> {
+    let near = scene.drum.proximity(feature, scene.rotation.apply_inverse(own.position()))?;
+    Some(Spot { overlap: own.radius() - near.distance, normal: scene.rotation.apply(near.direction) })
+}
+
+/// Works out the first `count` contacts of a block; returns whether all of them still touch.
+fn work_out(
+    scene: Scene,
+    (block, count): (&mut Block, usize),
+    law: &LinearLanes,
+    flows: &mut FlowLanes,
+    (surfaces, sink): &mut (&mut [SurfaceLoad], &mut Sink),
+) -> bool {
+    let own = block.owner.map(|id| &scene.motions[id as usize]);
+    let walls = Walls::new(own, block.radii()[0], scene.turn, scene.angular_velocity);
+    let meeting = meetings(scene, block, &walls);
+    let history = block.history();
+    let used = in_use(count);
+    let now = settle(&walls, (meeting, &history), (law, block.damping(), scene.step_rate), used, flows);
+    block.remember(&now);
+
+    let force = now.force();
+    let moment = walls.arm(now.overlap) * now.tangential_force;
+    let rows = transpose([force.x, force.y, moment, moment]);
+    let (forces, points) = (force.to_array(), walls.point(now.overlap, now.normal).to_array());
+    for lane in 0..count {
+        sink.add(block.owner[lane], rows[lane]);
+        let surface = &mut surfaces[scene.drum.surface_of(block.other[lane])];
+        surface.force += forces[lane];
+        surface.moment += cross(points[lane], forces[lane]);
+    }
+    !(used & now.overlap.simd_le(Lanes::ZERO)).any()
+}
+
+/// Where the particles of a block meet their features. A contact that ends because another feature answers has an
+/// overlap of zero, so that its last work is charged.
+#[inline(always)]
+fn meetings(scene: Scene, block: &Block, walls: &Walls) -> Meeting {
+    let rim = scene.drum.radius().map(|radius| walls.meet_rim(radius));
+    if let Some(meeting) = rim
+        && block.other == [RIM; LANES]
+    {
+        return meeting;
+    }
+    let mut spots = [Spot::default(); LANES];
+    if let Some(Meeting { overlap, normal }) = rim {
+        let (overlaps, normals) = (overlap.to_array(), normal.to_array());
+        spots = std::array::from_fn(|lane| Spot { overlap: overlaps[lane], normal: normals[lane] });
+    }
+    for (lane, spot) in spots.iter_mut().enumerate() {
+        if block.other[lane] != RIM {
+            let own = &scene.motions[block.owner[lane] as usize];
+            *spot = meet(scene, own, block.other[lane]).unwrap_or_default();
         }
-        None => touching.then(|| Spot { overlap: 0.0, normal: Vec2::zeros() }),
     }
-}
-
-#[inline]
-fn meet_rim(drum: &Drum, own: &Motion, touching: bool) -> Option<Spot> {
-    let rim = drum.radius()?;
-    let distance_squared = dot(own.position, own.position);
-    let free = rim - own.radius;
-    if distance_squared <= free * free && !touching {
-        return None;
-    }
-    let distance = distance_squared.sqrt();
-    Some(Spot { overlap: own.radius - (rim - distance), normal: own.position * (1.0 / distance) })
+    Meeting { overlap: lanes(|lane| spots[lane].overlap), normal: Vec2Lanes::new(|lane| spots[lane].normal) }
 }
 
 /// Passes the history of a contact to the neighboring feature when a particle rolls from one to the other.
-fn hand_over(scene: Scene, particle: usize, features: &[u32], records: &mut [Record]) {
-    let own = &scene.motions[particle];
-    for slot in 0..features.len() {
-        if features[slot] == RIM || !records[slot].history.is_touching() {
+fn hand_over(scene: Scene, slots: &mut Slots) {
+    let mut index = 0;
+    while index < slots.contacts.len() {
+        let (particle, feature) = slots.contacts.key(index);
+        index += 1;
+        if feature == RIM || meet(scene, &scene.motions[particle as usize], feature).is_some() {
             continue;
         }
-        let center = scene.rotation.apply_inverse(own.position);
-        if scene.drum.proximity(features[slot], center).is_some() {
-            continue;
-        }
-        let heir = (0..features.len()).find(|&other| {
-            features[other] != RIM
-                && !records[other].history.is_touching()
-                && scene.drum.adjacent(features[slot], features[other])
-                && scene
-                    .drum
-                    .proximity(features[other], center)
-                    .is_some_and(|near| near.distance < own.radius)
-        });
-        if let Some(heir) = heir {
-            records[heir].history = std::mem::take(&mut records[slot].history);
+        if let Some(heir) = heir_of(scene, slots, particle, feature) {
+            // What came after it has moved up.
+            index -= 1;
+            slots.pass_on(index, heir);
         }
     }
+}
+
+/// The candidate that a contact of `particle` with `feature` goes on as.
+fn heir_of(scene: Scene, slots: &Slots, particle: u32, feature: FeatureId) -> Option<usize> {
+    let candidates = &slots.candidates;
+    let own = &scene.motions[particle as usize];
+    candidates.of(particle).find(|&candidate| {
+        let (_, other) = candidates.key(candidate);
+        other != RIM
+            && candidates.wake_of(candidate) != f64::INFINITY
+            && scene.drum.adjacent(feature, other)
+            && meet(scene, own, other).is_some_and(|spot| spot.overlap > 0.0)
+    })
 }

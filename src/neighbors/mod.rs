@@ -7,11 +7,10 @@ mod cells;
 
 use cells::CellGrid;
 
-use crate::contact::laws::Laws;
-use crate::contact::table::ContactTable;
+use crate::contact::table::{ChunkSlots, ContactTable};
 use crate::drum::{Drum, RIM};
 use crate::particles::Particles;
-use crate::threads::{CHUNK, Chunked, Threads, chunk_count};
+use crate::threads::{CHUNK, Chunked, Threads};
 use crate::vector::{Rotation, Vec2};
 
 /// Decides when to rebuild, and rebuilds.
@@ -27,17 +26,6 @@ pub struct VerletList {
     /// How far anyone can have moved since the last build [m]: the sum over steps of the longest way.
     way: f64,
     grid: CellGrid,
-    found: Vec<Candidates>,
-    spare: ContactTable,
-}
-
-/// What one chunk of particles may meet: row by row, ascending.
-#[derive(Debug, Clone, Default)]
-struct Candidates {
-    pairs: Vec<u32>,
-    pair_ends: Vec<u32>,
-    walls: Vec<u32>,
-    wall_ends: Vec<u32>,
 }
 
 /// The parts of a simulation that a list is made from.
@@ -47,25 +35,14 @@ pub struct Surroundings<'a> {
     pub particles: &'a Particles,
     /// Rim and outlines.
     pub drum: &'a Drum,
-    /// The laws of new slots.
-    pub laws: &'a Laws,
     /// The drum's rotation.
     pub rotation: Rotation,
 }
 
 impl VerletList {
     /// A list with the margin `skin` [m] that asks to be built at once.
-    pub fn new(skin: f64, count: usize) -> Self {
-        Self {
-            skin,
-            anchors: Vec::new(),
-            farthest: 0.0,
-            budget: -1.0,
-            way: 0.0,
-            grid: CellGrid::default(),
-            found: vec![Candidates::default(); chunk_count(count)],
-            spare: ContactTable::empty(count),
-        }
+    pub fn new(skin: f64) -> Self {
+        Self { skin, anchors: Vec::new(), farthest: 0.0, budget: -1.0, way: 0.0, grid: CellGrid::default() }
     }
 
     /// Takes note of a step in which nobody moved farther than `longest_way` as seen from the drum, to first order in
@@ -113,31 +90,10 @@ impl VerletList {
         self.budget = 0.5 * self.skin * ROUND_OFF_MARGIN;
         self.way = 0.0;
         self.grid.fill(&particles.positions, 2.0 * particles.largest_radius() + self.skin);
-        let search = Search { chunks: &mut self.found, first: 0 };
+        let search = Search { chunks: &mut table.chunks, first: 0 };
         let (grid, anchors, skin) = (&self.grid, &self.anchors, self.skin);
         threads
             .for_each_chunk(particles.len(), search, &|chunk: Search| chunk.run(around, grid, anchors, skin));
-        self.merge(around, table);
-    }
-
-    fn merge(&mut self, around: Surroundings, table: &mut ContactTable) {
-        let particles = around.particles;
-        let body = |id: usize| (particles.materials[id], particles.masses[id]);
-        std::mem::swap(table, &mut self.spare);
-        table.clear();
-        for (chunk, found) in self.found.iter().enumerate() {
-            let (mut pair_start, mut wall_start) = (0, 0);
-            for (row, (&pair_end, &wall_end)) in found.pair_ends.iter().zip(&found.wall_ends).enumerate() {
-                let own = body(chunk * CHUNK + row);
-                let pairs = &found.pairs[pair_start..pair_end as usize];
-                let walls = &found.walls[wall_start..wall_end as usize];
-                table
-                    .pairs
-                    .merge_row(&self.spare.pairs, pairs, |j| around.laws.pair_slot(own, body(j as usize)));
-                table.walls.merge_row(&self.spare.walls, walls, |_| around.laws.wall_slot(own));
-                (pair_start, wall_start) = (pair_end as usize, wall_end as usize);
-            }
-        }
     }
 }
 
@@ -145,20 +101,29 @@ impl VerletList {
 const ROUND_OFF_MARGIN: f64 = 1.0 - 1e-6;
 
 struct Search<'a> {
-    chunks: &'a mut [Candidates],
+    chunks: &'a mut [ChunkSlots],
     /// The chunk that `chunks[0]` is.
     first: usize,
 }
 
 impl Search<'_> {
     fn run(self, around: Surroundings, grid: &CellGrid, anchors: &[Vec2], skin: f64) {
-        let Some(found) = self.chunks.first_mut() else { return };
-        found.clear();
+        let Some(ChunkSlots { pairs, walls }) = self.chunks.first_mut() else { return };
+        pairs.candidates.clear();
+        walls.candidates.clear();
+        let mut found = Vec::new();
         let start = self.first * CHUNK;
         for (i, &center) in anchors.iter().enumerate().skip(start).take(CHUNK) {
-            found.add_pairs(i, around.particles, grid, skin);
-            found.add_walls(around.drum, center, around.particles.radii[i] + skin);
+            find_pairs(i, around.particles, grid, skin, &mut found);
+            for j in found.drain(..) {
+                let reach = around.particles.radii[i] + around.particles.radii[j as usize];
+                pairs.candidates.push(i as u32, j, reach * reach);
+            }
+            find_walls(around.drum, center, around.particles.radii[i] + skin, &mut found);
+            found.drain(..).for_each(|feature| walls.candidates.push(i as u32, feature, 0.0));
         }
+        pairs.link();
+        walls.link();
     }
 }
 
@@ -173,36 +138,24 @@ impl Chunked for Search<'_> {
     }
 }
 
-impl Candidates {
-    fn clear(&mut self) {
-        self.pairs.clear();
-        self.pair_ends.clear();
-        self.walls.clear();
-        self.wall_ends.clear();
-    }
+/// The particles of higher id within reach of particle `i`, ascending.
+fn find_pairs(i: usize, particles: &Particles, grid: &CellGrid, skin: f64, found: &mut Vec<u32>) {
+    let position = particles.positions[i];
+    let own_reach = particles.radii[i] + skin;
+    grid.for_each_near(position, |members| {
+        let higher = members.iter().filter(|&&j| j as usize > i);
+        found.extend(higher.filter(|&&j| {
+            let reach = own_reach + particles.radii[j as usize];
+            (particles.positions[j as usize] - position).norm_squared() < reach * reach
+        }));
+    });
+    found.sort_unstable();
+}
 
-    /// Adds the particles of higher id within reach of particle `i`.
-    fn add_pairs(&mut self, i: usize, particles: &Particles, grid: &CellGrid, skin: f64) {
-        let position = particles.positions[i];
-        let own_reach = particles.radii[i] + skin;
-        let start = self.pairs.len();
-        grid.for_each_near(position, |members| {
-            let higher = members.iter().filter(|&&j| j as usize > i);
-            self.pairs.extend(higher.filter(|&&j| {
-                let reach = own_reach + particles.radii[j as usize];
-                (particles.positions[j as usize] - position).norm_squared() < reach * reach
-            }));
-        });
-        self.pairs[start..].sort_unstable();
-        self.pair_ends.push(self.pairs.len() as u32);
+/// The drum's features within `reach` of `center` (in the drum's frame), ascending.
+fn find_walls(drum: &Drum, center: Vec2, reach: f64, found: &mut Vec<u32>) {
+    if drum.radius().is_some_and(|radius| center.norm() + reach > radius) {
+        found.push(RIM);
     }
-
-    /// Adds the drum's features within `reach` of `center` (in the drum's frame).
-    fn add_walls(&mut self, drum: &Drum, center: Vec2, reach: f64) {
-        if drum.radius().is_some_and(|radius| center.norm() + reach > radius) {
-            self.walls.push(RIM);
-        }
-        drum.features_near(center, reach, &mut self.walls);
-        self.wall_ends.push(self.walls.len() as u32);
-    }
+    drum.features_near(center, reach, found);
 }

@@ -147,7 +147,7 @@ pub fn run(simulation: &mut Simulation, seconds: f64) {
 pub fn run_through_contact(simulation: &mut Simulation, most: u64) {
     let touching = |simulation: &Simulation| {
         let contacts = simulation.contacts();
-        contacts.pairs.touching().count() + contacts.walls.touching().count()
+        contacts.counts().0 + contacts.counts().1
     };
     let mut met = false;
     for _ in 0..most {

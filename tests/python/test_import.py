@@ -40,7 +40,15 @@ def test_import_rules():
             if name.startswith("drumrs.cli"):
                 assert module.startswith(("__main__", "cli/")), (module, name)
             if module.split("/")[0] in {"figures", "analysis"}:
-                assert not name.startswith(("drumrs.simulation", "drumrs.protocol")), (module, name)
+                assert not name.startswith(("drumrs.simulation", "drumrs.protocol", "drumrs.sweep")), (
+                    module,
+                    name,
+                )
+            if module.startswith("sweep/"):
+                assert not name.startswith(("drumrs.figures", "drumrs.study", "drumrs.report")), (
+                    module,
+                    name,
+                )
 
 
 def test_version_is_the_crates():

@@ -1,14 +1,20 @@
 """`drumrs sweep` as it is used: a study file, a killed process, Ctrl-C, two at once, a job array, a full disk."""
 
+import contextlib
 import os
+import re
 import resource
+import shutil
 import signal
 import subprocess
 import sys
 import time
+from pathlib import Path
 
 import polars as pl
 import pytest
+
+from drumrs.sweep import read_study
 
 STUDY = """
 seeds = 2
@@ -143,6 +149,29 @@ def test_a_job_array_shares_the_cases(drum, study, tmp_path):
     assert contents(parts) == contents(whole)
 
 
+def test_the_slurm_script_runs_its_part(drum, study, tmp_path):
+    script = Path(__file__).parents[2] / "examples" / "05_slurm_array.sh"
+    command = tmp_path / "bin" / "drumrs"
+    command.parent.mkdir()
+    command.write_text(f'#!/bin/sh\nexec {sys.executable} -m drumrs "$@"\n')
+    command.chmod(0o755)
+    own = {"STUDY": str(study), "OUT": str(tmp_path / "parts"), "SLURM_ARRAY_TASK_COUNT": "2"}
+    path = f"{command.parent}:{os.environ['PATH']}"
+    for task in ("1", "2"):
+        assert not (tmp_path / "parts" / "table.parquet").exists()
+        environment = {**os.environ, **own, "PATH": path, "SLURM_ARRAY_TASK_ID": task}
+        subprocess.run([shutil.which("bash"), script], env=environment, check=True, capture_output=True)
+    assert drum("sweep", study, "--out", tmp_path / "whole")[0] == 0
+    assert contents(tmp_path / "parts") == contents(tmp_path / "whole")
+
+
+def test_the_study_of_the_slurm_script_is_one(tmp_path):
+    script = Path(__file__).parents[2] / "examples" / "05_slurm_array.sh"
+    study = re.search(r"<<'TOML'\n(.*?)\nTOML", script.read_text(), re.DOTALL)
+    (tmp_path / "study.toml").write_text(study.group(1))
+    assert len(read_study(tmp_path / "study.toml")) == 60
+
+
 def test_a_quota_is_met_in_a_sentence(study, tmp_path):
     """No file of this process may be larger than a summary: the first one is not finished."""
     out = tmp_path / "out"
@@ -171,4 +200,24 @@ def test_progress_counts_cases_and_cost(study, tmp_path):
     for line in lines:
         assert line.startswith("sweep: ")
         assert " of 8 cases · " in line
-        assert line.endswith(" s left")
+        assert line.endswith((" s left", "time left unknown"))
+
+
+def test_progress_is_a_bar_in_a_terminal(study, tmp_path):
+    leader, follower = os.openpty()
+    command = [sys.executable, "-m", "drumrs", "sweep", study, "--out", tmp_path / "out"]
+    wide = {**os.environ, "TERM": "xterm", "COLUMNS": "160"}
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=follower, env=wide)
+    os.close(follower)
+    shown = b""
+    # The terminal's other end is gone once the process is over.
+    with contextlib.suppress(OSError):
+        while data := os.read(leader, 1 << 16):
+            shown += data
+    os.close(leader)
+    assert process.wait(timeout=60) == 0
+    process.communicate()
+    assert b" of 8 cases" in shown
+    assert b"8 of 8 cases" in shown
+    assert b"M particle-steps/s" in shown
+    assert b"left" in shown

@@ -1,5 +1,8 @@
 """Which cases a sweep has, what they are called, and what is refused before anything is simulated."""
 
+import re
+from pathlib import Path
+
 import numpy as np
 import polars as pl
 import pytest
@@ -147,6 +150,14 @@ def test_study_file(tmp_path):
     assert {case.config.load.diameter for case in sweep.cases} == {0.02}
     assert {case.config.contact.drum.friction for case in sweep.cases} == {0.3}
     assert len(read_study(path, seeds=3)) == 6
+
+
+def test_the_study_of_the_readme_is_one(tmp_path):
+    readme = (Path(__file__).parents[2] / "README.md").read_text(encoding="utf-8")
+    (study,) = re.findall(r"```toml\n(.*?)```", readme, re.DOTALL)
+    path = tmp_path / "study.toml"
+    path.write_text(study)
+    assert len(read_study(path)) == 18
 
 
 @pytest.mark.parametrize(

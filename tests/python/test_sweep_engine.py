@@ -4,6 +4,7 @@ import errno
 import json
 import os
 import threading
+import time
 from concurrent.futures import Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
 
 import polars as pl
@@ -11,7 +12,7 @@ import pytest
 
 import drumrs
 from drumrs.errors import ConfigError
-from drumrs.sweep import engine, worker
+from drumrs.sweep import Case, engine, run_case, worker
 from drumrs.sweep.worker import Report
 
 BASE = drumrs.baseline(fill=0.05).replace({"run.duration": 0.05, "run.frame_every": 0.05})
@@ -101,6 +102,26 @@ def test_a_failing_case_leaves_its_error_and_the_rest_go_on(tmp_path):
         assert drumrs.Config.read(tmp_path / f"{failure.case.id}.toml") == failure.case.config
         assert not (tmp_path / f"{failure.case.id}.parquet").exists()
     assert sweep.table().collect()["case"].to_list() == [good.id]
+
+
+def test_a_worker_reports_a_failure_and_leaves_its_error(tmp_path):
+    config = BASE.replace({"load.fill": 0.9})
+    told = run_case(config.model_dump_json(), str(tmp_path))
+    assert told[:3] == (Case(config).id, "failed", "ConfigError")
+    assert json.loads((tmp_path / f"{told.case}.error.json").read_text())["message"] == told.message
+
+
+def test_a_disk_in_trouble_is_no_fault_of_the_case(tmp_path, monkeypatch):
+    def fail(*_):
+        raise OSError(errno.EIO, os.strerror(errno.EIO))
+
+    monkeypatch.setattr("drumrs.sweep.store.Store.write", fail)
+    with pytest.raises(OSError, match="Input/output error"):
+        run_case(BASE.model_dump_json(), str(tmp_path))
+    assert not list(tmp_path.iterdir())
+    with pytest.raises(OSError, match="Input/output error"):
+        drumrs.Sweep(BASE).run(tmp_path, progress=False)
+    assert not list(tmp_path.glob("*.error.json"))
 
 
 def test_failures_are_run_again_only_when_asked(tmp_path, monkeypatch):
@@ -225,7 +246,7 @@ def test_a_full_disk_is_told_once_and_nothing_finished_is_lost(tmp_path, monkeyp
 
 
 def test_an_interrupt_stops_what_runs_and_keeps_what_is_finished(tmp_path, monkeypatch):
-    sweep = drumrs.Sweep(BASE, {"run.duration": [0.05, 1000.0, 2000.0]})
+    sweep = drumrs.Sweep(BASE, {"run.duration": [0.05, 60.0, 90.0]})
     short = sweep.cases[0]
     drumrs.Sweep.from_configs([short.config]).run(tmp_path, progress=False)
     calls = iter(range(3))
@@ -237,7 +258,10 @@ def test_an_interrupt_stops_what_runs_and_keeps_what_is_finished(tmp_path, monke
 
     real_wait = engine.wait
     monkeypatch.setattr(engine, "wait", interrupted_wait)
+    began = time.monotonic()
     with pytest.raises(KeyboardInterrupt, match="interrupted; 1 cases are finished and kept"):
         sweep.run(tmp_path, progress=False)
+    # Left alone, the long cases take half a minute.
+    assert time.monotonic() - began < 5.0
     assert sweep.table().collect()["case"].to_list() == [short.id]
     assert not list(tmp_path.glob("*.error.json"))

@@ -49,6 +49,11 @@ class Case:
         return self.config.run.seed
 
     @property
+    def load_mass(self) -> float:
+        """Mass of the load per meter of drum depth [kg/m]."""
+        return self.config.bundle_count * _bundle_mass(self.config)
+
+    @property
     def wants_frames(self) -> bool:
         """Whether frames are kept: where ``run.frame_every`` is smaller than ``run.duration``."""
         return self.config.run.frame_every < self.config.run.duration
@@ -68,10 +73,13 @@ def physics_version() -> int:
 def _time_step(config: Config) -> float:
     if config.run.time_step != "auto":
         return config.run.time_step
-    mass = config.load.density * math.pi * config.load.diameter**2 / 4.0
-    contact = config.contact
+    mass, contact = _bundle_mass(config), config.contact
     shortest = min(_collision_time(contact.bundle, mass / 2.0), _collision_time(contact.drum, mass))
     return shortest / _AUTO_STEPS
+
+
+def _bundle_mass(config: Config) -> float:
+    return config.load.density * math.pi * config.load.diameter**2 / 4.0
 
 
 def _collision_time(law: LinearContact, effective_mass: float) -> float:

@@ -16,6 +16,7 @@ from drumrs.sweep.worker import Report
 
 # How often progress is shown; a Ctrl-C is seen at once.
 _TICK = 0.25
+_MOST_NAMED = 10
 
 
 @dataclass(frozen=True)
@@ -97,8 +98,7 @@ def run_cases(cases: Sequence[Case], folder: Path, order: Order) -> Outcome:
         store.open()
         waiting = _take_stock(mine, store, tally, retry=order.retry)
         with board(show=order.progress) as shown:
-            for sentence in tally.replaced:
-                shown.note(f"{sentence}; it is computed again")
+            _name_replaced(tally.replaced, shown)
             _hand_out(waiting, workers, store, tally, shown)
     own = {case.id for case in mine}
     left = [case for case in ordered if case.id not in own and not store.is_settled(case)]
@@ -110,6 +110,13 @@ def run_cases(cases: Sequence[Case], folder: Path, order: Order) -> Outcome:
         left=len(left),
         replaced=tuple(tally.replaced),
     )
+
+
+def _name_replaced(sentences: Sequence[str], shown: Board) -> None:
+    for sentence in sentences[:_MOST_NAMED]:
+        shown.note(f"{sentence}; it is computed again")
+    if len(sentences) > _MOST_NAMED:
+        shown.note(f"… and {len(sentences) - _MOST_NAMED} more are computed again")
 
 
 @contextmanager

@@ -17,13 +17,14 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from drumrs.analysis import statistics
 from drumrs.config.report import show
 from drumrs.errors import ConfigError
 from drumrs.files import NO_ROOM, write_whole
 from drumrs.frames import Frames
-from drumrs.result import Result
+from drumrs.result import Result, Summary
 from drumrs.sweep.case import Case
-from drumrs.sweep.columns import TIMINGS, row
+from drumrs.sweep.columns import TIMINGS, row, schema
 from drumrs.sweep.sealed import FORMAT, read_sealed, write_sealed
 
 if TYPE_CHECKING:
@@ -91,15 +92,14 @@ class Store:
         if not self._path(case, "parquet").exists():
             return ""
         try:
-            for content in ("summary", "series", *(["frames"] if case.wants_frames else [])):
+            self._read_row(case)
+            for content in ("series", *(["frames"] if case.wants_frames else [])):
                 self._read(case, content)
         except ConfigError as error:
             return str(error)
         return None
 
-    def write(
-        self, case: Case, result: Result, statistics: "Mapping[str, Any]", facts: "Mapping[str, Any]"
-    ) -> None:
+    def write(self, case: Case, result: Result, facts: "Mapping[str, Any]") -> None:
         """Keep the results of a case; the record of completion comes last.
 
         Parameters
@@ -108,8 +108,6 @@ class Store:
             Whose results they are.
         result
             Summary, series and frames.
-        statistics
-            What `analysis.statistics` makes of the series.
         facts
             What differs from run to run, beside the summary's timings.
 
@@ -126,8 +124,28 @@ class Store:
             write_sealed(self._parquet(case, "frames"), case, "frames", frames.table(), frames.metadata())
         timings = {name: getattr(result.summary, name) for name in TIMINGS}
         self._write_json(case, "facts", {"case": case.id, **timings, **facts})
-        write_sealed(self._parquet(case, "summary"), case, "summary", row(case, result.summary, statistics))
+        self._write_row(case, result.summary, result.series)
         self._path(case, "error.json").unlink(missing_ok=True)
+
+    def renew(self, case: Case) -> bool:
+        """Make the row of a finished case again where an older version wrote it with other columns.
+
+        Everything that the row tells beyond the summary comes from the series, so nothing is simulated.
+
+        Returns
+        -------
+        bool
+            Whether the results are whole now.
+        """
+        import polars as pl
+
+        try:
+            old = pl.read_parquet(self._read(case, "summary")).row(0, named=True)
+            summary = Summary.from_mapping({**dict.fromkeys(TIMINGS), **old})
+            self._write_row(case, summary, self.series(case))
+        except (ConfigError, KeyError):
+            return False
+        return self.fault(case) is None
 
     def write_error(self, case: Case, error: Exception) -> None:
         """Keep why a case failed, beside its configuration."""
@@ -154,7 +172,7 @@ class Store:
         path = self._path(case, "parquet")
         if not path.exists():
             return None
-        self._read(case, "summary")
+        self._read_row(case)
         return path
 
     def series(self, case: Case) -> "pl.DataFrame":
@@ -177,6 +195,18 @@ class Store:
 
     def _read(self, case: Case, content: str) -> "io.BytesIO":
         return read_sealed(self._parquet(case, content), case, content)
+
+    def _write_row(self, case: Case, summary: Summary, series: "pl.DataFrame") -> None:
+        found = statistics(series, case.config.run.averaging_window, case.load_mass)
+        write_sealed(self._parquet(case, "summary"), case, "summary", row(case, summary, found))
+
+    def _read_row(self, case: Case) -> None:
+        """Refuse a row that is damaged, another's or of other columns."""
+        import polars as pl
+
+        if pl.read_parquet_schema(self._read(case, "summary")) != schema():
+            path = self._parquet(case, "summary")
+            raise ConfigError(f"{str(path)!r} has the columns of another version of drumrs")
 
     def _parquet(self, case: Case, content: str) -> Path:
         return self._path(case, "parquet" if content == "summary" else f"{content}.parquet")

@@ -1,7 +1,6 @@
 """One case, run to its end and kept: what every executor is handed, on threads and on other machines alike."""
 
 import json
-import math
 import platform
 import signal
 import threading
@@ -9,7 +8,6 @@ from collections.abc import Callable
 from multiprocessing.synchronize import Event
 from typing import NamedTuple
 
-from drumrs.analysis import statistics
 from drumrs.config import Config
 from drumrs.protocol import finish
 from drumrs.simulation import Simulation, info
@@ -111,8 +109,8 @@ def run_case(config_json: str, folder: str, running: Running | None = None) -> R
     """
     case = Case(Config.model_validate(json.loads(config_json)))
     store = Store(folder)
-    # Another sweep may have finished it while it stood in the queue.
-    if store.fault(case) is None:
+    # Another sweep may have finished it while it stood in the queue; an older version may have left it all but its row.
+    if store.fault(case) is None or store.renew(case):
         return Report(case.id, "finished")
     try:
         kept = _simulate(case, store, running or _here)
@@ -130,9 +128,7 @@ def _simulate(case: Case, store: Store, running: Running) -> bool:
     try:
         if not finish(simulation, report):
             return False
-        result = simulation.result()
-        found = statistics(result.series, case.config.run.averaging_window, math.fsum(simulation.masses))
-        store.write(case, result, found, _facts())
+        store.write(case, simulation.result(), _facts())
     finally:
         running.end(simulation)
     return True

@@ -1,0 +1,60 @@
+"""Which of fill, friction, speed and restitution matters most? A Latin hypercube asks with a few random cases.
+
+Needs `pip install 'drumrs[design]'`.
+"""
+
+import argparse
+from pathlib import Path
+
+import polars as pl
+from scipy.stats import qmc
+
+import drumrs
+
+# Keys of the configuration, with the range that each is drawn from.
+RANGES = {
+    "load.fill": (0.10, 0.70),
+    "contact.bundle.friction": (0.05, 1.0),
+    "rotation.rpm": (20.0, 70.0),
+    "contact.bundle.restitution": (0.05, 0.9),
+}
+
+
+def design(count: int) -> pl.DataFrame:
+    """Return as many cases, spread over all ranges at once, one row each."""
+    lowest, highest = zip(*RANGES.values(), strict=True)
+    points = qmc.scale(qmc.LatinHypercube(d=len(RANGES), rng=1).random(count), lowest, highest)
+    # Bundles meet the drum as they meet each other.
+    return pl.DataFrame(points, schema=list(RANGES), orient="row").with_columns(
+        pl.col("contact.bundle.friction").alias("contact.drum.friction"),
+        pl.col("contact.bundle.restitution").alias("contact.drum.restitution"),
+    )
+
+
+def main() -> None:
+    """Run the design and print the rank correlation of every parameter with the specific power."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--small", action="store_true", help="six small cases, for a moment each")
+    parser.add_argument("--out", type=Path, default=Path("out/latin_hypercube"), help="folder of the results")
+    options = parser.parse_args()
+
+    rows = design(6 if options.small else 64)
+    base = drumrs.baseline().replace({"run.duration": 30.0})
+    if options.small:
+        base = base.replace({"run.duration": 0.1})
+        rows = rows.with_columns(pl.col("load.fill") / 5.0)
+    sweep = drumrs.Sweep.from_rows(base, rows, seeds=[1])
+    sweep.run(options.out)
+
+    power = pl.col("specific_power")
+    strengths = (
+        sweep.table().select(pl.corr(key, power, method="spearman").alias(key) for key in RANGES).collect()
+    )
+    print("rank correlation with the specific power (−1 … 1):")
+    for key in RANGES:
+        print(f"  {key:28} {strengths[key].item():+.2f}")
+    print(f"wrote {sweep.write_table()}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,31 @@
+//! Particles in fours: whole quads of a slice, the rest filled up, vectors as rows of lanes.
+
+use crate::lanes::{LANES, Lanes};
+use crate::vector::Vec2;
+
+/// What comes after the last whole quad, filled up with zeros.
+pub(super) fn rest_of<T: Copy + Default>(values: &[T]) -> [T; LANES] {
+    let (_, rest) = values.as_chunks::<LANES>();
+    let mut padded = [T::default(); LANES];
+    padded[..rest.len()].copy_from_slice(rest);
+    padded
+}
+
+/// Replaces what comes after the last whole quad.
+pub(super) fn put_rest<T: Copy>(values: &mut [T], new: &[T; LANES]) {
+    let (_, rest) = values.as_chunks_mut::<LANES>();
+    rest.copy_from_slice(&new[..rest.len()]);
+}
+
+/// Four vectors as two rows: x and y of the first two, then of the last two.
+#[inline(always)]
+pub(super) fn two_by_two(v: &[Vec2; LANES]) -> [Lanes; 2] {
+    [Lanes::new([v[0].x, v[0].y, v[1].x, v[1].y]), Lanes::new([v[2].x, v[2].y, v[3].x, v[3].y])]
+}
+
+/// The inverse of `two_by_two`.
+#[inline(always)]
+pub(super) fn four_vectors(rows: [Lanes; 2]) -> [Vec2; LANES] {
+    let [[a, b, c, d], [e, f, g, h]] = rows.map(Lanes::to_array);
+    [Vec2::new(a, b), Vec2::new(c, d), Vec2::new(e, f), Vec2::new(g, h)]
+}
