@@ -26,6 +26,7 @@ app = App(
     help_format="markdown",
     help_epilogue=(
         "Examples:\n\n"
+        "- `drumrs reproduce --quick` runs the paper's study in small and writes out/report.html\n"
         "- `drumrs baseline --out out` runs the paper's drum without and with baffles\n"
         "- `drumrs config > case.toml` writes every key, with unit and meaning\n"
         "- `drumrs run case.toml --set contact.bundle.friction=0.3 --out out`\n"
