@@ -19,8 +19,8 @@ unexport CONDA_PREFIX
 help: ## list the commands
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "make %-8s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
 
-run: develop ## run the paper's drum without and with baffles; results and pictures in out/
-	$(BIN)/drumrs baseline --out $(OUT)
+run: develop ## run the paper's study in small: figures, verdicts on its claims, out/report.html
+	$(BIN)/drumrs reproduce --quick --out $(OUT)
 
 test: develop ## test the physics, the package and the documentation
 	@if command -v cargo-nextest >/dev/null; then cargo nextest run --no-fail-fast; else cargo test --lib --tests --no-fail-fast; fi

@@ -154,6 +154,12 @@ def test_time_passes_as_fast_as_chosen(show):
         assert shown.page.evaluate(measure, str(pace)) == pytest.approx(pace, rel=0.2)
 
 
+def test_it_starts_where_told(show):
+    shown = show(f"<!doctype html>{Player(scene()).element(start=1.01)}{assets()}")
+    assert shown.time == pytest.approx(1.0)
+    assert shown.part("time").inner_text() == "1.00 s"
+
+
 def test_it_stops_at_the_end_and_starts_anew(show):
     shown = show()
     shown.press("End")

@@ -9,6 +9,7 @@ import drumrs
 from drumrs.cli.baseline import baseline
 from drumrs.cli.config import config
 from drumrs.cli.info import info
+from drumrs.cli.reproduce import reproduce
 from drumrs.cli.run import run
 from drumrs.cli.sweep import sweep
 from drumrs.cli.view import view
@@ -25,6 +26,7 @@ app = App(
     help_format="markdown",
     help_epilogue=(
         "Examples:\n\n"
+        "- `drumrs reproduce --quick` runs the paper's study in small and writes out/report.html\n"
         "- `drumrs baseline --out out` runs the paper's drum without and with baffles\n"
         "- `drumrs config > case.toml` writes every key, with unit and meaning\n"
         "- `drumrs run case.toml --set contact.bundle.friction=0.3 --out out`\n"
@@ -38,7 +40,7 @@ app = App(
     result_action="return_value",
 )
 
-for _command in (run, baseline, sweep, view, config, info):
+for _command in (run, baseline, reproduce, sweep, view, config, info):
     app.command(_command)
 
 

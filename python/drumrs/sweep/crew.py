@@ -89,7 +89,7 @@ def crew(executor: Executor | str | None, jobs: int | None) -> Iterator[Crew]:
     ConfigError
         Where no crew can be had of these.
     """
-    _check_jobs(jobs)
+    check_jobs(jobs)
     count = jobs or usable_cores()
     if executor is None or executor == "threads":
         with ThreadPoolExecutor(count, thread_name_prefix="drumrs") as pool:
@@ -107,7 +107,14 @@ def crew(executor: Executor | str | None, jobs: int | None) -> Iterator[Crew]:
         raise ConfigError(f"executor is {executor!r:.60}, but must be 'threads', 'processes' or an Executor")
 
 
-def _check_jobs(jobs: int | None) -> None:
+def check_jobs(jobs: int | None) -> None:
+    """Refuse a number of jobs that is none.
+
+    Raises
+    ------
+    ConfigError
+        Where it is not a whole number within the limits.
+    """
     if jobs is None:
         return
     if isinstance(jobs, bool) or not isinstance(jobs, int) or not 1 <= jobs <= _MOST_JOBS:

@@ -58,6 +58,11 @@ class Player:
     ConfigError
         Where there is no frame to show.
 
+    Attributes
+    ----------
+    window
+        Interval of the averages [s], `None` where there is none.
+
     Examples
     --------
     >>> import drumrs
@@ -83,26 +88,30 @@ class Player:
         self._frames = frames
         self._series = series
         self._title = title
-        self._window = window
+        self.window = window
 
     def __repr__(self) -> str:
         """Say what would be shown."""
         return f"<Player of {self._frames.count} bundles, {len(self._frames)} frames>"
 
-    def element(self, *, autoplay: bool = False) -> str:
+    def element(self, *, autoplay: bool = False, start: float | None = None) -> str:
         """Return the player as an HTML element; the page needs `assets` once, anywhere.
 
         Parameters
         ----------
         autoplay
             Whether to play at once, unless the reader's system asks for less motion.
+        start
+            Time to show first [s]; the first frame unless given.
         """
-        data = json.dumps(recording(self._frames, self._series, self._title, self._window), allow_nan=False)
+        data = json.dumps(recording(self._frames, self._series, self._title, self.window), allow_nan=False)
         # A title may hold any text, but none that would end the script.
         safe = data.replace("<", "\\u003c")
         script = f'<script type="application/json">{safe}</script>'
-        attribute = " autoplay" if autoplay else ""
-        return f"<drumrs-player{attribute}>{script}</drumrs-player>"
+        attributes = " autoplay" if autoplay else ""
+        if start is not None:
+            attributes += f' start="{start:g}"'
+        return f"<drumrs-player{attributes}>{script}</drumrs-player>"
 
     def page(self, *, autoplay: bool = True) -> str:
         """Return the player as a whole HTML page."""

@@ -31,7 +31,7 @@ class DrumPlayer extends HTMLElement {
     this.coloring = new Coloring(this.recording);
     this.theme = {};
     this.stage = new Stage(this.part_("stage"), this.recording, this.theme);
-    this.time = this.recording.begin;
+    this.time = this.recording.times[this.recording.nearest(Number(this.getAttribute("start") ?? -Infinity))];
     this.playing = false;
     this.fill();
     this.listen();

@@ -1,0 +1,100 @@
+"""`drumrs reproduce`: the paper's study, from the first run to the report."""
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+from cyclopts import Parameter
+
+from drumrs.cli.options import check_folder
+from drumrs.cli.tables import print_paths
+from drumrs.errors import ConfigError
+
+if TYPE_CHECKING:
+    from drumrs.reproduction import Plan, Reproduction
+
+_FAILED = 1
+_STYLES = {"holds": "green", "does not hold": "red", "undecided": "yellow"}
+
+Flag = Annotated[bool, Parameter(negative="")]
+
+
+def reproduce(
+    *,
+    quick: Flag = False,
+    full: Flag = False,
+    out: Path = Path("out"),
+    jobs: Annotated[int | None, Parameter(help="Cases at once; one a usable core unless given.")] = None,
+    retry: Flag = False,
+) -> int:
+    """Run the paper's whole study, judge its claims, draw its figures, and write a report of one HTML file.
+
+    The same command goes on after Ctrl-C or a power cut; what is finished is not simulated again.
+
+    Parameters
+    ----------
+    quick
+        One seed, short windows, few points: minutes. What that cannot decide stays undecided.
+    full
+        Ten seeds instead of three.
+    out
+        Folder for report.html, table.parquet, figures/ and runs/.
+    retry
+        Run cases again that failed before.
+    """
+    from drumrs.reproduction import Plan
+
+    if quick and full:
+        raise ConfigError("--quick and --full are both given, but only one of them may be")
+    check_folder(out)
+    plan = Plan("quick" if quick else "full" if full else "default", out, jobs)
+    _announce(plan)
+    done = plan.run(retry=retry, say=_say)
+    _print_verdicts(done)
+    print_paths([*sorted({done.table, out / "figures"}), done.report])
+    return _tell_failures(done)
+
+
+def _say(sentence: str) -> None:
+    sys.stderr.write(f"{sentence} …\n")
+    sys.stderr.flush()
+
+
+def _announce(plan: "Plan") -> None:
+    from drumrs.report.facts import duration
+
+    count, waiting = len(plan.sweep), len(plan.waiting)
+    done = f", {count - waiting} of them settled already" if waiting < count else ""
+    cores = f"{plan.jobs} core{'s' if plan.jobs > 1 else ''}"
+    _say(
+        f"{plan.scale} study: {count} cases{done}, {plan.cost:.2g} particle-steps to do, "
+        f"about {duration(plan.expected_time())} on {cores}"
+    )
+
+
+def _print_verdicts(done: "Reproduction") -> None:
+    from rich.console import Console
+    from rich.markup import escape
+
+    console = Console(highlight=False)
+    wide = max(map(len, _STYLES))
+    for verdict in done.findings.verdicts:
+        shown = f"[{_STYLES[verdict.verdict]}]{verdict.verdict:<{wide}}[/]"
+        # One line a claim, so that all of them fit on a screen.
+        line = f"{verdict.claim:<3}  {shown}  {escape(verdict.statement)}"
+        console.print(line, no_wrap=True, overflow="ellipsis")
+    for picture in done.pictures:
+        if picture.missing:
+            sys.stdout.write(f"not drawn: {picture.figure.number}, for want of {picture.missing}\n")
+
+
+def _tell_failures(done: "Reproduction") -> int:
+    failures = done.findings.failures
+    for failure in failures:
+        sys.stderr.write(
+            f"drumrs: case {failure.case.id} ({failure.case.config.title}) failed: {failure.message}\n"
+        )
+    if failures:
+        total = len(done.findings.sweep)
+        sys.stderr.write(f"drumrs: {len(failures)} of {total} cases failed; --retry runs them again\n")
+    return _FAILED if failures else 0
