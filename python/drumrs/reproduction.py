@@ -68,7 +68,7 @@ class Plan:
     --------
     >>> from drumrs.reproduction import Plan
     >>> Plan("quick", "somewhere")
-    <Plan of 38 cases, 38 to be run>
+    <Plan of 41 cases, 41 to be run>
     """
 
     def __init__(self, scale: str | study.Scale, folder: str | Path, jobs: int | None = None) -> None:
