@@ -13,7 +13,7 @@ from drumrs.simulation import Simulation
 from drumrs.state import State
 from drumrs.verification import scenes, theory
 from drumrs.verification.case import case
-from drumrs.verification.evidence import Check, Evidence, Panel, Trace, checks, checks_at
+from drumrs.verification.evidence import Check, Evidence, Panel, Trace, checks, checks_at, shared_curve
 from drumrs.verification.scenes import MASS, PAIR_FREQUENCY, RADIUS, TIME_STEP, WALL_FREQUENCY
 
 Array = NDArray[np.float64]
@@ -192,7 +192,9 @@ def spins() -> Evidence:
         fine = np.linspace(-2.1, 2.1, 400)
         label = f"v_t = {tangential:g} v_n"
         traces.append(Trace(label, turning, slip / _CLOSING, (fine, _slip_after(fine + tangential))))
-    panel = Panel("r ω/v_n before", "slip after / closing speed", tuple(traces))
+    panel = Panel(
+        "r ω/v_n before", "slip after / closing speed", (shared_curve(fine, _slip_after(fine)), *traces)
+    )
     return Evidence(tuple(found), panel)
 
 
@@ -228,7 +230,7 @@ def _of_two_bodies(radii: tuple[float, float], spin: tuple[float, float]) -> tup
 def _pairs_with_spins(radii: tuple[float, float], others: tuple[float, ...]) -> Evidence:
     """Return impacts of two bodies with varied spins, the second's a multiple of the first's."""
     found, traces = [], []
-    values = np.array([-20.0, -8.0, -3.0, -0.5, 0.8, 2.0, 5.0, 12.0, 20.0])
+    values = np.array([-6.0, -3.0, -1.4, -0.5, 0.4, 1.0, 2.2, 4.0, 6.0])
     for other in others:
         x, y = [], []
         for value in values:
@@ -240,9 +242,13 @@ def _pairs_with_spins(radii: tuple[float, float], others: tuple[float, ...]) -> 
         traces.append(Trace(f"ω₂ = {other:g} ω₁", np.array(x), np.array(y)))
     most = max(float(np.max(np.abs(trace.x))) for trace in traces)
     fine = np.linspace(-most, most, 400)
-    traces[0] = Trace(traces[0].label, traces[0].x, traces[0].y, (fine, _slip_after(fine)))
     return Evidence(
-        tuple(found), Panel("slip before / closing speed", "slip after / closing speed", tuple(traces))
+        tuple(found),
+        Panel(
+            "slip before / closing speed",
+            "slip after / closing speed",
+            (shared_curve(fine, _slip_after(fine)), *traces),
+        ),
     )
 
 

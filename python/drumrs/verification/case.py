@@ -79,7 +79,7 @@ class Trial:
 def case(
     name: str, *, source: str, formula: str, cost: float = 1e5
 ) -> Callable[[Callable[[], Evidence]], Case]:
-    """Make a case of a function: its docstring's first line is the title, the rest says why the tolerance is what it is.
+    """Make a case of a function: its docstring's first line is the title, the rest says where the tolerance is from.
 
     Parameters
     ----------

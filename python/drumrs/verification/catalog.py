@@ -4,12 +4,12 @@ from collections.abc import Sequence
 from types import MappingProxyType
 
 from drumrs.errors import ConfigError
-from drumrs.verification import balances, bodies, friction, impacts, promises, rotation
+from drumrs.verification import balances, bodies, friction, impacts, promises, rotation, sliding
 from drumrs.verification.case import Case
 
 FAMILIES = MappingProxyType(
     {
-        "Impacts of one contact": impacts.CASES,
+        "Impacts of one contact": impacts.CASES + sliding.CASES,
         "The eight impact tests of Chung & Ooi": bodies.CASES,
         "Friction and rolling": friction.CASES,
         "In a turning drum": rotation.CASES,

@@ -94,6 +94,11 @@ class Trace:
     curve: tuple[ArrayLike, ArrayLike] | None = None
 
 
+def shared_curve(x: ArrayLike, y: ArrayLike) -> Trace:
+    """Return a curve that several sets of points share."""
+    return Trace("", (), (), (x, y))
+
+
 @dataclass(frozen=True, eq=False)
 class Panel:
     """What is drawn of a case.
@@ -112,6 +117,23 @@ class Panel:
     y: str
     traces: tuple[Trace, ...]
     logarithmic: bool = False
+
+
+def vanishing(label: str, traces: Sequence[Trace]) -> Panel:
+    """Return what is drawn of numbers that must vanish: each over its tolerance, between the bounds −1 and 1.
+
+    Parameters
+    ----------
+    label
+        Label of the horizontal axis.
+    traces
+        The numbers, over their tolerances.
+    """
+    x = np.concatenate([np.ravel(np.asarray(trace.x, float)) for trace in traces])
+    left, right = float(x.min()), float(x.max())
+    frame = Trace("allowed", (), (), ([left, right, right, left, left], [-1.0, -1.0, 1.0, 1.0, -1.0]))
+    zero = shared_curve([left, right], [0.0, 0.0])
+    return Panel(label, "measured / allowed", (zero, frame, *traces))
 
 
 @dataclass(frozen=True, eq=False)

@@ -106,8 +106,8 @@ def _acceleration(slope: float, friction: float, time: float) -> float:
 def stack() -> Evidence:
     """A stack of eight discs at rest: overlap at each level.
 
-    At rest the scheme errs by the round-off of positions alone. Each disc finds rest with forces right to the last place of
-    its own height, ε y k; at each level the errors of all above add up.
+    At rest the scheme errs by the round-off of positions alone. Each disc finds rest with forces right to the last
+    place of its own height, ε y k; at each level the errors of all above add up.
     """
     count = 8
     config = scenes.floor({"run.time_step": TIME_STEP, "gravity": (0.0, -GRAVITY)})

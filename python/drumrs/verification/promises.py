@@ -1,8 +1,7 @@
 """The promises kept bit for bit: scaling, mirror, restart, threads, neighbor list; and relabelling, to round-off."""
 
-import math
 import tempfile
-from collections.abc import Iterable
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -14,12 +13,12 @@ from drumrs.simulation import Simulation
 from drumrs.state import State
 from drumrs.verification import scenes
 from drumrs.verification.case import case
-from drumrs.verification.evidence import Check, Evidence, Panel, Trace
+from drumrs.verification.evidence import Check, Evidence, Panel, Trace, shared_curve
 from drumrs.verification.scenes import RADIUS
 
 Array = NDArray[np.float64]
 
-_MOST_DRAWN = 150
+_MOST_DRAWN = 60
 _BED_STEPS = 2000
 
 
@@ -39,16 +38,12 @@ def _differing(one: Array, other: Array) -> float:
     return float(np.count_nonzero(one.view(np.int64) != other.view(np.int64)))
 
 
-def _diagonal(labels: Iterable[str], runs: Iterable[Array], reference: Array, words: str) -> Panel:
-    """Draw coordinates of one run against those of others, thinned out."""
+def _diagonal(runs: Mapping[str, Array], reference: Array, words: str) -> Panel:
+    """Draw coordinates of one run against those of others by label, thinned out."""
     pick = slice(None, None, max(1, reference.size // _MOST_DRAWN))
-    line = ([float(reference.min()), float(reference.max())],) * 2
-    traces = [
-        Trace(label, reference.ravel()[pick], run.ravel()[pick])
-        for label, run in zip(labels, runs, strict=True)
-    ]
-    traces[0] = Trace(traces[0].label, traces[0].x, traces[0].y, line)
-    return Panel("coordinates [m]", f"coordinates {words} [m]", tuple(traces))
+    ends = [float(reference.min()), float(reference.max())]
+    traces = [Trace(label, reference.ravel()[pick], run.ravel()[pick]) for label, run in runs.items()]
+    return Panel("coordinates [m]", f"coordinates {words} [m]", (shared_curve(ends, ends), *traces))
 
 
 def _small(baffles: bool, changes: dict[str, Any] | None = None) -> Config:
@@ -89,13 +84,13 @@ def _scaled(config: Config, mass: float) -> Config:
     cost=2e7,
 )
 def scaling() -> Evidence:
-    """A drum four times as large, with masses scaled by powers of two: the same trajectory in every bit.
+    """A drum four times as large, with masses scaled by powers of two: the scaled trajectory.
 
     Every bit: powers of two scale without rounding, so one differing number betrays a hidden constant.
     """
     program = [[0.0, 54.0], [0.02, -54.0], [0.06, 27.0]]
     changes = {"rotation.program": program, "contact.drum.normal_damping": 7.74e3}
-    found, runs, labels = [], [], []
+    found, runs = [], {}
     for baffles in (False, True):
         config = _small(baffles, changes)
         plain = _ran(config, 20_000)
@@ -103,10 +98,9 @@ def scaling() -> Evidence:
             large = _ran(_scaled(config, mass), 20_000)
             label = f"{'3 baffles' if baffles else 'no baffles'}, masses × {mass:g}"
             found.append(Check(f"numbers that differ, {label}", "1", 0.0, _unlike(plain, large, mass), 0.0))
-            labels.append(label)
-            runs.append(large.positions / 4.0)
-    # Both worlds share one axis: the last reference is the drum with baffles.
-    return Evidence(tuple(found), _diagonal(labels[2:], runs[2:], plain.positions, "of the large drum / 4"))
+            if baffles:
+                runs[f"masses × {mass:g}"] = large.positions / 4.0
+    return Evidence(tuple(found), _diagonal(runs, plain.positions, "of the large drum / 4"))
 
 
 def _unlike(plain: Simulation, large: Simulation, mass: float) -> float:
@@ -145,16 +139,16 @@ def mirror() -> Evidence:
         Check(f"{name} that differ", "1", 0.0, float(np.count_nonzero(one != another)), 0.0)
         for name, one, another in pairs
     ]
-    return Evidence(tuple(found), _diagonal([""], [other.positions * flip], plain.positions, "mirrored back"))
+    return Evidence(tuple(found), _diagonal({"": other.positions * flip}, plain.positions, "mirrored back"))
 
 
 @case("relabelling", source="symmetry", formula="permuted bundles: the permuted trajectory", cost=1e7)
 def relabelling() -> Evidence:
     """Bundles in another order give the same trajectory, but for round-off.
 
-    Sums run in another order then, and their round-off grows with every collision. How far is measured: the same bed with
-    every coordinate moved by one unit in the last place, four times. Ten times the greatest growth is allowed, and that
-    must be below 10⁻⁴ r for the comparison to mean anything.
+    Sums run in another order then, and their round-off grows with every collision. How far is measured: the same bed
+    with every coordinate moved by one unit in the last place, four times. Ten times the greatest growth is allowed,
+    and that must be below 10⁻⁴ r for the comparison to mean anything.
     """
     config, bed = _bed()
     places, speeds, turning = (np.asarray(a) for a in (bed.positions, bed.velocities, bed.angular_velocities))
@@ -174,7 +168,7 @@ def relabelling() -> Evidence:
         Check("greatest distance", "m", 0.0, apart, 10.0 * grown),
         Check("growth of a last place, over r", "1", 0.0, grown / RADIUS, 1e-4),
     )
-    return Evidence(found, _diagonal([""], [back], plain, "relabelled"))
+    return Evidence(found, _diagonal({"": back}, plain, "relabelled"))
 
 
 def _bed() -> tuple[Config, State]:
@@ -190,7 +184,7 @@ def restart() -> Evidence:
 
     Every bit: 0 numbers may differ.
     """
-    found, labels, runs = [], [], []
+    found, runs = [], {}
     config = _small(baffles=True)
     straight = _ran(config, 12_000)
     with tempfile.TemporaryDirectory() as folder:
@@ -202,9 +196,8 @@ def restart() -> Evidence:
             resumed.run(steps=12_000 - step)
             differing = _differing(_numbers(straight), _numbers(resumed))
             found.append(Check(f"numbers that differ, restart at step {step}", "1", 0.0, differing, 0.0))
-            labels.append(f"step {step}")
-            runs.append(resumed.positions)
-    return Evidence(tuple(found), _diagonal(labels, runs, straight.positions, "after a restart"))
+            runs[f"step {step}"] = resumed.positions
+    return Evidence(tuple(found), _diagonal(runs, straight.positions, "after a restart"))
 
 
 @case("skins", source="promise", formula="the same bits", cost=3e7)
@@ -213,7 +206,7 @@ def skins() -> Evidence:
 
     Every bit: 0 numbers may differ.
     """
-    found, labels, runs = [], [], []
+    found, runs = [], {}
     for baffles in (False, True):
         config = _small(baffles=baffles)
         reference = _ran(config, 12_000)
@@ -223,9 +216,8 @@ def skins() -> Evidence:
             place = f"skin {skin / RADIUS:.2g} r, {'3 baffles' if baffles else 'no baffles'}"
             found.append(Check(f"numbers that differ, {place}", "1", 0.0, differing, 0.0))
             if baffles:
-                labels.append(f"{skin / RADIUS:.2g} r")
-                runs.append(other.positions)
-    return Evidence(tuple(found), _diagonal(labels, runs, reference.positions, "with another skin"))
+                runs[f"{skin / RADIUS:.2g} r"] = other.positions
+    return Evidence(tuple(found), _diagonal(runs, reference.positions, "with another skin"))
 
 
 @case("threads", source="promise", formula="the same bits", cost=6e7)
@@ -243,14 +235,13 @@ def threads() -> Evidence:
     }
     config = _small(baffles=True, changes=changes)
     reference = _ran(config, 1500)
-    found, labels, runs = [], [], []
+    found, runs = [], {}
     for number in (2, 3, 5):
         other = _ran(config, 1500, threads=number)
         differing = _differing(_numbers(reference), _numbers(other))
         found.append(Check(f"numbers that differ, {number} threads", "1", 0.0, differing, 0.0))
-        labels.append(f"{number} threads")
-        runs.append(other.positions)
-    return Evidence(tuple(found), _diagonal(labels, runs, reference.positions, "with more threads"))
+        runs[f"{number} threads"] = other.positions
+    return Evidence(tuple(found), _diagonal(runs, reference.positions, "with more threads"))
 
 
 CASES = (scaling, mirror, relabelling, restart, threads, skins)

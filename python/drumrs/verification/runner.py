@@ -62,8 +62,8 @@ class Verification:
         import polars as pl
 
         texts = ("family", "case", "title", "source", "quantity", "unit", "error")
-        types: dict[str, Any] = {name: pl.String for name in texts}
-        types |= {name: pl.Float64 for name in ("expected", "measured", "tolerance", "strain", "wall_time")}
+        types: dict[str, Any] = dict.fromkeys(texts, pl.String)
+        types |= dict.fromkeys(("expected", "measured", "tolerance", "strain", "wall_time"), pl.Float64)
         types |= {"checks": pl.Int64, "passed": pl.Boolean}
         return pl.DataFrame([_row(trial) for trial in self.trials], schema_overrides=types)
 

@@ -55,6 +55,11 @@ def elastic(friction: float) -> dict[str, Any]:
     return {key: value for law in laws.items() for key, value in both(*law).items()}
 
 
+def damping(ratio: float) -> dict[str, Any]:
+    """Return the key of a dashpot against the drum, of a damping ratio."""
+    return {"contact.drum.normal_damping": 2.0 * ratio * float(np.sqrt(WALL_STIFFNESS * MASS))}
+
+
 def after(config: Config, state: State | None, seconds: float, *, samples: int = 1) -> Simulation:
     """Return a simulation that has run for a time, rounded up to whole steps, with so many samples on the way."""
     step = config.run.time_step

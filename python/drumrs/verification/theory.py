@@ -5,8 +5,8 @@ How far a run may be off
 With θ = ω₀ Δt, the phase by which an undamped contact advances in a step:
 
 - The leapfrog swings with (2/Δt) asin(θ/2) instead of ω₀: too fast by θ²/24. The dashpot sees a foretold velocity,
-  which lacks ⅜ Δt² of its second derivative, ⅜ θ² of itself. Sums over a contact are trapezoids, whose error is θ²/12 of
-  what they add. Each of these is below θ² of the speeds at hand, and a contact is of the order of one in ω₀ t: a
+  which lacks ⅜ Δt² of its second derivative, ⅜ θ² of itself. Sums over a contact are trapezoids, whose error is θ²/12
+  of what they add. Each of these is below θ² of the speeds at hand, and a contact is of the order of one in ω₀ t: a
   formula is met within **θ²**. A dashpot alone stops a body within 1/(2 z ω₀): at damping ratios z above ½ that is
   the faster, and θ = 2 z ω₀ Δt.
 - A force that jumps where bodies meet or part (the dashpot's, a stretched tangential spring's) is right to half a step:
@@ -62,7 +62,7 @@ def clipped_restitution(ratio: ArrayLike) -> Array:
     Source: Schwager & Pöschel, Granular Matter 9 (2007) 465.
     """
     z = np.asarray(ratio, dtype=float)
-    return np.exp(-z / np.sqrt(1.0 - z**2) * (math.pi - 2.0 * np.arcsin(z)))
+    return np.asarray(np.exp(-z / np.sqrt(1.0 - z**2) * (math.pi - 2.0 * np.arcsin(z))))
 
 
 def damping_ratio(restitution: float, *, clipped: bool = False) -> float:
@@ -91,9 +91,9 @@ def _clipped_decay(ratio: float) -> float:
 def tangential_impulse(slip: ArrayLike, closing: float, friction: float) -> Array:
     """Return J/m* of an elastic impact with kₛ/kₙ = 1/3 [m/s].
 
-    A disc's tangential mass is m*/3, so the spring swings along the tangent as fast as along the normal, and both forces
-    keep their ratio: the contact sticks throughout, and J = ⅔ m* s turns the slip s round, or it slides throughout,
-    and J = 2 μ m* w with the closing speed w.
+    A disc's tangential mass is m*/3, so the spring swings along the tangent as fast as along the normal, and both
+    forces keep their ratio: the contact sticks throughout, and J = ⅔ m* s turns the slip s round, or it slides
+    throughout, and J = 2 μ m* w with the closing speed w.
     """
     s = np.asarray(slip, dtype=float)
-    return np.copysign(np.minimum(2.0 / 3.0 * np.abs(s), 2.0 * friction * closing), s)
+    return np.asarray(np.copysign(np.minimum(2.0 / 3.0 * np.abs(s), 2.0 * friction * closing), s))
