@@ -47,9 +47,17 @@ class Law:
             raise ValueError(f"stiffness_ratio is {contact.stiffness_ratio}, but must be 1 in every deck")
         damping = contact.normal_damping
         if damping is None:
+            if contact.tension == "clipped":
+                raise ValueError("tension is 'clipped', but then normal_damping must be given here")
             log = math.log(contact.restitution or 1.0)
             damping = -2.0 * log * math.sqrt(effective_mass * contact.normal_stiffness / (math.pi**2 + log**2))
         return cls(contact.normal_stiffness, damping, damping / effective_mass, contact.friction)
+
+
+def laws(config: drumrs.Config) -> tuple[Law, Law]:
+    """Return the laws between bundles, whose effective mass is half a bundle's, and between a bundle and the drum."""
+    mass = config.load.density * math.pi * config.load.diameter**2 / 4.0
+    return Law.of(config.contact.bundle, mass / 2.0), Law.of(config.contact.drum, mass)
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,19 +106,14 @@ class Case:
         return float(step)
 
     @property
-    def bundle_mass(self) -> float:
-        """Mass of a bundle per meter of depth [kg/m]."""
-        return self.config.load.density * math.pi * self.config.load.diameter**2 / 4.0
-
-    @property
     def pair(self) -> Law:
-        """Between bundles; the effective mass is half a bundle's."""
-        return Law.of(self.config.contact.bundle, self.bundle_mass / 2.0)
+        """The law between bundles."""
+        return laws(self.config)[0]
 
     @property
     def wall(self) -> Law:
-        """Between a bundle and the drum."""
-        return Law.of(self.config.contact.drum, self.bundle_mass)
+        """The law between a bundle and the drum."""
+        return laws(self.config)[1]
 
     @property
     def fastest(self) -> float:

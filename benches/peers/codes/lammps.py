@@ -29,6 +29,7 @@ class Lammps:
 
     near: bool = True
     name: str = "LAMMPS"
+    pace: float = 15e6
 
     def require(self) -> None:
         """Raise `MissingError` where LAMMPS is not installed."""

@@ -16,6 +16,7 @@ class Liggghts:
     """LIGGGHTS, with Debian's program `liggghts`."""
 
     name: str = "LIGGGHTS"
+    pace: float = 15e6
 
     def require(self) -> None:
         """Raise `MissingError` where LIGGGHTS is not installed."""

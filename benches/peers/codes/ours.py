@@ -24,6 +24,7 @@ class Drumrs:
 
     threads: int = 1
     name: str = "drumrs"
+    pace: float = 60e6
 
     def require(self) -> None:
         """Do nothing: it is here."""

@@ -36,9 +36,21 @@ class Timing:
 
 
 class Code(Protocol):
-    """A code that runs cases, in a folder of its own."""
+    """A code that runs cases, in a folder of its own.
 
-    name: str
+    Attributes
+    ----------
+    name
+        What it is called.
+    pace
+        Particle-steps per second that it makes, roughly: what is timed is chosen by it.
+    """
+
+    @property
+    def name(self) -> str: ...  # noqa: D102
+
+    @property
+    def pace(self) -> float: ...  # noqa: D102
 
     def require(self) -> None:
         """Raise `MissingError` where the code is not installed."""
