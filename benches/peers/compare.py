@@ -17,7 +17,7 @@ from codes.lammps import Lammps
 from codes.liggghts import Liggghts
 from codes.ours import Drumrs
 from codes.program import Code, MissingError, PeerError
-from codes.speed import compare_baffles, compare_sweeps, compare_speeds
+from codes.speed import compare_baffles, compare_speeds, compare_sweeps
 from codes.yade import Yade
 
 SIZES = (100, 200, 300, 1_000, 10_000, 100_000)
@@ -34,17 +34,25 @@ PARTS = ("speed", "check", "baffles", "sweep")
 
 def options_of(words: Sequence[str] | None) -> argparse.Namespace:
     """Read the command line."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("parts", nargs="*", metavar="part", help=f"{', '.join(PARTS)}; all unless given")
     parser.add_argument("--codes", nargs="+", default=DEFAULT, choices=CODES, help="which codes to run")
-    parser.add_argument("--sizes", nargs="+", type=int, default=list(SIZES), help="numbers of bundles to time")
+    parser.add_argument(
+        "--sizes", nargs="+", type=int, default=list(SIZES), help="numbers of bundles to time"
+    )
     parser.add_argument("--repeats", type=int, default=5, help="rounds in which every code has its turn")
     parser.add_argument("--seconds", type=float, default=1.0, help="time that one timing should take [s]")
     parser.add_argument("--seeds", type=int, default=3, help="random starts of a check")
-    parser.add_argument("--duration", type=float, default=6.0, help="simulated time of a check [s]; a third is left out")
+    parser.add_argument(
+        "--duration", type=float, default=6.0, help="simulated time of a check [s]; a third is left out"
+    )
     parser.add_argument("--core", type=int, help="core to stay on")
     parser.add_argument("--priority", type=int, help="real-time priority, 1 to 99, where that is allowed")
-    parser.add_argument("--beds", type=Path, default=Path("out/peers/beds"), help="folder that keeps settled beds")
+    parser.add_argument(
+        "--beds", type=Path, default=Path("out/peers/beds"), help="folder that keeps settled beds"
+    )
     options = parser.parse_args(words)
     unknown = [part for part in options.parts if part not in PARTS]
     if unknown:

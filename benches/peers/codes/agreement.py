@@ -5,13 +5,13 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import drumrs
-from drumrs.analysis import Estimate
-from drumrs.analysis import estimate as over_seeds
 from codes.balance import LEVEL, Measured, agree
 from codes.beds import grown
 from codes.case import Case, laws
 from codes.ours import Drumrs
 from codes.program import Code
+from drumrs.analysis import Estimate
+from drumrs.analysis import estimate as over_seeds
 
 _COUNTS = (100, 200, 300)
 
@@ -19,7 +19,8 @@ _COUNTS = (100, 200, 300)
 def check(codes: Sequence[Code], options: argparse.Namespace, scratch: Path) -> bool:
     """Print specific powers of Table 1's drum in every code; return whether all agree with drumrs."""
     window = (options.duration / 3.0, options.duration)
-    print(f"\nSpecific power [W/kg] by the balance of moments, {window[0]:.3g} to {window[1]:.3g} s, {options.seeds} starts")
+    print(f"\nSpecific power [W/kg] by the balance of moments: {options.seeds} starts, ", end="")
+    print(f"means over t = {window[0]:.3g} to {window[1]:.3g} s")
     print(f"agreement: zero lies in the {100 * LEVEL:.0f} % interval of the difference\n")
     print("| N | code | power | drumrs, same law | agree |")
     print("|---|---|---|---|---|")

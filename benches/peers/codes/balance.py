@@ -55,7 +55,9 @@ class Measured:
         slack = 0.5 * float(trace.times[1] - trace.times[0])
         start, end = window
         if trace.times[0] > start + slack or trace.times[-1] < end - 2.0 * slack:
-            raise ValueError(f"the run covers {trace.times[0]:.4g} to {trace.times[-1]:.4g} s, not {window} s")
+            raise ValueError(
+                f"the run covers {trace.times[0]:.4g} to {trace.times[-1]:.4g} s, not {window} s"
+            )
         inside = (trace.times[:-1] > start - slack) & (trace.times[1:] < end + slack)
         interval = 2.0 * slack
         return cls(*(_mean(values[inside], interval) for values in (trace.power, trace.x, trace.y)))

@@ -119,7 +119,9 @@ def _apart_across_edges(places: Array, size: float, diameter: float) -> Array:
     near = 0.999 * diameter
     chosen = np.ones(len(places), dtype=bool)
     for shift in ((size, 0.0), (0.0, size), (size, size), (-size, size)):
-        close = np.flatnonzero(((places + shift < size + diameter) & (places + shift > -diameter)).all(axis=1))
+        close = np.flatnonzero(
+            ((places + shift < size + diameter) & (places + shift > -diameter)).all(axis=1)
+        )
         for k in close:
             gaps = np.hypot(*(places[chosen] - places[k] - shift).T)
             chosen[k] &= bool((gaps > near).all())
@@ -128,5 +130,7 @@ def _apart_across_edges(places: Array, size: float, diameter: float) -> Array:
 
 def _state(motion: Array) -> drumrs.State:
     return drumrs.State(
-        positions=motion[:, :2].copy(), velocities=motion[:, 2:4].copy(), angular_velocities=motion[:, 4].copy()
+        positions=motion[:, :2].copy(),
+        velocities=motion[:, 2:4].copy(),
+        angular_velocities=motion[:, 4].copy(),
     )

@@ -50,7 +50,9 @@ class Law:
             if contact.tension == "clipped":
                 raise ValueError("tension is 'clipped', but then normal_damping must be given here")
             log = math.log(contact.restitution or 1.0)
-            damping = -2.0 * log * math.sqrt(effective_mass * contact.normal_stiffness / (math.pi**2 + log**2))
+            damping = (
+                -2.0 * log * math.sqrt(effective_mass * contact.normal_stiffness / (math.pi**2 + log**2))
+            )
         return cls(contact.normal_stiffness, damping, damping / effective_mass, contact.friction)
 
 
@@ -137,7 +139,10 @@ class Case:
             "discs in a drum\n",
             f"{self.count} atoms",
             f"{types} atom types\n",
-            *(f"{-side:.17g} {side:.17g} {axis}lo {axis}hi" for side, axis in ((half, "x"), (half, "y"), (depth, "z"))),
+            *(
+                f"{-side:.17g} {side:.17g} {axis}lo {axis}hi"
+                for side, axis in ((half, "x"), (half, "y"), (depth, "z"))
+            ),
         ]
         motion = self.motion()
         atoms = (
@@ -152,5 +157,4 @@ class Case:
         """Return the baffles at t = 0 as open polylines from rim to rim [m], each of shape (corners, 2)."""
         if not self.config.drum.baffles.count:
             return []
-        still = self.config.replace({"run": {"duration": 1.0, "sample_every": 0.1}})
-        return list(drumrs.Simulation(still, state=self.state).frames.baffles)
+        return list(drumrs.Simulation(self.config, state=self.state).frames.baffles)

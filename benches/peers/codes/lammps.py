@@ -114,5 +114,7 @@ def read_rows(path: Path, case: Case) -> Trace:
     except (OSError, ValueError) as error:
         raise PeerError(f"{path} cannot be read as rows of numbers: {error}") from None
     if rows.ndim != 2 or rows.shape[0] < 2 or rows.shape[1] != 4 or not np.isfinite(rows).all():  # noqa: PLR2004
-        raise PeerError(f"{path} holds {rows.shape[0]} rows, but must hold two or more, of four finite numbers")
+        raise PeerError(
+            f"{path} holds {rows.shape[0]} rows, but must hold two or more, of four finite numbers"
+        )
     return Trace.of_samples(rows[:, 0] * case.time_step, rows[:, 1:], case.angular_velocity)

@@ -1,6 +1,7 @@
 """LIGGGHTS: drums with or without baffles."""
 
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -60,9 +61,11 @@ def _triangles(baffles: list[Array], depth: float) -> str:
     """
     facets = []
     for line in baffles:
-        for a, b in zip(line, line[1:], strict=False):
+        for a, b in pairwise(line):
             along = (b - a) / np.hypot(*(b - a))
-            low_a, low_b, high_b, high_a = ((*p, z) for p, z in ((a, -depth), (b, -depth), (b, depth), (a, depth)))
+            low_a, low_b, high_b, high_a = (
+                (*p, z) for p, z in ((a, -depth), (b, -depth), (b, depth), (a, depth))
+            )
             for corners in ((low_a, low_b, high_b), (low_a, high_b, high_a)):
                 vertices = "\n".join(f"  vertex {x:.12g} {y:.12g} {z:.12g}" for x, y, z in corners)
                 facets.append(

@@ -2,6 +2,7 @@
 
 import argparse
 import os
+import tempfile
 import time
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
@@ -14,7 +15,7 @@ import drumrs
 from codes.beds import settled
 from codes.case import Case
 from codes.ours import Drumrs
-from codes.program import Code, Timing
+from codes.program import Code
 
 _FEWEST_STEPS = 100
 # Steps before the clock runs: contacts must open, lists be made.
@@ -29,7 +30,7 @@ def steps_for(code: Code, count: int, seconds: float) -> int:
     return max(_FEWEST_STEPS, round(seconds * code.pace / count))
 
 
-def spread(values: Sequence[float]) -> str:
+def spread(values: Sequence[float], places: int = 1) -> str:
     """Write a median with the least and the greatest.
 
     Examples
@@ -37,15 +38,19 @@ def spread(values: Sequence[float]) -> str:
     >>> spread([5.0, 4.0, 4.5])
     '4.5 (4.0 … 5.0)'
     """
-    form = ".1f" if median(values) < 100.0 else ".0f"
-    return f"{median(values):{form}} ({min(values):{form}} … {max(values):{form}})"
+    middle, low, high = (f"{value:.{places}f}" for value in (median(values), min(values), max(values)))
+    return f"{middle} ({low} … {high})"
 
 
 def compare_speeds(codes: Sequence[Code], options: argparse.Namespace, scratch: Path) -> None:
     """Time every code in turn, round by round, and print a table of speeds and ratios."""
     print("\nSpeed, 10⁶ particle-steps per second, one core: median (least … greatest)")
     print("ratio: drumrs over the code, round by round\n")
-    print("| N | " + " | ".join(f"{code.name} | ratio" if code.name != "drumrs" else code.name for code in codes) + " |")
+    print(
+        "| N | "
+        + " | ".join(f"{code.name} | ratio" if code.name != "drumrs" else code.name for code in codes)
+        + " |"
+    )
     print("|---" * (1 + sum(1 if code.name == "drumrs" else 2 for code in codes)) + "|")
     for count in options.sizes:
         case = settled(count, options.beds)
@@ -95,12 +100,9 @@ def compare_baffles(options: argparse.Namespace, scratch: Path) -> None:
             grid, values = [known for known, _ in bare], [costs[at][turn] for _, at in bare]
             same.append(float(np.interp(contacts[key], grid, values)))
             ratios.append(costs[key][turn] / same[-1])
-        print(f"| {key[0]} | {contacts[key]:.0f} | {median(costs[key]):.2f} | {median(same):.2f} | {spread2(ratios)} |")
-
-
-def spread2(values: Sequence[float]) -> str:
-    """Write a median with the least and the greatest, two places each."""
-    return f"{median(values):.2f} ({min(values):.2f} … {max(values):.2f})"
+        print(
+            f"| {key[0]} | {contacts[key]:.0f} | {median(costs[key]):.2f} | {median(same):.2f} | {spread(ratios, 2)} |"
+        )
 
 
 def mean_contacts(case: Case, seconds: float) -> float:
@@ -122,13 +124,11 @@ def compare_sweeps(repeats: int) -> None:
     for _ in range(repeats):
         one, two = (_sweep_seconds(jobs) for jobs in (1, 2))
         ratios.append(one / two)
-    print(spread2(ratios))
+    print(spread(ratios, 2))
 
 
 def _sweep_seconds(jobs: int) -> float:
     """Return the time that a sweep of eight equal cases takes on so many threads [s]."""
-    import tempfile
-
     base = drumrs.baseline().replace({"run.duration": 0.5})
     sweep = drumrs.Sweep(base, seeds=8)
     with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(jobs) as executor:

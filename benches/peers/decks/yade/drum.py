@@ -30,15 +30,25 @@ angle = math.atan(case["friction"])
 pair, wall = case["pair"], case["wall"]
 O.materials.append(
     ViscElMat(
-        kn=2.0 * pair["stiffness"], ks=2.0 * pair["stiffness"], cn=2.0 * pair["damping"], cs=0.0,
-        frictionAngle=angle, density=case["density"], label="bundle",
+        kn=2.0 * pair["stiffness"],
+        ks=2.0 * pair["stiffness"],
+        cn=2.0 * pair["damping"],
+        cs=0.0,
+        frictionAngle=angle,
+        density=case["density"],
+        label="bundle",
     )
 )
 stiffness = drum_value(pair["stiffness"], wall["stiffness"])
 O.materials.append(
     ViscElMat(
-        kn=stiffness, ks=stiffness, cn=drum_value(pair["damping"], wall["damping"]), cs=0.0,
-        frictionAngle=angle, density=case["density"], label="drum",
+        kn=stiffness,
+        ks=stiffness,
+        cn=drum_value(pair["damping"], wall["damping"]),
+        cs=0.0,
+        frictionAngle=angle,
+        density=case["density"],
+        label="drum",
     )
 )
 
@@ -49,7 +59,10 @@ def segment(a, b):
     return facet([(*a, 0.0), (*b, depth), (*b, -depth)], material="drum", fixed=True)
 
 
-corners = [(CORNER * math.cos(t), CORNER * math.sin(t)) for t in (2.0 * math.pi * k / SIDES for k in range(SIDES + 1))]
+corners = [
+    (CORNER * math.cos(t), CORNER * math.sin(t))
+    for t in (2.0 * math.pi * k / SIDES for k in range(SIDES + 1))
+]
 walls = [segment(a, b) for a, b in zip(corners, corners[1:])]
 walls += [segment(a, b) for line in case["baffles"] for a, b in zip(line, line[1:])]
 walls = O.bodies.append(walls)
@@ -65,14 +78,20 @@ for x, y, u, v, spin in state:
 
 O.engines = [
     ForceResetter(),
-    InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Facet_Aabb()], verletDist=0.35 * BUNDLE, avoidSelfInteractionMask=0),
+    InsertionSortCollider(
+        [Bo1_Sphere_Aabb(), Bo1_Facet_Aabb()], verletDist=0.35 * BUNDLE, avoidSelfInteractionMask=0
+    ),
     InteractionLoop(
         [Ig2_Sphere_Sphere_ScGeom(), Ig2_Facet_Sphere_ScGeom()],
         [Ip2_ViscElMat_ViscElMat_ViscElPhys()],
         [Law2_ScGeom_ViscElPhys_Basic()],
     ),
     RotationEngine(
-        ids=walls, rotateAroundZero=True, zeroPoint=(0, 0, 0), rotationAxis=(0, 0, 1), angularVelocity=case["omega"]
+        ids=walls,
+        rotateAroundZero=True,
+        zeroPoint=(0, 0, 0),
+        rotationAxis=(0, 0, 1),
+        angularVelocity=case["omega"],
     ),
     NewtonIntegrator(damping=0, gravity=(0, -9.81, 0)),
 ]
