@@ -105,14 +105,15 @@ def three_powers() -> Evidence:
 
 @case(
     "bounds",
-    source="energy: no load is lifted higher than 2 R",
+    source="moment of gravity, at most M g R; second law",
     formula="0 ≤ P/(M g R Ω) ≤ 1, mean overlap < 1 % of r",
     cost=6e7,
 )
 def bounds() -> Evidence:
     """Power and overlap of steady drums lie where they must.
 
-    Bounds: ½ ± ½ for the power over M g R Ω, 0 … 0.01 for the mean of the greatest overlap over the radius.
+    Bounds: ½ ± ½ for the power over M g R Ω, which a steady load cannot exceed nor give back, and 0 … 0.01 for the mean of
+    the greatest overlap over the radius: beyond, the stiffness does not serve.
     """
     # The highest fill does not fit beside baffles.
     fills = {False: (0.1, 0.25, 0.4, 0.5, 0.6, 0.75), True: (0.1, 0.25, 0.4, 0.5, 0.6)}

@@ -108,7 +108,7 @@ def _carried(orbits: ArrayLike, angles: ArrayLike, speed: float) -> State:
     return State(positions, velocities, angular_velocities=np.full(len(positions), speed))
 
 
-@case("co-rotation", source="rigid rotation", formula="ξ = 0, ω = Ω")
+@case("co-rotation", source="rigid rotation", formula="ξ = 0, ω = Ω", cost=2e7)
 def co_rotation() -> Evidence:
     """A closed ring of discs, carried rigidly with the drum: no tangential spring stretches.
 
@@ -135,7 +135,7 @@ def co_rotation() -> Evidence:
     return Evidence(tuple(found), vanishing("turns of the drum", traces))
 
 
-@case("centrifuged-ring", source="limit Ω² R > g", formula="dissipation → 0, mean torque 0")
+@case("centrifuged-ring", source="limit Ω² R > g", formula="dissipation → 0, mean torque 0", cost=2e7)
 def centrifuged_ring() -> Evidence:
     """A closed ring of bundles beyond centrifuging, at several speeds: neither losses nor mean torque.
 
