@@ -112,8 +112,8 @@ def three_powers() -> Evidence:
 def bounds() -> Evidence:
     """Power and overlap of steady drums lie where they must.
 
-    Bounds: ½ ± ½ for the power over M g R Ω, which a steady load cannot exceed nor give back, and 0 … 0.01 for the mean of
-    the greatest overlap over the radius: beyond, the stiffness does not serve.
+    Bounds: ½ ± ½ for the power over M g R Ω, which a steady load can neither exceed nor give back, and 0 … 0.01 for the
+    mean of the greatest overlap over the radius: beyond, the stiffness does not serve.
     """
     # The highest fill does not fit beside baffles.
     fills = {False: (0.1, 0.25, 0.4, 0.5, 0.6, 0.75), True: (0.1, 0.25, 0.4, 0.5, 0.6)}

@@ -119,8 +119,8 @@ def _against_the_floor(
     along, across, turning = run.velocities[:, 0], run.velocities[:, 1], RADIUS * run.angular_velocities
     spun = RADIUS * spin - 2.0 * impulse
     pairs = (
-        ("v_t", tangential - impulse, along, scale),
-        ("v_n", normal, across, scale),
+        ("vₜ", tangential - impulse, along, scale),
+        ("vₙ", normal, across, scale),
         ("r ω", spun, turning, 2.0 * scale),
     )
     found = []
@@ -142,7 +142,7 @@ def _slip_after(slip: ArrayLike, closing: float = 1.0) -> Array:
     return np.asarray(slip, float) - 3.0 * theory.tangential_impulse(slip, closing, _FRICTION)
 
 
-@case("oblique-impact", source=_SOURCE.format(4), formula=f"{_IMPULSE}; v_t' = v_t − J/m, r ω' = −2 J/m")
+@case("oblique-impact", source=_SOURCE.format(4), formula=f"{_IMPULSE}; vₜ' = vₜ − J/m, r ω' = −2 J/m")
 def oblique_impact() -> Evidence:
     """Impact on a wall at one speed, 5 … 85° from the normal.
 
@@ -160,22 +160,20 @@ def oblique_impact() -> Evidence:
     return Evidence(tuple(found), Panel("angle from the normal [°]", "slip after / speed before", (trace,)))
 
 
-@case("tangential-speeds", source=_SOURCE.format(5), formula=f"{_IMPULSE}; v_t' = v_t − J/m, r ω' = −2 J/m")
+@case("tangential-speeds", source=_SOURCE.format(5), formula=f"{_IMPULSE}; vₜ' = vₜ − J/m, r ω' = −2 J/m")
 def tangential_speeds() -> Evidence:
     """Impact on a wall at one normal speed with tangential speeds from sticking to sliding.
 
     θ² + δ/r of closing speed and slip together.
     """
     speeds = np.array([-2.0, -1.0, -0.3, 0.0, 0.1, 0.3, 0.435, 0.465, 0.6, 0.9, 1.2, 1.6, 2.0])
-    names = [f"v_t/v_n = {s:g}" for s in speeds]
+    names = [f"vₜ/vₙ = {s:g}" for s in speeds]
     found, slip, _ = _against_the_floor(speeds * _CLOSING, _CLOSING, 0.0, names)
     fine = np.linspace(-2.1, 2.1, 400)
-    return Evidence(
-        tuple(found), _slips(speeds, slip / _CLOSING, (fine, _slip_after(fine)), "v_t/v_n before")
-    )
+    return Evidence(tuple(found), _slips(speeds, slip / _CLOSING, (fine, _slip_after(fine)), "vₜ/vₙ before"))
 
 
-@case("spins", source=_SOURCE.format(6), formula=f"{_IMPULSE}; v_t' = v_t − J/m, r ω' = r ω − 2 J/m")
+@case("spins", source=_SOURCE.format(6), formula=f"{_IMPULSE}; vₜ' = vₜ − J/m, r ω' = r ω − 2 J/m")
 def spins() -> Evidence:
     """Impact on a wall at one normal speed with spins from sticking to sliding, without and with a tangential speed.
 
@@ -184,16 +182,16 @@ def spins() -> Evidence:
     turning = np.array([-2.0, -1.2, -0.6, -0.3, -0.1, 0.1, 0.435, 0.465, 0.9, 1.5, 2.0])
     found, traces = [], []
     for tangential in (0.0, 0.4):
-        names = [f"r ω/v_n = {s:g}, v_t/v_n = {tangential:g}" for s in turning]
+        names = [f"r ω/vₙ = {s:g}, vₜ/vₙ = {tangential:g}" for s in turning]
         more, slip, _ = _against_the_floor(
             tangential * _CLOSING, _CLOSING, turning * _CLOSING / RADIUS, names
         )
         found += more
         fine = np.linspace(-2.1, 2.1, 400)
-        label = f"v_t = {tangential:g} v_n"
+        label = f"vₜ = {tangential:g} vₙ"
         traces.append(Trace(label, turning, slip / _CLOSING, (fine, _slip_after(fine + tangential))))
     panel = Panel(
-        "r ω/v_n before", "slip after / closing speed", (shared_curve(fine, _slip_after(fine)), *traces)
+        "r ω/vₙ before", "slip after / closing speed", (shared_curve(fine, _slip_after(fine)), *traces)
     )
     return Evidence(tuple(found), panel)
 

@@ -77,7 +77,7 @@ class Trial:
 
 
 def case(
-    name: str, *, source: str, formula: str, cost: float = 1e5
+    name: str, *, source: str, formula: str, cost: float = 3e6
 ) -> Callable[[Callable[[], Evidence]], Case]:
     """Make a case of a function: its docstring's first line is the title, the rest says where the tolerance is from.
 

@@ -1,7 +1,7 @@
 """Friction and rolling on a floor: slip to roll, the incline, a stack at rest.
 
-A tangential spring has no dashpot. Where a load Fₜ comes upon it at once it swings, with ω_t = √(3 kₛ/m), about the
-stretch that holds Fₜ, and the center with Fₜ/(m ω_t); so speeds are met within that, and within what gravity changes in
+A tangential spring has no dashpot. Where a load Fₜ comes upon it at once it swings, with ωₜ = √(3 kₛ/m), about the
+stretch that holds Fₜ, and the center with Fₜ/(m ωₜ); so speeds are met within that, and within what gravity changes in
 the one step in which a change of regime falls.
 """
 
@@ -35,7 +35,7 @@ def _resting(weight: float) -> float:
 def slip_to_roll() -> Evidence:
     """A disc that slides on a floor until it rolls.
 
-    Speed: μ g/ω_t, the swing of the spring that holds μ m g when sliding ends, and μ g Δt. Loss: the work of μ m g over
+    Speed: μ g/ωₜ, the swing of the spring that holds μ m g when sliding ends, and μ g Δt. Loss: the work of μ m g over
     one step at u₀, and the energy of that swing.
     """
     speed, friction = 0.5, 0.5
@@ -69,7 +69,7 @@ def slip_to_roll() -> Evidence:
 def incline() -> Evidence:
     """A disc on an incline, rolling or sliding, against the slope.
 
-    The speed reached in 0.1 s, within Fₜ/(m ω_t) and g Δt; the disc starts without spin and with a relaxed spring.
+    The speed reached in 0.1 s, within Fₜ/(m ωₜ) and g Δt; the disc starts without spin and with a relaxed spring.
     """
     degrees = np.arange(5.0, 90.0, 5.0)
     time, traces, found = 0.1, [], []

@@ -29,7 +29,7 @@ def _gross_sliding(tension: str) -> Evidence:
     seen = np.array([_slid(friction, ratio, tension) for friction in _FRICTIONS])
     change = _FRICTIONS * factor * _CLOSING
     expected = np.column_stack([change, 2.0 * change, change * (_SLIDING - 1.5 * change)])
-    # Until the tangential spring is stretched, 2 z² μ v_n/v_t of the impulse is lacking.
+    # Until the tangential spring is stretched, 2 z² μ vₙ/vₜ of the impulse is lacking.
     late = 2.0 * ratio**2 * _FRICTIONS * _CLOSING / _SLIDING
     speeds = (
         theory.mean_error(WALL_FREQUENCY, _STEP, _ONSETS, ratio) + late + _CLOSING / WALL_FREQUENCY / RADIUS
@@ -42,15 +42,15 @@ def _gross_sliding(tension: str) -> Evidence:
     names = [
         f"{quantity} at μ = {friction:g}"
         for friction in _FRICTIONS
-        for quantity in ("change of v_t/v_n", "change of r ω/v_n", "loss/(m v_n v_t)")
+        for quantity in ("change of vₜ/vₙ", "change of r ω/vₙ", "loss/(m vₙ vₜ)")
     ]
     found = checks_at(names, expected / scale, seen / scale, allowed)
     line = np.array([0.0, _FRICTIONS[-1]])
     panel = Panel(
         "friction μ",
-        "change / v_n",
+        "change / vₙ",
         (
-            Trace("v_t", _FRICTIONS, seen[:, 0] / _CLOSING, (line, line * factor)),
+            Trace("vₜ", _FRICTIONS, seen[:, 0] / _CLOSING, (line, line * factor)),
             Trace("r ω", _FRICTIONS, seen[:, 1] / _CLOSING, (line, 2.0 * line * factor)),
         ),
     )
@@ -58,7 +58,7 @@ def _gross_sliding(tension: str) -> Evidence:
 
 
 def _slid(friction: float, ratio: float, tension: str) -> tuple[float, float, float]:
-    """Return the losses of v_t and of r ω [m/s], and of energy over mass [m²/s²], in one impact."""
+    """Return the losses of vₜ and of r ω [m/s], and of energy over mass [m²/s²], in one impact."""
     law = {"contact.drum.friction": friction, "contact.drum.tension": tension}
     config = scenes.floor({"run.time_step": _STEP, **scenes.damping(ratio), **law})
     gaps = (1.0 + scenes.phases(_ONSETS)) * _STEP * _CLOSING
@@ -68,21 +68,21 @@ def _slid(friction: float, ratio: float, tension: str) -> tuple[float, float, fl
     return slowed, spun, scenes.last(run, "dissipated_sliding") / _ONSETS / MASS
 
 
-_SLIDES = "v_t' = v_t − {0}, ω' = 2 {0}/r, loss m {0} (v_t − (3/2) {0})"
+_SLIDES = "vₜ' = vₜ − {0}, ω' = 2 {0}/r, loss m {0} (vₜ − (3/2) {0})"
 
 
 @case(
     "sliding-impact-clipped",
     source=f"impulse balance; {_SCHWAGER}",
-    formula=_SLIDES.format("μ (1 + e) v_n"),
+    formula=_SLIDES.format("μ (1 + e) vₙ"),
 )
 def sliding_impact_clipped() -> Evidence:
     """Oblique impact in gross sliding, tension clipped.
 
-    Mean over 400 onsets: θ² + θ/400 of v_n, δ/r for the lever arm, and 2 z² μ v_n/v_t for the slip in which the
+    Mean over 400 onsets: θ² + θ/400 of vₙ, δ/r for the lever arm, and 2 z² μ vₙ/vₜ for the slip in which the
     dashpot's first force stretches the tangential spring. The loss is charged at the mean of the forces before and
-    after a step, over the part of it in contact. Where bodies meet, the dashpot's force jumps to 2 z ω₀ m v_n, so that
-    of half a step on average half is charged, and ½ z θ μ of m v_n v_t goes to the numerical column.
+    after a step, over the part of it in contact. Where bodies meet, the dashpot's force jumps to 2 z ω₀ m vₙ, so that
+    of half a step on average half is charged, and ½ z θ μ of m vₙ vₜ goes to the numerical column.
     """
     return _gross_sliding("clipped")
 
@@ -90,12 +90,12 @@ def sliding_impact_clipped() -> Evidence:
 @case(
     "sliding-impact-tension",
     source=f"impulse balance; {_SCHWAGER}",
-    formula=_SLIDES.format("μ (1 + 2 e_c − e) v_n"),
+    formula=_SLIDES.format("μ (1 + 2 e⁺ − e) vₙ"),
 )
 def sliding_impact_with_tension() -> Evidence:
-    """Oblique impact in gross sliding where the dashpot may pull: friction acts on |F_n| then too.
+    """Oblique impact in gross sliding where the dashpot may pull: friction acts on |Fₙ| then too.
 
-    As with tension clipped; e_c is the clipped restitution of the same dashpot. Where bodies part the force is still
+    As with tension clipped; e⁺ is the clipped restitution of the same dashpot. Where bodies part the force is still
     e times what it was when they met, and half a step of it is not charged: e z θ μ more of the loss.
     """
     return _gross_sliding("allowed")
