@@ -129,7 +129,8 @@ impl Table<'_> {
     /// Mean over the window's time of what is a mean over each interval: exact where intervals differ in length.
     fn exact_mean(&self, name: &str, window: Window) -> f64 {
         let (column, times) = (self.column(name), self.column("time"));
-        let total: f64 = (window.first + 1..=window.last).map(|k| column[k] * (times[k] - times[k - 1])).sum();
+        let total: f64 =
+            (window.first + 1..=window.last).map(|k| column[k] * (times[k] - times[k - 1])).sum();
         total / (times[window.last] - times[window.first])
     }
 
