@@ -119,8 +119,8 @@ class Config(Part):
         --------
         >>> import drumrs
         >>> config = drumrs.baseline().softer(100.0)
-        >>> config.contact.bundle.normal_stiffness, config.run.time_step
-        (925000.0, 3.7e-05)
+        >>> config.contact.bundle.normal_stiffness, f"{config.run.time_step:.3g}"
+        (925000.0, '3.7e-05')
         """
         return self.replace({key: after for key, (_, after) in softening(self, factor).items()})
 
