@@ -3,7 +3,8 @@
     mpiexec -n 17 python -m mpi4py.futures examples/04_sweep_with_mpi.py --out results
 
 runs 16 cases at once. Without mpiexec the script starts two ranks of its own. Needs `pip install 'drumrs[mpi]'` and an
-MPI: that of the cluster, or `pip install mpich`.
+MPI: that of the cluster, or `pip install mpich`. MPI starts ranks with the first mpiexec on the path, so activate the
+environment: the mpiexec of another MPI may wait for ever.
 """
 
 import argparse
