@@ -1,8 +1,8 @@
 """Verdicts: what a claim comes to, with the numbers that decide it."""
 
 import math
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, field, replace
 
 from drumrs.analysis import Estimate
 from drumrs.analysis.estimate import LEVEL
@@ -96,13 +96,28 @@ class Verdict:
     figure: str = ""
 
 
-def all_of(findings: Iterable[Finding]) -> Finding:
-    """Join conditions: one that fails decides, else one that is undecided does."""
-    found = list(findings)
+Condition = Callable[[], Finding]
+
+
+def all_of(conditions: Iterable[Condition]) -> Finding:
+    """Join conditions: one that fails decides, else one that is undecided does.
+
+    A condition whose cases are missing, or that compares with a mean of 0, is undecided; the others still count.
+    """
+    found = [_settle(condition) for condition in conditions]
     outcomes = [finding.outcome for finding in found]
     outcome = FAILS if FAILS in outcomes else UNDECIDED if UNDECIDED in outcomes else HOLDS
     numbers = tuple(number for finding in found for number in finding.numbers)
     return Finding(outcome, " ".join(finding.sentence for finding in found), numbers)
+
+
+def _settle(condition: Condition) -> Finding:
+    try:
+        return condition()
+    except MissingError as missing:
+        return Finding(UNDECIDED, f"Cases are missing: {missing}.")
+    except ZeroDivisionError:
+        return Finding(UNDECIDED, "A mean of 0 stands where others are compared with it.")
 
 
 def within(
@@ -140,6 +155,14 @@ def each_within(
     told = f"{name}: from {numbers[0].text} at {least[0]} to {numbers[-1].text} at {most[0]}"
     where = f", for what is at {', '.join(outside)}" if outside else ""
     return Finding(outcome, f"{told} (each {_claimed(low, high)}: {_WORDS[outcome]}{where}).", numbers)
+
+
+def none_outside(
+    name: str, points: Sequence[tuple[str, Estimate]], low: float = -math.inf, high: float = math.inf
+) -> Finding:
+    """Ask whether no mean surely lies outside of limits, as `each_within` does; none needs to be surely within."""
+    found = each_within(name, points, low, high)
+    return replace(found, outcome=HOLDS) if found.outcome == UNDECIDED else found
 
 
 _WORDS = {HOLDS: "yes", FAILS: "no", UNDECIDED: "open"}

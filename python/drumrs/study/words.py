@@ -14,6 +14,8 @@ SMALL_FRICTION = 0.05
 # "Abruptly": within a tenth of the coefficient of friction, from a tenth of the usual circulation to half of it.
 ABRUPT = 0.10
 STILL, CIRCULATING = 0.1, 0.5
+# To tell that, cases must lie this near each other, in the coefficient of friction.
+FINE = 0.05 + 1e-9
 # "As if centrifuging": at least half of the load is carried over the top in a turn of the drum.
 CENTRIFUGING = 0.5
 # "Little relative motion": slower, relative to the turning drum, than a tenth of the rim.
