@@ -69,6 +69,8 @@ BROKEN = {
     "C10": [
         ("dissipation_ratio", 1.0 - 0.3 * friction, fill == 0.25, ~small),
         ("dissipation_ratio", 1.0 + 0.3 * friction, fill == 0.75, ~small),
+        # Falls, and rises again.
+        ("dissipation_ratio", 1.0 + (friction - 0.5) ** 2, fill == 0.75, ~small),
     ],
     "C11": [
         ("carried_round", 0.1, baffles, fill == 0.25),

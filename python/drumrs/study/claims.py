@@ -100,8 +100,8 @@ CLAIMS = (
     Claim(
         "C10",
         "N/T rises with μ at 25 % and 50 % fill and falls with μ at 75 %.",
-        "Over the frictions at which the load has more than half of its usual angular momentum, N/T has a "
-        "positive slope at 25 and 50 % and a negative one at 75 %.",
+        "Over the frictions at which the load has more than half of its usual angular momentum, both up to 0.5 "
+        "and from 0.5 on, N/T has a positive slope at 25 and 50 % and a negative one at 75 %.",
         "F9",
         claims_ratio.friction_turns_the_ratio,
     ),

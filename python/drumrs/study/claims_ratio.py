@@ -13,6 +13,7 @@ from drumrs.study.words import ABOUT, CIRCULATING
 
 # By what damping and sliding take; work of the contact forces gives the same but for the time step's error.
 RATIO = "dissipation_ratio"
+_HALF = 0.5
 CIRCULATION = "angular_momentum_per_mass"
 
 
@@ -48,15 +49,18 @@ def rises_steeply_without_baffles(results: Results) -> Iterator[Condition]:
 
 
 def friction_turns_the_ratio(results: Results) -> Iterator[Condition]:
-    """Judge C10 by slopes over the frictions at which the load circulates."""
+    """Judge C10 by slopes over the frictions at which the load circulates, up to 0.5 and from there on."""
     for fill in THIRDS:
-        yield partial(_turns, results, fill)
+        for part in ("up to 0.5", "from 0.5 on"):
+            yield partial(_turns, results, fill, part)
 
 
-def _turns(results: Results, fill: float) -> Finding:
-    curve = results.curve("friction", RATIO, fill=fill).between(circulates(results, fill), least=3)
+def _turns(results: Results, fill: float, part: str) -> Finding:
+    reach = (circulates(results, fill), _HALF) if part == "up to 0.5" else (_HALF, math.inf)
+    curve = results.curve("friction", RATIO, fill=fill)
     low, high = (-math.inf, 0.0) if fill == max(THIRDS) else (0.0, math.inf)
-    return within(f"Slope of N/T over friction, {curve.label}", slope(curve), low, high)
+    name = f"Slope of N/T over friction {part}, {curve.label}"
+    return within(name, slope(curve.between(*reach)), low, high)
 
 
 def circulates(results: Results, fill: float) -> float:
