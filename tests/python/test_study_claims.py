@@ -44,12 +44,17 @@ BROKEN = {
         ("drum_power", pl.col("drum_power") * 1.4, baffles, fill == 0.2),
         ("drum_power", pl.col("drum_power") * 0.7, baffles, fill > 0.5),
     ],
-    "C3": [("drum_specific_power", fill, baffles, fill >= 0.6), ("drum_specific_power", fill, fill <= 0.4)],
+    "C3": [
+        ("drum_specific_power", fill, baffles, fill >= 0.6),
+        ("drum_specific_power", fill, fill <= 0.4),
+        ("drum_specific_power", pl.col("drum_specific_power") * 1.4, ~baffles, fill == 0.2),
+    ],
     "C4": [("dissipation_ratio", 0.7, fill == 0.3), ("dissipation_ratio", 2.5, fill == 0.7, baffles)],
     "C5": [
         ("dissipation_ratio", 3.0, baffles, fill == 0.1),
         ("dissipation_ratio", 1.5, baffles, fill < 0.6),
         ("dissipation_ratio", 1.0 + fill, baffles, fill >= 0.6),
+        ("dissipation_ratio", 2.2, baffles, fill == 0.65),
     ],
     "C6": [
         ("dissipation_ratio", 0.8, ~baffles, fill == 0.2),
@@ -69,8 +74,13 @@ BROKEN = {
     "C10": [
         ("dissipation_ratio", 1.0 - 0.3 * friction, fill == 0.25, ~small),
         ("dissipation_ratio", 1.0 + 0.3 * friction, fill == 0.75, ~small),
-        # Falls, and rises again.
-        ("dissipation_ratio", 1.0 + (friction - 0.5) ** 2, fill == 0.75, ~small),
+        # Falls on the whole, but rises again.
+        (
+            "dissipation_ratio",
+            pl.max_horizontal(3.0 - 4.0 * friction, 0.6 + 0.8 * friction),
+            fill == 0.75,
+            ~small,
+        ),
     ],
     "C11": [
         ("carried_round", 0.1, baffles, fill == 0.25),
