@@ -13,7 +13,7 @@ from small_study import SMALL
 TINY = replace(
     SMALL, duration=0.2, window=(0.1, 0.2), fills=(0.05,), fills_with_baffles=(0.05,), frictions=(0.0, 0.5)
 )
-FILES = {"report.html", "table.parquet", "figures", "runs"}
+FILES = {"report.html", "summary.md", "table.parquet", "figures", "runs"}
 
 
 @pytest.fixture

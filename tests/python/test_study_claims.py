@@ -54,7 +54,7 @@ BROKEN = {
         ("dissipation_ratio", 3.0, baffles, fill == 0.1),
         ("dissipation_ratio", 1.5, baffles, fill < 0.6),
         ("dissipation_ratio", 1.0 + fill, baffles, fill >= 0.6),
-        ("dissipation_ratio", 2.2, baffles, fill == 0.65),
+        ("dissipation_ratio", 2.4, baffles, fill == 0.65),
     ],
     "C6": [
         ("dissipation_ratio", 0.8, ~baffles, fill == 0.2),
