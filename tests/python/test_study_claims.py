@@ -226,3 +226,4 @@ def test_numbers_are_written_to_their_second_uncertain_digit():
     assert study.Number("x", 182.4, 12.3).text == "182 ± 12"
     assert study.Number("x", 1.0, math.inf).text == "1 ± ?"
     assert study.Number("x", 0.1, 0.0).text == "0.1"
+    assert study.Number("x", 1.3e-7, 4.84e-7).text == "(1.3 ± 4.8)·10⁻⁷"

@@ -98,7 +98,7 @@ def specific_power_against_speed(points: "pl.DataFrame", centrifuging: float) ->
     figure = curves(points, Labels("drum speed [rpm]", _SPECIFIC))
     axes = figure.axes[0]
     axes.axvline(centrifuging, color="0.7", linewidth=0.8, zorder=0)
-    _say_below(axes, centrifuging, "  Ω²R = g", side="left")
+    _say_below(axes, centrifuging, "Ω²R = g", beside=4.0)
     return figure
 
 
@@ -107,9 +107,19 @@ def specific_power_against_restitution(points: "pl.DataFrame") -> Figure:
     return curves(points, Labels("coefficient of restitution e", _SPECIFIC))
 
 
-def _say_below(axes: "Axes", x: float, text: str, side: str = "center") -> None:
-    where = axes.get_xaxis_transform()
-    axes.text(x, 0.02, text, transform=where, ha=side, va="bottom", color="0.45", fontsize="small")
+def _say_below(axes: "Axes", x: float, text: str, beside: float = 0.0) -> None:
+    """Write at the foot of axes, centered at x or so many points to the right of it."""
+    axes.annotate(
+        text,
+        (x, 0.02),
+        (beside, 0.0),
+        xycoords=axes.get_xaxis_transform(),
+        textcoords="offset points",
+        ha="left" if beside else "center",
+        va="bottom",
+        color="0.45",
+        fontsize="small",
+    )
 
 
 def _two_readings(points: "pl.DataFrame", other: "pl.DataFrame", labels: Labels) -> Figure:

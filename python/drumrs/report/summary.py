@@ -38,13 +38,14 @@ def _opening(findings: Findings) -> Iterator[str]:
     run = next(iter(findings.configs.values())).run
     seeds = len({config.run.seed for config in findings.configs.values()})
     told = facts.times(findings)
+    spent = float(findings.sweep.facts(findings.folder)["wall_time"].sum())
     yield f"# The paper's study, {findings.scale} scale"
     yield ""
     yield (
         f"Written by `drumrs reproduce`: {told['runs finished']} runs of {run.duration:g} s, averaged over "
         f"{run.averaging_window[0]:g}–{run.averaging_window[1]:g} s, {seeds} seed{'s' if seeds > 1 else ''} a case; "
-        f"{told['particle-steps']} particle-steps, {told['computing time, all runs']} of computing on one core "
-        f"({told.get('speed of one run', 'speed not known')}). drumrs {facts.versions()['drumrs']}."
+        f"{told['particle-steps']} particle-steps, which took {facts.duration(spent / 2.0)} on two cores "
+        f"({told.get('speed of one run', 'speed not known')} each). drumrs {facts.versions()['drumrs']}."
     )
     yield ""
     yield from (f"- {sentence.text}" for sentence in headline.sentences(findings))
@@ -91,4 +92,6 @@ def _figures(drawn: list[Picture]) -> Iterator[str]:
             continue
         yield f"![{figure.title}](figures/{figure.number}.png)"
         yield ""
-        yield f"**{figure.number}. {figure.title}.** {figure.caption}"
+        # The paper's own figures have a number.
+        number = f"{figure.number}. " if figure.number[1:].isdigit() else ""
+        yield f"**{number}{figure.title}.** {figure.caption}"

@@ -12,6 +12,9 @@ HOLDS, FAILS, UNDECIDED = "holds", "does not hold", "undecided"
 
 # Numbers below this are round-off.
 _NOTHING = 1e-9
+# Numbers below this are written with a power of ten.
+_TINY = 1e-3
+_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 class MissingError(LookupError):
@@ -48,6 +51,10 @@ class Number:
             return f"{self.value:.3g} ± ?{unit}"
         if self.half_width < _NOTHING:
             return f"{self.value if abs(self.value) > _NOTHING else 0.0:.3g}{unit}"
+        if max(abs(self.value), self.half_width) < _TINY:
+            power = math.floor(math.log10(max(abs(self.value), self.half_width)))
+            scaled = (self.value / 10.0**power, self.half_width / 10.0**power)
+            return f"({scaled[0]:.1f} ± {scaled[1]:.1f})·10{str(power).translate(_RAISED)}{unit}"
         digits = max(0, 1 - math.floor(math.log10(self.half_width)))
         return f"{self.value:.{digits}f} ± {self.half_width:.{digits}f}{unit}"
 
