@@ -7,6 +7,7 @@ of means, and a figure with intervals of 95 % are made of what the folder holds.
 
 import argparse
 import json
+import re
 import sys
 import tempfile
 from collections.abc import Iterator, Sequence
@@ -78,6 +79,15 @@ def measure(point: Point, seed: int, code: Code, folder: Path) -> None:
     print(f"{kept.stem}: {measured.power.value:.3f} W/kg", flush=True)
 
 
+def _shard(text: str) -> tuple[int, int]:
+    """Read k/n."""
+    found = re.fullmatch(r"(\d+)/(\d+)", text)
+    share, shares = (int(found[1]), int(found[2])) if found is not None else (0, 0)
+    if not 1 <= share <= shares:
+        raise argparse.ArgumentTypeError(f"{text!r} must be k/n with 1 <= k <= n")
+    return share, shares
+
+
 def main() -> int:
     """Run what is missing, then make the table and the figure."""
     parser = argparse.ArgumentParser(
@@ -93,11 +103,14 @@ def main() -> int:
         "--seeds", nargs="+", type=int, default=SEEDS, help="seeds of the random starts to run now"
     )
     parser.add_argument("--codes", nargs="+", default=CODES, choices=CODES, help="which codes to run now")
+    parser.add_argument(
+        "--shard", type=_shard, default=(1, 1), help="k/n: run the k-th of n parts, for n processes"
+    )
     options = parser.parse_args()
     options.runs.mkdir(parents=True, exist_ok=True)
-    for point, seed, code in runs(options.seeds):
-        if code.name not in options.codes:
-            continue
+    share, shares = options.shard
+    chosen = [run for run in runs(options.seeds) if run[2].name in options.codes][share - 1 :: shares]
+    for point, seed, code in chosen:
         try:
             measure(point, seed, code, options.runs)
         except MissingError as missing:

@@ -15,11 +15,12 @@ import drumrs
 from codes.beds import settled
 from codes.case import Case
 from codes.ours import Drumrs
-from codes.program import Code
+from codes.program import Code, Timing
 
-_FEWEST_STEPS = 100
+# No fewer steps than lists live for, so that making them has its share.
+_FEWEST_STEPS = 400
 # Steps before the clock runs: contacts must open, lists be made.
-_SETTLE = 0.2
+_SETTLE, _FEWEST_SETTLED = 0.2, 200
 # Bare drums whose cost is known at many numbers of contacts.
 _BARE = (60, 80, 100, 125, 150, 175, 200, 250, 300)
 _WITH_BAFFLES = (100, 150, 200, 250)
@@ -28,6 +29,12 @@ _WITH_BAFFLES = (100, 150, 200, 250)
 def steps_for(code: Code, count: int, seconds: float) -> int:
     """Return the number of steps that takes a code about so long [s]."""
     return max(_FEWEST_STEPS, round(seconds * code.pace / count))
+
+
+def time_code(code: Code, case: Case, seconds: float, scratch: Path) -> Timing:
+    """Time a code for about so long [s], after some steps that are not timed."""
+    steps = steps_for(code, case.count, seconds)
+    return code.time(case, max(_FEWEST_SETTLED, round(_SETTLE * steps)), steps, scratch)
 
 
 def spread(values: Sequence[float], places: int = 1) -> str:
@@ -65,8 +72,7 @@ def rounds(
     rates: dict[str, list[float]] = {code.name: [] for code in codes}
     for _ in range(options.repeats):
         for code in codes:
-            steps = steps_for(code, case.count, options.seconds)
-            timing = code.time(case, round(_SETTLE * steps), steps, scratch)
+            timing = time_code(code, case, options.seconds, scratch)
             rates[code.name].append(timing.rate(case.count) / 1e6)
     return rates
 
@@ -89,8 +95,7 @@ def compare_baffles(options: argparse.Namespace, scratch: Path) -> None:
     costs: dict[tuple[int, bool], list[float]] = {key: [] for key in cases}
     for _ in range(options.repeats):
         for key, case in cases.items():
-            steps = steps_for(Drumrs(), case.count, options.seconds)
-            timing = Drumrs().time(case, round(_SETTLE * steps), steps, scratch)
+            timing = time_code(Drumrs(), case, options.seconds, scratch)
             costs[key].append(1e6 * timing.seconds / timing.steps)
     contacts = {key: mean_contacts(case, options.seconds) for key, case in cases.items()}
     bare = sorted((contacts[key], key) for key in cases if not key[1])
