@@ -1,8 +1,8 @@
 """The settings of which accuracy and cost are compared, and their table."""
 
-import accuracy
 import pytest
 
+import accuracy
 import drumrs
 from drumrs.analysis import Estimate
 

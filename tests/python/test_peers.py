@@ -143,6 +143,13 @@ def test_what_is_missing_is_named_with_what_installs_it(monkeypatch, tmp_path, c
     assert "'yade'" in told[2]
 
 
+def test_a_check_without_another_code_fails(monkeypatch, tmp_path, capsys):
+    monkeypatch.setenv("PATH", str(tmp_path))
+    monkeypatch.setenv("OMP_NUM_THREADS", "1")
+    assert compare.main(["check", "--codes", "drumrs", "lammps"]) == 1
+    assert capsys.readouterr().err.endswith("check needs another code beside drumrs, but there is none\n")
+
+
 def test_a_code_that_fails_is_told_with_its_last_words(case, monkeypatch, tmp_path):
     program(tmp_path, "lmp", "echo 'ERROR: Lost atoms: original 40 current 39'; exit 1")
     monkeypatch.setenv("PATH", f"{tmp_path}:/usr/bin:/bin")
