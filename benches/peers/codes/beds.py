@@ -80,30 +80,41 @@ def _softer(config: drumrs.Config) -> drumrs.Config:
 
 
 def _pieced(config: drumrs.Config, folder: Path) -> Array:
-    """Fill a drum from below with copies of a square from within a smaller settled bed, turning with the drum.
+    """Fill a drum from below with copies of a square from within a smaller settled bed.
 
-    Where two copies meet, one of two bundles that overlap is left out. Within a copy contacts are those of the bed.
+    Where two copies meet, one of two bundles that overlap is left out. Within a copy contacts are those of the bed, and
+    so are velocities as seen from the drum.
     """
     size, piece = _piece(folder)
     radius, diameter = config.drum.diameter / 2.0, config.load.diameter
     reach = math.ceil(2.0 * radius / size)
     shifts = size * np.array([(i, j) for j in range(reach) for i in range(reach)]) - radius
-    places = (piece[None, :, :2] + shifts[:, None, :]).reshape(-1, 2)
-    spins = np.tile(piece[:, 4], len(shifts))
-    inside = np.hypot(*places.T) < radius - 0.5 * diameter
-    places, spins = places[inside], spins[inside]
-    lowest = np.argsort(places[:, 1], kind="stable")[: config.bundle_count]
+    motion = np.tile(piece, (len(shifts), 1))
+    motion[:, :2] += np.repeat(shifts, len(piece), axis=0)
+    motion = motion[np.hypot(*motion[:, :2].T) < radius - 0.5 * diameter]
+    lowest = np.argsort(motion[:, 1], kind="stable")[: config.bundle_count]
     if len(lowest) < config.bundle_count:
         raise ValueError(f"{config.bundle_count} bundles do not fit; {len(lowest)} do")
-    places, spins = places[lowest], spins[lowest]
-    omega = (config.rotation.rpm or 0.0) * math.pi / 30.0
-    return np.column_stack([places, -omega * places[:, 1], omega * places[:, 0], spins])
+    return _turned(motion[lowest], (config.rotation.rpm or 0.0) * math.pi / 30.0)
+
+
+def _turned(motion: Array, omega: float) -> Array:
+    """Add a rotation about the axis, at an angular velocity [rad/s], to velocities and spins."""
+    x, y = motion[:, 0], motion[:, 1]
+    added = np.column_stack(
+        [np.zeros_like(x), np.zeros_like(x), -omega * y, omega * x, np.full_like(x, omega)]
+    )
+    return motion + added
 
 
 def _piece(folder: Path) -> tuple[float, Array]:
-    """Return side [m] and bundles of a square from the middle of a settled bed; its copies tile the plane."""
+    """Return side [m] and bundles of a square from the middle of a settled bed; its copies tile the plane.
+
+    Velocities are as seen from the drum.
+    """
     bed = settled(_LARGEST_TUMBLED, folder)
-    motion, diameter = bed.motion(), bed.config.load.diameter
+    diameter = bed.config.load.diameter
+    motion = _turned(bed.motion(), -bed.angular_velocity)
     center = motion[:, :2].mean(axis=0)
     # A square that lies within the bed: the bed is a segment about as deep as the radius.
     half = 0.3 * bed.radius
