@@ -27,7 +27,7 @@ def settled(count: int, folder: Path, *, baffles: bool = False) -> Case:
     Parameters
     ----------
     count
-        Number of bundles: up to 300 in Table 1's drum, above in a drum that grows with them.
+        Number of bundles: up to 300 in Table 1's drum, above in a bare drum that grows with them.
     folder
         Where the beds are kept.
     baffles
@@ -37,11 +37,13 @@ def settled(count: int, folder: Path, *, baffles: bool = False) -> Case:
     path = folder / f"{config.digest}.npz"
     if not path.exists():
         folder.mkdir(parents=True, exist_ok=True)
-        motion = _tumbled(config) if count <= _LARGEST_TUMBLED else _pieced(config, folder)
-        np.savez(path, motion=motion)
+        tumbled = count <= _LARGEST_TUMBLED
+        motion, angle = _tumbled(config) if tumbled else (_pieced(config, folder), 0.0)
+        np.savez(path, motion=motion, angle=angle)
     with np.load(path) as kept:
-        motion = kept["motion"]
-    return Case(config, _state(motion))
+        motion, angle = kept["motion"], float(kept["angle"])
+    # The baffles are where the tumbling has left them.
+    return Case(config.replace({"drum.baffles.phase": math.degrees(angle)}), _state(motion))
 
 
 def grown(count: int, *, baffles: bool = False) -> drumrs.Config:
@@ -54,8 +56,8 @@ def grown(count: int, *, baffles: bool = False) -> drumrs.Config:
     return base.replace({"drum.diameter": diameter, "rotation.rpm": rpm})
 
 
-def _tumbled(config: drumrs.Config) -> Array:
-    """Pack a drum and let it turn until the load tumbles."""
+def _tumbled(config: drumrs.Config) -> tuple[Array, float]:
+    """Pack a drum and let it turn until the load tumbles; return the motion and the drum's angle [rad]."""
     large = config.bundle_count > _TABLE_1
     times = _TUMBLED_LARGE if large else _TUMBLED
     duration = times * math.sqrt(config.drum.diameter / 2.0 / 9.81)
@@ -63,9 +65,10 @@ def _tumbled(config: drumrs.Config) -> Array:
     simulation = drumrs.Simulation(first, seed=1)
     simulation.run(duration=duration)
     if large:
+        # Large drums are bare: where they stand does not matter.
         simulation = drumrs.Simulation(config, state=simulation.state)
         simulation.run(duration=_REST)
-    return Case(config, simulation.state).motion()
+    return Case(config, simulation.state).motion(), simulation.drum_angle
 
 
 def _softer(config: drumrs.Config) -> drumrs.Config:
