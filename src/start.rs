@@ -135,7 +135,7 @@ pub fn elastic_energies(table: &ContactTable, laws: &Laws) -> (f64, f64) {
     sums
 }
 
-/// The particle with the deepest overlap, and that overlap over the smaller radius.
+/// The place of the particle with the deepest overlap, and that overlap over the smaller radius.
 pub fn deepest_overlap(table: &ContactTable, particles: &Particles) -> (usize, f64) {
     let radius = |i: u32| particles.radii[i as usize];
     let pairs = (table.pairs().map(|entry| entry.contact))

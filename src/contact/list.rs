@@ -21,6 +21,20 @@ pub struct Entry {
     pub candidate: u32,
 }
 
+impl Entry {
+    /// The same contact between two particles at other places; the first in memory is the owner.
+    #[must_use]
+    pub fn between(mut self, own: u32, other: u32) -> Self {
+        (self.contact.particle, self.contact.other) = (own.min(other), own.max(other));
+        if other < own {
+            self.radii.reverse();
+            // Seen from the other side the normal is turned round; overlap, stretch and forces are the same.
+            self.contact.history.normal = -self.contact.history.normal;
+        }
+        self
+    }
+}
+
 /// Four contacts, column by column.
 #[derive(Debug, Clone, Copy, Default)]
 #[repr(C, align(32))]
@@ -165,6 +179,25 @@ impl ContactList {
         self.blocks[index / LANES].candidate[index % LANES] = candidate;
     }
 
+    /// Puts a contact at the end, whatever its key.
+    pub fn append(&mut self, entry: &Entry) {
+        if self.len == LANES * self.blocks.len() {
+            self.blocks.push(Block::default());
+        }
+        self.blocks[self.len / LANES].put(self.len % LANES, entry);
+        self.len += 1;
+    }
+
+    /// Restores the order of the keys.
+    pub fn sort(&mut self) {
+        let mut entries: Vec<Entry> = self.iter().collect();
+        entries.sort_unstable_by_key(|entry| (entry.contact.particle, entry.contact.other));
+        self.len = 0;
+        for entry in &entries {
+            self.append(entry);
+        }
+    }
+
     /// Puts a contact in its place.
     pub fn insert(&mut self, entry: Entry) {
         let key = (entry.contact.particle, entry.contact.other);
@@ -177,10 +210,7 @@ impl ContactList {
                 high = middle;
             }
         }
-        if self.len == LANES * self.blocks.len() {
-            self.blocks.push(Block::default());
-        }
-        self.len += 1;
+        self.append(&entry);
         let mut carried = entry;
         for index in low..self.len {
             let block = &mut self.blocks[index / LANES];

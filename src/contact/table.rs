@@ -202,16 +202,41 @@ impl ContactTable {
         })
     }
 
+    /// Follows the particles to other places in memory: particle `i` is now at `places[i]`. Candidates are forgotten.
+    pub fn follow(&mut self, places: &[u32]) {
+        let place = |particle: u32| places[particle as usize];
+        let mut moved = Self::empty(places.len());
+        for chunk in self.chunks.drain(..) {
+            for entry in chunk.pairs.contacts.iter() {
+                let entry = entry.between(place(entry.contact.particle), place(entry.contact.other));
+                moved.chunk_of(entry.contact.particle).pairs.contacts.append(&entry);
+            }
+            for mut entry in chunk.walls.contacts.iter() {
+                entry.contact.particle = place(entry.contact.particle);
+                moved.chunk_of(entry.contact.particle).walls.contacts.append(&entry);
+            }
+        }
+        for chunk in &mut moved.chunks {
+            chunk.pairs.contacts.sort();
+            chunk.walls.contacts.sort();
+        }
+        *self = moved;
+    }
+
+    fn chunk_of(&mut self, particle: u32) -> &mut ChunkSlots {
+        &mut self.chunks[particle as usize / CHUNK]
+    }
+
     /// Adds a contact between particles, as after reading a checkpoint.
     pub fn add_pair(&mut self, contact: Contact, law: SlotLaw, radii: [f64; 2]) {
         let entry = Entry { contact, law, radii, candidate: NO_CANDIDATE };
-        self.chunks[contact.particle as usize / CHUNK].pairs.contacts.insert(entry);
+        self.chunk_of(contact.particle).pairs.contacts.insert(entry);
     }
 
     /// Adds a contact with the drum.
     pub fn add_wall(&mut self, contact: Contact, law: SlotLaw, radius: f64) {
         let entry = Entry { contact, law, radii: [radius, 0.0], candidate: NO_CANDIDATE };
-        self.chunks[contact.particle as usize / CHUNK].walls.contacts.insert(entry);
+        self.chunk_of(contact.particle).walls.contacts.insert(entry);
     }
 }
 

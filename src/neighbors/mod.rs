@@ -80,6 +80,12 @@ impl VerletList {
         self.anchors.len() == positions.len() && self.budget > 0.1 * half
     }
 
+    /// Asks to be built anew at the next step, as the particles are in other places.
+    pub fn forget(&mut self) {
+        self.anchors.clear();
+        self.budget = -1.0;
+    }
+
     /// Builds the list anew; `table` keeps every contact that has a history.
     pub fn rebuild(&mut self, around: Surroundings, table: &mut ContactTable, threads: &Threads) {
         let particles = around.particles;
