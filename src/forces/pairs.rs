@@ -1,16 +1,20 @@
 //! Contacts between particles: candidates that are awake are looked at, contacts are worked out four at a time.
 
-use super::bodies::{FlowLanes, Pairs, settle};
+use super::bodies::{FlowLanes, Meeting, Pairs, settle};
 use super::post::Sink;
 use super::{Scene, in_use};
 use crate::contact::linear::LinearLanes;
 use crate::contact::list::Block;
 use crate::contact::table::{Candidates, Slots};
 use crate::energy::StepFlows;
-use crate::lanes::{LANES, Lanes, lanes, transpose};
+use crate::lanes::{LANES, Lanes, Vec2Lanes, lanes, transpose};
 
 /// Candidates searched at a time; a power of two.
 const BLOCK: usize = 128;
+
+/// Blocks of contacts that go through the stages of a step together: so many that the stages' latencies overlap, so few
+/// that they stay in the cache.
+const GROUP: usize = 8;
 
 /// For each set of lanes, as bits: its lanes in front, in their order.
 const IN_FRONT: [[u32; LANES]; 1 << LANES] = {
@@ -57,15 +61,25 @@ fn work_through(
 ) -> (FlowLanes, bool) {
     let mut flows = FlowLanes::zero();
     let mut all_touch = true;
+    let mut met = [Met::none(); GROUP];
     let (blocks, len) = slots.contacts.blocks_mut();
     let (full, rest) = blocks.split_at_mut(len / LANES);
-    for block in full {
-        let law = law_of(block);
-        all_touch &= work_out(scene, (block, LANES), &law, &mut flows, sink);
+    for group in full.chunks_mut(GROUP) {
+        for (block, met) in group.iter().zip(&mut met) {
+            *met = meet(scene, block);
+        }
+        for (block, met) in group.iter_mut().zip(&mut met) {
+            let law = law_of(block);
+            all_touch &= work_out((block, LANES), met, (&law, scene.step_rate), &mut flows);
+        }
+        for (block, met) in group.iter().zip(&met) {
+            load((block, LANES), &met.loads, sink);
+        }
     }
     if let Some(block) = rest.first_mut() {
-        let law = law_of(block);
-        all_touch &= work_out(scene, (block, len % LANES), &law, &mut flows, sink);
+        let (law, mut met) = (law_of(block), meet(scene, block));
+        all_touch &= work_out((block, len % LANES), &mut met, (&law, scene.step_rate), &mut flows);
+        load((block, len % LANES), &met.loads, sink);
     }
     (flows, all_touch)
 }
@@ -142,31 +156,54 @@ fn open(scene: Scene, slots: &mut Slots, candidate: usize) {
     slots.open(candidate, scene.laws.pair_slot(body(i), body(j)), [particles.radii[i], particles.radii[j]]);
 }
 
+/// A block between the stages of its step.
+#[derive(Debug, Clone, Copy)]
+struct Met {
+    bodies: Pairs,
+    meeting: Meeting,
+    /// On the owners: force, x and y, and moment; then the moment on the others with its sign turned round.
+    loads: [Lanes; LANES],
+}
+
+impl Met {
+    fn none() -> Self {
+        let (zero, none) = (Lanes::ZERO, Vec2Lanes { x: Lanes::ZERO, y: Lanes::ZERO });
+        Self { bodies: Pairs::none(), meeting: Meeting { overlap: zero, normal: none }, loads: [zero; LANES] }
+    }
+}
+
+/// Gathers the bodies of a block.
+#[inline(always)]
+fn meet(scene: Scene, block: &Block) -> Met {
+    let motion = |id: u32| &scene.motions[id as usize];
+    let (bodies, meeting) = Pairs::meet(block.owner.map(motion), block.other.map(motion), block.radii());
+    Met { bodies, meeting, loads: [Lanes::ZERO; LANES] }
+}
+
 /// Works out the first `count` contacts of a block; returns whether all of them still touch.
 #[inline(always)]
 fn work_out(
-    scene: Scene,
     (block, count): (&mut Block, usize),
-    law: &LinearLanes,
+    met: &mut Met,
+    (law, step_rate): (&LinearLanes, f64),
     flows: &mut FlowLanes,
-    sink: &mut Sink,
 ) -> bool {
-    let motion = |id: u32| &scene.motions[id as usize];
-    let pairs = Pairs::new(block.owner.map(motion), block.other.map(motion), block.radii());
-    let meeting = pairs.meet();
-    let history = block.history();
-    let used = in_use(count);
-    let now = settle(&pairs, (meeting, &history), (law, block.damping(), scene.step_rate), used, flows);
+    let (pairs, history, used) = (met.bodies, block.history(), in_use(count));
+    let now = settle(&pairs, (met.meeting, &history), (law, block.damping(), step_rate), used, flows);
     block.remember(&now);
-
     let force = now.force();
     let own_moment = pairs.own_arm(now.overlap) * now.tangential_force;
     let other_moment = pairs.other_arm(now.overlap) * now.tangential_force;
-    let rows = transpose([force.x, force.y, own_moment, -other_moment]);
-    for (lane, row) in rows.into_iter().enumerate().take(count) {
+    met.loads = [force.x, force.y, own_moment, -other_moment];
+    !(used & now.overlap.simd_le(Lanes::ZERO)).any()
+}
+
+/// Brings the loads of the first `count` contacts of a block to their particles, in key order.
+#[inline(always)]
+fn load((block, count): (&Block, usize), loads: &[Lanes; LANES], sink: &mut Sink) {
+    for (lane, row) in transpose(*loads).into_iter().enumerate().take(count) {
         sink.add(block.owner[lane], row);
         let [x, y, own_moment, other_moment] = row.to_array();
         sink.take_off(block.other[lane], Lanes::new([x, y, other_moment, own_moment]));
     }
-    !(used & now.overlap.simd_le(Lanes::ZERO)).any()
 }
