@@ -3,8 +3,9 @@
 use super::bodies::{FlowLanes, Meeting, Pairs, settle};
 use super::post::Sink;
 use super::{Scene, in_use};
+use crate::contact::block::{Block, Traits, TraitsLanes};
 use crate::contact::linear::LinearLanes;
-use crate::contact::list::Block;
+use crate::contact::list::ListTraits;
 use crate::contact::table::{Candidates, Slots};
 use crate::energy::StepFlows;
 use crate::lanes::{LANES, Lanes, Vec2Lanes, lanes, transpose};
@@ -37,13 +38,18 @@ const IN_FRONT: [[u32; LANES]; 1 << LANES] = {
 /// Evaluates the pairs of one chunk in key order.
 pub fn evaluate(scene: Scene, slots: &mut Slots, sink: &mut Sink) -> StepFlows {
     open_contacts(scene, slots);
-    // A load of one material has one law, which is then read once.
     let laws = scene.laws.pairs();
-    let (flows, all_touch) = if let [law] = laws {
-        let law = LinearLanes::splat(law);
-        work_through(scene, slots, sink, |_| law)
-    } else {
-        work_through(scene, slots, sink, |block| LinearLanes::new(|lane| &laws[block.laws()[lane] as usize]))
+    let (blocks, len, traits) = slots.contacts.parts_mut();
+    let (flows, all_touch) = match traits {
+        // In a load of equal bundles law and traits are read once.
+        ListTraits::Same(same) => {
+            let (law, traits) = (LinearLanes::splat(&laws[same.law.law as usize]), TraitsLanes::splat(same));
+            work_through(scene, (blocks, len), sink, |_| (law, traits))
+        }
+        ListTraits::Each(each) => work_through(scene, (blocks, len), sink, |block| {
+            let own = &each[block];
+            (LinearLanes::new(|lane| &laws[own.laws()[lane] as usize]), own.lanes())
+        }),
     };
     if !all_touch {
         slots.close_ended();
@@ -55,30 +61,33 @@ pub fn evaluate(scene: Scene, slots: &mut Slots, sink: &mut Sink) -> StepFlows {
 #[inline(always)]
 fn work_through(
     scene: Scene,
-    slots: &mut Slots,
+    (blocks, len): (&mut [Block], usize),
     sink: &mut Sink,
-    law_of: impl Fn(&Block) -> LinearLanes,
+    traits_of: impl Fn(usize) -> (LinearLanes, TraitsLanes),
 ) -> (FlowLanes, bool) {
     let mut flows = FlowLanes::zero();
     let mut all_touch = true;
     let mut met = [Met::none(); GROUP];
-    let (blocks, len) = slots.contacts.blocks_mut();
     let (full, rest) = blocks.split_at_mut(len / LANES);
-    for group in full.chunks_mut(GROUP) {
-        for (block, met) in group.iter().zip(&mut met) {
-            *met = meet(scene, block);
+    for (group_index, group) in full.chunks_mut(GROUP).enumerate() {
+        let first = GROUP * group_index;
+        for (index, (block, met)) in group.iter().zip(&mut met).enumerate() {
+            *met = meet(scene, block, &traits_of(first + index).1);
         }
-        for (block, met) in group.iter_mut().zip(&mut met) {
-            let law = law_of(block);
-            all_touch &= work_out((block, LANES), met, (&law, scene.step_rate), &mut flows);
+        for (index, (block, met)) in group.iter_mut().zip(&mut met).enumerate() {
+            let (law, traits) = traits_of(first + index);
+            let law = (&law, traits.damping, scene.step_rate);
+            all_touch &= work_out((block, LANES), met, law, &mut flows);
         }
         for (block, met) in group.iter().zip(&met) {
             load((block, LANES), &met.loads, sink);
         }
     }
     if let Some(block) = rest.first_mut() {
-        let (law, mut met) = (law_of(block), meet(scene, block));
-        all_touch &= work_out((block, len % LANES), &mut met, (&law, scene.step_rate), &mut flows);
+        let (law, traits) = traits_of(len / LANES);
+        let mut met = meet(scene, block, &traits);
+        let law = (&law, traits.damping, scene.step_rate);
+        all_touch &= work_out((block, len % LANES), &mut met, law, &mut flows);
         load((block, len % LANES), &met.loads, sink);
     }
     (flows, all_touch)
@@ -126,11 +135,12 @@ fn find_due(
 fn look_at(scene: Scene, slots: &mut Slots, due: &[u32; LANES]) {
     let candidates = &mut slots.candidates;
     let bodies = due.map(|candidate| candidates.bodies(candidate as usize));
-    let place = |id: u32| scene.motions[id as usize].place;
-    let [gap_x, gap_y, ..] = transpose(bodies.map(|pair| place(pair.other) - place(pair.owner)));
+    let own = bodies.map(|pair| &scene.motions[pair.owner as usize]);
+    let other = bodies.map(|pair| &scene.motions[pair.other as usize]);
+    let [gap_x, gap_y, ..] = transpose(std::array::from_fn(|lane| other[lane].place - own[lane].place));
     // Each of the two has to go half of the gap, which is (distance² − reach²) / (distance + reach).
-    let reach = lanes(|lane| bodies[lane].squared_reach);
-    let excess = gap_x * gap_x + gap_y * gap_y - reach;
+    let reach = lanes(|lane| own[lane].radius() + other[lane].radius());
+    let excess = gap_x * gap_x + gap_y * gap_y - reach * reach;
     let sleep = Lanes::splat(scene.way) + excess.fast_max(Lanes::ZERO) * scene.half_gap;
     for (&candidate, until) in due.iter().zip(sleep.to_array()) {
         candidates.sleep(candidate as usize, until);
@@ -153,7 +163,8 @@ fn open(scene: Scene, slots: &mut Slots, candidate: usize) {
     let (i, j) = (owner as usize, other as usize);
     let particles = scene.particles;
     let body = |id: usize| (particles.materials[id], particles.masses[id]);
-    slots.open(candidate, scene.laws.pair_slot(body(i), body(j)), [particles.radii[i], particles.radii[j]]);
+    let law = scene.laws.pair_slot(body(i), body(j));
+    slots.open(candidate, Traits { law, radii: [particles.radii[i], particles.radii[j]] });
 }
 
 /// A block between the stages of its step.
@@ -174,9 +185,9 @@ impl Met {
 
 /// Gathers the bodies of a block.
 #[inline(always)]
-fn meet(scene: Scene, block: &Block) -> Met {
+fn meet(scene: Scene, block: &Block, traits: &TraitsLanes) -> Met {
     let motion = |id: u32| &scene.motions[id as usize];
-    let (bodies, meeting) = Pairs::meet(block.owner.map(motion), block.other.map(motion), block.radii());
+    let (bodies, meeting) = Pairs::meet(block.owner.map(motion), block.other.map(motion), traits.radii);
     Met { bodies, meeting, loads: [Lanes::ZERO; LANES] }
 }
 
@@ -185,11 +196,11 @@ fn meet(scene: Scene, block: &Block) -> Met {
 fn work_out(
     (block, count): (&mut Block, usize),
     met: &mut Met,
-    (law, step_rate): (&LinearLanes, f64),
+    law: (&LinearLanes, Lanes, f64),
     flows: &mut FlowLanes,
 ) -> bool {
     let (pairs, history, used) = (met.bodies, block.history(), in_use(count));
-    let now = settle(&pairs, (met.meeting, &history), (law, block.damping(), step_rate), used, flows);
+    let now = settle(&pairs, (met.meeting, &history), law, used, flows);
     block.remember(&now);
     let force = now.force();
     let own_moment = pairs.own_arm(now.overlap) * now.tangential_force;

@@ -43,7 +43,7 @@ impl Motion {
     /// Radius [m].
     #[inline(always)]
     pub fn radius(&self) -> f64 {
-        self.pace.to_array()[3]
+        self.pace.as_array()[3]
     }
 }
 

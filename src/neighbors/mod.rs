@@ -122,13 +122,11 @@ impl Search<'_> {
         for (i, &center) in anchors.iter().enumerate().skip(start).take(CHUNK) {
             find_pairs(i, around.particles, grid, skin, &mut found);
             for j in found.drain(..) {
-                let reach = around.particles.radii[i] + around.particles.radii[j as usize];
-                let squared_reach = reach * reach;
-                pairs.candidates.push(Candidate { owner: i as u32, other: j, squared_reach });
+                pairs.candidates.push(Candidate { owner: i as u32, other: j });
             }
             find_walls(around.drum, center, around.particles.radii[i] + skin, &mut found);
             for feature in found.drain(..) {
-                walls.candidates.push(Candidate { owner: i as u32, other: feature, squared_reach: 0.0 });
+                walls.candidates.push(Candidate { owner: i as u32, other: feature });
             }
         }
         pairs.link();

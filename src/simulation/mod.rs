@@ -264,7 +264,7 @@ impl Simulation {
     fn rebuild(&mut self, rotation: Rotation) {
         let around = Surroundings { particles: &self.state.particles, drum: &self.fixed.drum, rotation };
         self.list.rebuild(around, &mut self.table, &self.threads);
-        self.forces.prepare(&self.table);
+        self.forces.prepare(&self.table, &self.threads);
     }
 
     fn evaluate(&mut self, instant: Instant) {
