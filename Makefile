@@ -36,6 +36,7 @@ lint: develop ## check format, lints, types and the stub of the core
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
 	$(BIN)/mypy
+	cd benches/peers && MYPYPATH=../../python:. ../../$(BIN)/mypy --config-file ../../pyproject.toml *.py ../*.py
 	cd python && ../$(BIN)/python -m mypy.stubtest drumrs._core --mypy-config-file ../pyproject.toml
 
 bench: ## measure the speed of a step

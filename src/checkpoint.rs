@@ -24,7 +24,7 @@ use crate::state::{State, TouchingContacts};
 
 const MAGIC: &[u8; 8] = b"DRUMRS\r\n";
 /// Version of the layout below; a checkpoint of another one is refused.
-pub const FORMAT_VERSION: u32 = 2;
+pub const FORMAT_VERSION: u32 = 3;
 const HEADER: usize = MAGIC.len() + 4 + 32;
 
 #[derive(Serialize, Deserialize)]

@@ -309,13 +309,12 @@ fn damaged_checkpoints_are_refused() {
     assert!(refusal(&good[..good.len() - 7]).contains("damaged or cut short"));
     let mut other_version = good.clone();
     other_version[8] += 1;
-    assert!(refusal(&other_version).contains("format version 3"));
+    assert!(refusal(&other_version).contains(&format!("format version {}", checkpoint::FORMAT_VERSION + 1)));
     for position in (0..good.len()).step_by(good.len() / 97) {
         let mut flipped = good.clone();
         flipped[position] ^= 0x10;
         assert!(refusal(&flipped).starts_with("cannot use this checkpoint"));
     }
-    let _ = checkpoint::FORMAT_VERSION;
 }
 
 proptest! {

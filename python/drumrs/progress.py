@@ -22,10 +22,15 @@ class Journey:
 
 @dataclass(frozen=True)
 class Campaign:
-    """Many cases to be reported: how many, and their particle-steps together."""
+    """Many cases to be reported: how many, their particle-steps together, what they are.
+
+    Where particle-steps are known roughly only, it is not `rated` by them.
+    """
 
     cases: int
     cost: float
+    label: str = "sweep"
+    rated: bool = True
 
 
 class Board:
@@ -101,14 +106,15 @@ class _Score:
     def state(self, cases: int, cost: float) -> str:
         """Say how many cases are done, and how fast."""
         rate = cost / max(time.perf_counter() - self.began, 1e-9)
-        return f"{cases} of {self.campaign.cases} cases · {rate / 1e6:.1f} M particle-steps/s"
+        speed = f" · {rate / 1e6:.1f} M particle-steps/s" if self.campaign.rated else ""
+        return f"{cases} of {self.campaign.cases} cases{speed}"
 
     def line(self, cases: int, cost: float) -> str:
         """Say in one line how far it is."""
         share = cost / max(self.campaign.cost, 1.0)
         elapsed = time.perf_counter() - self.began
         left = f"{elapsed * (1.0 / share - 1.0):.0f} s left" if share else "time left unknown"
-        return f"sweep: {share:.0%}, {self.state(cases, cost)}, {left}"
+        return f"{self.campaign.label}: {share:.0%}, {self.state(cases, cost)}, {left}"
 
 
 class _Lines(Board):
@@ -178,7 +184,7 @@ class _Bars(Board):
 
     def add_campaign(self, campaign: Campaign) -> Callable[[int, float], None]:
         score = _Score(campaign)
-        task = self._progress.add_task("sweep", total=max(campaign.cost, 1.0), state="")
+        task = self._progress.add_task(campaign.label, total=max(campaign.cost, 1.0), state="")
 
         def report(cases: int, cost: float) -> None:
             self._progress.update(task, completed=cost, state=score.state(cases, cost))
