@@ -67,13 +67,14 @@ def board(*, show: bool) -> Board:
         return Board()
     from rich.console import Console
 
-    notebook = Console().is_jupyter
-    if notebook or sys.stderr.isatty():
-        return _Bars(notebook=notebook)
-    return _Lines()
+    if Console().is_jupyter:
+        from drumrs.notebook import Cell
+
+        return Cell()
+    return _Bars() if sys.stderr.isatty() else _Lines()
 
 
-class _Meter:
+class Meter:
     """Rate and time left of one run."""
 
     def __init__(self, journey: Journey) -> None:
@@ -96,7 +97,7 @@ class _Meter:
         return f"{label}{share:.0%}, {done:.2f} of {end:.2f} s, {rate / 1e6:.1f} M particle-steps/s, {left:.0f} s left"
 
 
-class _Score:
+class Score:
     """Rate and time left of many cases, by what they cost and not by their number."""
 
     def __init__(self, campaign: Campaign) -> None:
@@ -119,7 +120,7 @@ class _Score:
 
 class _Lines(Board):
     def add(self, journey: Journey) -> Callable[[int], None]:
-        meter = _Meter(journey)
+        meter = Meter(journey)
         due = meter.began + _MINUTE
 
         def report(step: int) -> None:
@@ -131,7 +132,7 @@ class _Lines(Board):
         return report
 
     def add_campaign(self, campaign: Campaign) -> Callable[[int, float], None]:
-        score = _Score(campaign)
+        score = Score(campaign)
         due = score.began + _MINUTE
 
         def report(cases: int, cost: float) -> None:
@@ -148,7 +149,7 @@ class _Lines(Board):
 
 
 class _Bars(Board):
-    def __init__(self, *, notebook: bool) -> None:
+    def __init__(self) -> None:
         from rich.console import Console
         from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
 
@@ -159,7 +160,7 @@ class _Bars(Board):
             TextColumn("{task.fields[state]}"),
             TimeRemainingColumn(),
             TextColumn("left"),
-            console=None if notebook else Console(stderr=True),
+            console=Console(stderr=True),
         )
 
     def __enter__(self) -> Self:
@@ -170,7 +171,7 @@ class _Bars(Board):
         self._progress.stop()
 
     def add(self, journey: Journey) -> Callable[[int], None]:
-        meter = _Meter(journey)
+        meter = Meter(journey)
         label = journey.label or "drum"
         task = self._progress.add_task(label, total=journey.last_step, completed=journey.first_step, state="")
         end = journey.last_step * journey.time_step
@@ -183,7 +184,7 @@ class _Bars(Board):
         return report
 
     def add_campaign(self, campaign: Campaign) -> Callable[[int, float], None]:
-        score = _Score(campaign)
+        score = Score(campaign)
         task = self._progress.add_task(campaign.label, total=max(campaign.cost, 1.0), state="")
 
         def report(cases: int, cost: float) -> None:

@@ -143,6 +143,13 @@ def test_what_is_missing_is_named_with_what_installs_it(monkeypatch, tmp_path, c
     assert "'yade'" in told[2]
 
 
+def test_a_check_without_another_code_fails(monkeypatch, tmp_path, capsys):
+    monkeypatch.setenv("PATH", str(tmp_path))
+    monkeypatch.setenv("OMP_NUM_THREADS", "1")
+    assert compare.main(["check", "--codes", "drumrs", "lammps"]) == 1
+    assert capsys.readouterr().err.endswith("check needs another code beside drumrs, but there is none\n")
+
+
 def test_a_code_that_fails_is_told_with_its_last_words(case, monkeypatch, tmp_path):
     program(tmp_path, "lmp", "echo 'ERROR: Lost atoms: original 40 current 39'; exit 1")
     monkeypatch.setenv("PATH", f"{tmp_path}:/usr/bin:/bin")
@@ -193,3 +200,27 @@ def test_a_drum_grows_at_one_froude_number():
     radius, omega = config.drum.diameter / 2.0, config.rotation.rpm * math.pi / 30.0
     assert omega**2 * radius / 9.81 == pytest.approx(0.774, rel=1e-3)
     assert 10_000 * config.load.diameter**2 / config.drum.diameter**2 == pytest.approx(0.4)
+
+
+def test_a_settled_drum_goes_on_with_its_baffles_where_they_are(tmp_path, monkeypatch):
+    monkeypatch.setattr(beds, "_TUMBLED", 2.0)
+    case = beds.settled(100, tmp_path, baffles=True)
+    assert case.config.drum.baffles.phase > 30.0
+    again = beds.settled(100, tmp_path, baffles=True)
+    assert again.config == case.config
+    assert np.array_equal(again.motion(), case.motion())
+    # A bundle within a baffle, or outside of the drum, would be refused.
+    assert drumrs.Simulation(case.config, state=case.state).count == 100
+
+
+def test_a_large_bed_is_made_of_copies(tmp_path, monkeypatch):
+    monkeypatch.setattr(beds, "_LARGEST_TUMBLED", 1000)
+    monkeypatch.setattr(beds, "_TUMBLED_LARGE", 2.0)
+    case = beds.settled(4000, tmp_path)
+    simulation = drumrs.Simulation(case.config.replace({"run.sample_every": 1e-5}), state=case.state)
+    simulation.run(steps=20)
+    assert simulation.count == 4000
+    assert simulation.series["contact_count"][-1] > 200
+    # Seen from the drum the bed is nearly at rest.
+    seen = beds._turned(case.motion(), -case.angular_velocity)
+    assert np.median(np.hypot(seen[:, 2], seen[:, 3])) < 0.5 * case.angular_velocity * case.radius

@@ -27,7 +27,7 @@ def settled(count: int, folder: Path, *, baffles: bool = False) -> Case:
     Parameters
     ----------
     count
-        Number of bundles: up to 300 in Table 1's drum, above in a drum that grows with them.
+        Number of bundles: up to 300 in Table 1's drum, above in a bare drum that grows with them.
     folder
         Where the beds are kept.
     baffles
@@ -37,11 +37,13 @@ def settled(count: int, folder: Path, *, baffles: bool = False) -> Case:
     path = folder / f"{config.digest}.npz"
     if not path.exists():
         folder.mkdir(parents=True, exist_ok=True)
-        motion = _tumbled(config) if count <= _LARGEST_TUMBLED else _pieced(config, folder)
-        np.savez(path, motion=motion)
+        tumbled = count <= _LARGEST_TUMBLED
+        motion, angle = _tumbled(config) if tumbled else (_pieced(config, folder), 0.0)
+        np.savez(path, motion=motion, angle=angle)
     with np.load(path) as kept:
-        motion = kept["motion"]
-    return Case(config, _state(motion))
+        motion, angle = kept["motion"], float(kept["angle"])
+    # The baffles are where the tumbling has left them.
+    return Case(config.replace({"drum.baffles.phase": math.degrees(angle)}), _state(motion))
 
 
 def grown(count: int, *, baffles: bool = False) -> drumrs.Config:
@@ -54,8 +56,8 @@ def grown(count: int, *, baffles: bool = False) -> drumrs.Config:
     return base.replace({"drum.diameter": diameter, "rotation.rpm": rpm})
 
 
-def _tumbled(config: drumrs.Config) -> Array:
-    """Pack a drum and let it turn until the load tumbles."""
+def _tumbled(config: drumrs.Config) -> tuple[Array, float]:
+    """Pack a drum and let it turn until the load tumbles; return the motion and the drum's angle [rad]."""
     large = config.bundle_count > _TABLE_1
     times = _TUMBLED_LARGE if large else _TUMBLED
     duration = times * math.sqrt(config.drum.diameter / 2.0 / 9.81)
@@ -63,9 +65,10 @@ def _tumbled(config: drumrs.Config) -> Array:
     simulation = drumrs.Simulation(first, seed=1)
     simulation.run(duration=duration)
     if large:
+        # Large drums are bare: where they stand does not matter.
         simulation = drumrs.Simulation(config, state=simulation.state)
         simulation.run(duration=_REST)
-    return Case(config, simulation.state).motion()
+    return Case(config, simulation.state).motion(), simulation.drum_angle
 
 
 def _softer(config: drumrs.Config) -> drumrs.Config:
@@ -80,30 +83,41 @@ def _softer(config: drumrs.Config) -> drumrs.Config:
 
 
 def _pieced(config: drumrs.Config, folder: Path) -> Array:
-    """Fill a drum from below with copies of a square from within a smaller settled bed, turning with the drum.
+    """Fill a drum from below with copies of a square from within a smaller settled bed.
 
-    Where two copies meet, one of two bundles that overlap is left out. Within a copy contacts are those of the bed.
+    Where two copies meet, one of two bundles that overlap is left out. Within a copy contacts are those of the bed, and
+    so are velocities as seen from the drum.
     """
     size, piece = _piece(folder)
     radius, diameter = config.drum.diameter / 2.0, config.load.diameter
     reach = math.ceil(2.0 * radius / size)
     shifts = size * np.array([(i, j) for j in range(reach) for i in range(reach)]) - radius
-    places = (piece[None, :, :2] + shifts[:, None, :]).reshape(-1, 2)
-    spins = np.tile(piece[:, 4], len(shifts))
-    inside = np.hypot(*places.T) < radius - 0.5 * diameter
-    places, spins = places[inside], spins[inside]
-    lowest = np.argsort(places[:, 1], kind="stable")[: config.bundle_count]
+    motion = np.tile(piece, (len(shifts), 1))
+    motion[:, :2] += np.repeat(shifts, len(piece), axis=0)
+    motion = motion[np.hypot(*motion[:, :2].T) < radius - 0.5 * diameter]
+    lowest = np.argsort(motion[:, 1], kind="stable")[: config.bundle_count]
     if len(lowest) < config.bundle_count:
         raise ValueError(f"{config.bundle_count} bundles do not fit; {len(lowest)} do")
-    places, spins = places[lowest], spins[lowest]
-    omega = (config.rotation.rpm or 0.0) * math.pi / 30.0
-    return np.column_stack([places, -omega * places[:, 1], omega * places[:, 0], spins])
+    return _turned(motion[lowest], (config.rotation.rpm or 0.0) * math.pi / 30.0)
+
+
+def _turned(motion: Array, omega: float) -> Array:
+    """Add a rotation about the axis, at an angular velocity [rad/s], to velocities and spins."""
+    x, y = motion[:, 0], motion[:, 1]
+    added = np.column_stack(
+        [np.zeros_like(x), np.zeros_like(x), -omega * y, omega * x, np.full_like(x, omega)]
+    )
+    return motion + added
 
 
 def _piece(folder: Path) -> tuple[float, Array]:
-    """Return side [m] and bundles of a square from the middle of a settled bed; its copies tile the plane."""
+    """Return side [m] and bundles of a square from the middle of a settled bed; its copies tile the plane.
+
+    Velocities are as seen from the drum.
+    """
     bed = settled(_LARGEST_TUMBLED, folder)
-    motion, diameter = bed.motion(), bed.config.load.diameter
+    diameter = bed.config.load.diameter
+    motion = _turned(bed.motion(), -bed.angular_velocity)
     center = motion[:, :2].mean(axis=0)
     # A square that lies within the bed: the bed is a segment about as deep as the radius.
     half = 0.3 * bed.radius
