@@ -72,7 +72,7 @@ impl Threads {
     pub fn for_each_chunk<W: Chunked>(&self, count: usize, work: W, kernel: &(impl Fn(W) + Sync)) {
         match &self.pool {
             Some(pool) if self.serve(count) => {
-                pool.install(|| share(work, kernel, pool.current_num_threads()))
+                pool.install(|| share(work, kernel, pool.current_num_threads()));
             }
             _ => in_turn(work, kernel),
         }
