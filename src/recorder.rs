@@ -5,7 +5,6 @@
 use serde::{Deserialize, Serialize};
 
 use crate::energy::{EnergyLedger, StoredEnergy, SurfaceAccount};
-use crate::vector::Vec2;
 
 /// Everything that a sample may look at.
 #[derive(Debug)]
@@ -237,7 +236,7 @@ pub struct Frames {
     pub times: Vec<f64>,
     /// Angles of the drum [rad].
     pub drum_angles: Vec<f64>,
-    /// Centers [m]: x, y of each particle, frame after frame.
+    /// Centers [m]: x, y of each particle in id order, frame after frame.
     pub positions: Vec<f32>,
     /// Angles of the particles [rad], within ±π.
     pub angles: Vec<f32>,
@@ -250,12 +249,19 @@ impl Frames {
     pub fn push(&mut self, time: f64, drum_angle: f64, particles: &crate::particles::Particles) {
         self.times.push(time);
         self.drum_angles.push(drum_angle);
-        self.positions.extend(particles.positions.iter().flat_map(|p| [p.x as f32, p.y as f32]));
-        self.angles.extend(particles.angles.iter().map(|angle| {
+        let (start, end) = (self.angles.len(), self.angles.len() + particles.len());
+        self.positions.resize(2 * end, 0.0);
+        self.angles.resize(end, 0.0);
+        self.speeds.resize(end, 0.0);
+        for (i, &id) in particles.ids.iter().enumerate() {
+            let place = start + id as usize;
+            let (position, angle) = (particles.positions[i], particles.angles[i]);
             let turns = (angle / std::f64::consts::TAU).round();
-            (angle - turns * std::f64::consts::TAU) as f32
-        }));
-        self.speeds.extend(particles.velocities.iter().map(|v: &Vec2| v.norm() as f32));
+            self.positions[2 * place] = position.x as f32;
+            self.positions[2 * place + 1] = position.y as f32;
+            self.angles[place] = (angle - turns * std::f64::consts::TAU) as f32;
+            self.speeds[place] = particles.velocities[i].norm() as f32;
+        }
     }
 
     /// Whether these are whole frames of `count` particles.
