@@ -1,14 +1,11 @@
-//! Work over fixed chunks of particles, serial or by a simulation's own team of threads.
+//! Work over fixed chunks of particles, serial or on a simulation's own thread pool.
 //!
 //! A chunk always holds the same particles and is always worked through in the same order by one thread; sums are kept
 //! per chunk and added up in chunk order afterwards. That is why the number of threads never shows in a result.
 
-mod team;
-
 use std::sync::{Arc, Mutex, PoisonError};
 
 use crate::error::Error;
-use team::Team;
 
 /// Particles per chunk.
 pub const CHUNK: usize = 512;
@@ -29,38 +26,54 @@ pub trait Chunked: Sized + Send {
 /// The threads that one simulation may use.
 #[derive(Debug, Clone)]
 pub struct Threads {
-    team: Option<Arc<Team>>,
+    pool: Option<Arc<rayon::ThreadPool>>,
 }
 
 impl Threads {
-    /// A team of `count` threads; one thread needs no team.
+    /// A pool of `count` threads; one thread needs no pool.
     ///
     /// # Errors
     /// `Error::Config` for no threads, `Error::System` where the system refuses them.
     pub fn new(count: usize) -> Result<Self, Error> {
         match count {
             0 => Err(Error::config("threads", 0, "at least 1")),
-            1 => Ok(Self { team: None }),
-            _ => Team::new(count).map(|team| Self { team: Some(Arc::new(team)) }).map_err(|error| {
-                Error::System { action: format!("starting {count} threads"), reason: error.to_string() }
-            }),
+            1 => Ok(Self { pool: None }),
+            _ => rayon::ThreadPoolBuilder::new()
+                .num_threads(count)
+                .build()
+                .map(|pool| Self { pool: Some(Arc::new(pool)) })
+                .map_err(|error| Error::System {
+                    action: format!("starting {count} threads"),
+                    reason: error.to_string(),
+                }),
         }
     }
 
     /// Number of threads.
     pub fn count(&self) -> usize {
-        self.team.as_ref().map_or(1, |team| team.count())
+        self.pool.as_ref().map_or(1, |pool| pool.current_num_threads())
     }
 
     /// Whether work on `count` particles is worth handing over to other threads.
     pub fn serve(&self, count: usize) -> bool {
-        self.team.is_some() && count >= PARALLEL_THRESHOLD
+        self.pool.is_some() && count >= PARALLEL_THRESHOLD
+    }
+
+    /// Runs `work` on one of the pool's threads where that pays for `count` particles: a run of many steps enters the pool
+    /// once, since each entrance wakes a thread that has gone to sleep.
+    pub fn enter<R: Send>(&self, count: usize, work: impl FnOnce() -> R + Send) -> R {
+        match &self.pool {
+            Some(pool) if self.serve(count) => pool.install(work),
+            _ => work(),
+        }
     }
 
     /// Runs `kernel` on each chunk of `work`, on several threads where that pays for `count` particles.
     pub fn for_each_chunk<W: Chunked>(&self, count: usize, work: W, kernel: &(impl Fn(W) + Sync)) {
-        match &self.team {
-            Some(team) if self.serve(count) => share(work, kernel, team),
+        match &self.pool {
+            Some(pool) if self.serve(count) => {
+                pool.install(|| share(work, kernel, pool.current_num_threads()));
+            }
             _ => in_turn(work, kernel),
         }
     }
@@ -73,8 +86,8 @@ const PARALLEL_THRESHOLD: usize = 4096;
 
 /// Gives each thread a stretch of chunks, the same in every pass, so that it finds in its own cache what it left there.
 /// Who is done takes what others have not come to: a thread whose CPU is busy with something else holds nobody up.
-fn share<W: Chunked>(mut work: W, kernel: &(impl Fn(W) + Sync), team: &Team) {
-    let members = team.count().min(work.chunks());
+fn share<W: Chunked>(mut work: W, kernel: &(impl Fn(W) + Sync), threads: usize) {
+    let members = threads.min(work.chunks());
     let mut stretches = Vec::with_capacity(members);
     for threads in (2..=members).rev() {
         let chunks = work.chunks();
@@ -83,13 +96,18 @@ fn share<W: Chunked>(mut work: W, kernel: &(impl Fn(W) + Sync), team: &Team) {
         work = rest;
     }
     stretches.push(Mutex::new(Some(work)));
-    team.work(&|number| {
+    let stretches = &stretches[..];
+    let help = move |number: usize| {
         for turn in 0..members {
             let stretch = &stretches[(number + turn) % members];
             while let Some(chunk) = take(stretch, turn == 0) {
                 kernel(chunk);
             }
         }
+    };
+    rayon::scope(|scope| {
+        (1..members).for_each(|number| scope.spawn(move |_| help(number)));
+        help(0);
     });
 }
 
