@@ -70,6 +70,7 @@ impl Simulation {
         let drum = Drum::new(&config.drum)?;
         let positions = pack(&drum, config.load.count, 0.5 * config.load.diameter, seed)?;
         let particles = start::packed(&config, positions, seed);
+        particles.validate()?;
         Self::start(config, seed, threads, particles)
     }
 

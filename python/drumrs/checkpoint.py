@@ -57,4 +57,10 @@ def read_checkpoint(path: str | Path) -> tuple[Config, bytes]:
             f"the checkpoint {str(path)!r} is truncated or damaged: its digest does not match"
         )
     head, _, core = rest.partition(b"\n")
-    return Config.model_validate(json.loads(head)), core
+    try:
+        return Config.model_validate(json.loads(head)), core
+    except (ValueError, RecursionError):
+        # A digest that matches is not yet one that drumrs made.
+        raise CheckpointError(
+            f"the checkpoint {str(path)!r} holds no configuration, but must be a file that drumrs wrote"
+        ) from None

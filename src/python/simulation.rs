@@ -15,6 +15,7 @@ use pyo3::types::{PyBytes, PyDict};
 
 use super::arrays;
 use super::error::to_python;
+use super::gate::Inside;
 use crate::config::SimulationConfig;
 use crate::error::Error;
 use crate::recorder::{Column, columns};
@@ -44,7 +45,10 @@ impl Simulation {
 
     /// Runs `look` on the core with the interpreter released.
     fn with<T: Send>(&self, py: Python<'_>, look: impl FnOnce(&mut Core) -> T + Send) -> T {
-        py.detach(|| look(&mut self.lock()))
+        py.detach(|| {
+            let _inside = Inside::enter();
+            look(&mut self.lock())
+        })
     }
 
     /// Does steps until `left` are done or a slice of time is over; returns how many it did.
