@@ -11,7 +11,7 @@ _MOST_THREADS = 1024
 _MOST_STEPS = 2**53
 # What samples and frames may each take in memory [bytes].
 _MOST_MEMORY = 8 * 2**30
-# A sample has some thirty columns, and three for each baffle and wall; a frame four numbers of single precision a bundle.
+# A sample has some thirty columns, and three for each baffle and wall; a frame has four single numbers a bundle.
 _SAMPLE, _SURFACE, _BUNDLE = 30 * 8, 3 * 8, 4 * 4
 
 

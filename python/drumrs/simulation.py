@@ -1,5 +1,6 @@
 """`Simulation`: one drum, step by step; the only module that talks to the compiled core."""
 
+import json
 import math
 import os
 import threading
@@ -374,6 +375,8 @@ class Simulation:
             core = _core.Simulation.from_checkpoint(data, threads)
         except CheckpointError as error:
             raise CheckpointError(f"{path}: {error}") from None
+        if json.loads(core.config) != json.loads(config.to_core_json()) or core.seed != config.run.seed:
+            raise CheckpointError(f"{path}: its configuration is not that of its state")
         return cls._around(config, core)
 
     @classmethod

@@ -1,4 +1,4 @@
-"""Configurations that nobody should write: any document, any mutation of a valid one; and what has to become of them."""
+"""Configurations that nobody should write, and what has to become of them: an error of ours, or a simulation."""
 
 import json
 import math
@@ -59,17 +59,25 @@ OTHERS = {
 }
 
 numbers = st.one_of(
-    st.sampled_from([0, -1, 1, 2, 10**12, 2**63, 10**400, -(10**400), 0.0, -0.0, 5e-324, 1e-300, 1e-160, 1e-12]),
+    st.sampled_from(
+        [0, -1, 1, 2, 10**12, 2**63, 10**400, -(10**400), 0.0, -0.0, 5e-324, 1e-300, 1e-160, 1e-12]
+    ),
     st.sampled_from([1e-9, 1e-3, 1e3, 1e9, 1e12, 1e154, 1e300, 1.7e308, math.inf, -math.inf, math.nan]),
     st.floats(),
     st.floats(min_value=1e-12, max_value=1e12),
     st.integers(min_value=-(10**13), max_value=10**13),
 )
 magnitudes = st.floats(-320.0, 308.0).map(lambda power: 10.0**power)
-words = st.one_of(st.sampled_from(["auto", "triangle", "polygon", "clipped", "", "nan", "1e5"]), st.text(max_size=8))
+words = st.one_of(
+    st.sampled_from(["auto", "triangle", "polygon", "clipped", "", "nan", "1e5"]), st.text(max_size=8)
+)
 leaves = st.one_of(numbers, words, st.booleans(), st.none())
 pairs = st.lists(st.one_of(numbers, st.floats(min_value=-0.3, max_value=0.3)), min_size=2, max_size=2)
-lists = st.one_of(st.lists(pairs, max_size=8), st.lists(leaves, max_size=4), st.lists(st.lists(pairs, max_size=5), max_size=3))
+lists = st.one_of(
+    st.lists(pairs, max_size=8),
+    st.lists(leaves, max_size=4),
+    st.lists(st.lists(pairs, max_size=5), max_size=3),
+)
 names = st.one_of(st.sampled_from([part for key in KEYS for part in key.split(".")]), st.text(max_size=6))
 documents = st.recursive(
     st.one_of(leaves, lists), lambda inner: st.dictionaries(names, inner, max_size=5), max_leaves=12
@@ -81,7 +89,12 @@ def mutations(draw: st.DrawFn) -> dict[str, Any]:
     """Return a valid layer of dotted keys, of which some are missing and some hold something else."""
     layer = {key: value for key, value in VALID.items() if draw(st.integers(0, 9)) > 1}
     for key in draw(st.lists(st.sampled_from(sorted(OTHERS)), max_size=1)):
-        other = {"program": "rpm", "count": "fill", "normal_damping": "restitution", "restitution": "normal_damping"}
+        other = {
+            "program": "rpm",
+            "count": "fill",
+            "normal_damping": "restitution",
+            "restitution": "normal_damping",
+        }
         table, _, name = key.rpartition(".")
         layer.pop(f"{table}.{other[name]}", None)
         layer[key] = OTHERS[key]
@@ -153,6 +166,8 @@ def one_sentence(error: Exception) -> None:
     assert told
     assert "\n" not in told
     assert len(told) < 1000
+
+
 def _times(value: float, power: int) -> float:
     try:
         return value * 10.0**power
