@@ -71,11 +71,10 @@ TEXTS = [
     "nan",
     "a = " + "[" * DEEP,
     "a = {" * DEEP,
-    "a" + ".a" * 20_000 + " = 1",
+    "a" + ".a" * 2000 + " = 1",
     "load.count = " + "1" * 5000,
     "load.fill = 1979-05-27T07:32:00Z",
     "run.window = [07:32:00, 1979-05-27]",
-    "load.fill = 0x10",
     "[[load]]\nfill = 1",
 ]
 
