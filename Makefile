@@ -14,13 +14,20 @@ export VIRTUAL_ENV := $(abspath $(VENV))
 unexport CONDA_PREFIX
 
 .DEFAULT_GOAL := help
-.PHONY: help run test develop lint bench clean
+.PHONY: help run study test develop lint bench clean
 
 help: ## list the commands
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "make %-8s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
 
 run: develop ## run the paper's study in small: figures, verdicts on its claims, out/report.html
 	$(BIN)/drumrs reproduce --quick --out $(OUT)
+
+study: develop ## run the paper's study in full (about an hour and a half on two cores) and keep it in docs/study
+	$(BIN)/drumrs reproduce --out $(OUT)/study
+	mkdir -p docs/study/figures
+	cp $(OUT)/study/table.parquet docs/study/
+	cp $(OUT)/study/summary.md docs/study/README.md
+	cp $(OUT)/study/figures/*.png docs/study/figures/
 
 test: develop ## test the physics, the package and the documentation
 	@if command -v cargo-nextest >/dev/null; then cargo nextest run --no-fail-fast; else cargo test --lib --tests --no-fail-fast; fi
@@ -36,6 +43,7 @@ lint: develop ## check format, lints, types and the stub of the core
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
 	$(BIN)/mypy
+	cd benches/peers && MYPYPATH=../../python:. ../../$(BIN)/mypy --config-file ../../pyproject.toml *.py ../*.py
 	cd python && ../$(BIN)/python -m mypy.stubtest drumrs._core --mypy-config-file ../pyproject.toml
 
 bench: ## measure the speed of a step

@@ -14,7 +14,8 @@ study=${STUDY:-study.toml}
 out=${OUT:-results}
 
 if [ ! -e "$study" ]; then
-    cat >"$study" <<'TOML'
+    # Many tasks may come here at once: each writes a file of its own, and puts it into place whole.
+    cat >"$study.$SLURM_ARRAY_TASK_ID" <<'TOML'
 seeds = 3
 
 [base]
@@ -24,6 +25,7 @@ run.duration = 30.0
 load.fill = [0.2, 0.3, 0.4, 0.5, 0.6]
 contact.bundle.friction = [0.1, 0.2, 0.3, 0.5]
 TOML
+    mv "$study.$SLURM_ARRAY_TASK_ID" "$study"
 fi
 
 # Tasks are counted from 1 here, as in --array=1-20; the cores of a task are seen by drumrs itself.

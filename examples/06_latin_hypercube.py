@@ -1,5 +1,7 @@
 """Which of fill, friction, speed and restitution matters most? A Latin hypercube asks with a few random cases.
 
+With --sobol the cases are those of a Sobol sequence, which fills the ranges more evenly still.
+
 Needs `pip install 'drumrs[design]'`.
 """
 
@@ -20,10 +22,11 @@ RANGES = {
 }
 
 
-def design(count: int) -> pl.DataFrame:
-    """Return as many cases, spread over all ranges at once, one row each."""
+def design(count: int, *, sobol: bool) -> pl.DataFrame:
+    """Return as many cases, a power of two, spread over all ranges at once, one row each."""
     lowest, highest = zip(*RANGES.values(), strict=True)
-    points = qmc.scale(qmc.LatinHypercube(d=len(RANGES), rng=1).random(count), lowest, highest)
+    sampler = (qmc.Sobol if sobol else qmc.LatinHypercube)(d=len(RANGES), rng=1)
+    points = qmc.scale(sampler.random(count), lowest, highest)
     # Bundles meet the drum as they meet each other.
     return pl.DataFrame(points, schema=list(RANGES), orient="row").with_columns(
         pl.col("contact.bundle.friction").alias("contact.drum.friction"),
@@ -34,11 +37,12 @@ def design(count: int) -> pl.DataFrame:
 def main() -> None:
     """Run the design and print the rank correlation of every parameter with the specific power."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--small", action="store_true", help="six small cases, for a moment each")
+    parser.add_argument("--small", action="store_true", help="eight small cases, for a moment each")
+    parser.add_argument("--sobol", action="store_true", help="take the cases from a Sobol sequence")
     parser.add_argument("--out", type=Path, default=Path("out/latin_hypercube"), help="folder of the results")
     options = parser.parse_args()
 
-    rows = design(6 if options.small else 64)
+    rows = design(8 if options.small else 64, sobol=options.sobol)
     base = drumrs.baseline().replace({"run.duration": 30.0})
     if options.small:
         base = base.replace({"run.duration": 0.1})

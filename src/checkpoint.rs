@@ -12,6 +12,7 @@ use sha2::{Digest, Sha256};
 use crate::PHYSICS_VERSION;
 use crate::config::SimulationConfig;
 use crate::contact::Contact;
+use crate::contact::block::Traits;
 use crate::contact::laws::Laws;
 use crate::contact::table::ContactTable;
 use crate::drum::Drum;
@@ -23,7 +24,7 @@ use crate::state::{State, TouchingContacts};
 
 const MAGIC: &[u8; 8] = b"DRUMRS\r\n";
 /// Version of the layout below; a checkpoint of another one is refused.
-pub const FORMAT_VERSION: u32 = 1;
+pub const FORMAT_VERSION: u32 = 3;
 /// Beyond this, step × time step is no longer exact to a step.
 const MOST_STEPS: u64 = 1 << 53;
 const HEADER: usize = MAGIC.len() + 4 + 32;
@@ -186,11 +187,13 @@ fn restore(contacts: &TouchingContacts, laws: &Laws, particles: &Particles) -> R
     let radius = |id: u32| particles.radii[id as usize];
     let mut table = ContactTable::empty(particles.len());
     for &contact in &contacts.pairs {
-        let law = laws.pair_slot(body(contact.particle), body(contact.other));
-        table.add_pair(contact, law, [radius(contact.particle), radius(contact.other)]);
+        let Contact { particle, other, .. } = contact;
+        let law = laws.pair_slot(body(particle), body(other));
+        table.add_pair(contact, Traits { law, radii: [radius(particle), radius(other)] });
     }
     for &contact in &contacts.walls {
-        table.add_wall(contact, laws.wall_slot(body(contact.particle)), radius(contact.particle));
+        let law = laws.wall_slot(body(contact.particle));
+        table.add_wall(contact, Traits { law, radii: [radius(contact.particle), 0.0] });
     }
     Ok(table)
 }

@@ -76,6 +76,8 @@ pub struct SurfaceAccount {
     pub work: Sum,
     /// ∫ force on the load dt [N s/m], x and y.
     pub impulse: [Sum; 2],
+    /// ∫ moment on the load about the axis dt [N m s/m].
+    pub angular_impulse: Sum,
     /// Load at the last step.
     last: SurfaceLoad,
 }
@@ -175,7 +177,9 @@ impl EnergyLedger {
         self.dissipated_sliding.add(flows.dissipated_sliding);
         self.overlap_ratio = self.overlap_ratio.max(flows.overlap_ratio);
         for (account, now) in self.surfaces.iter_mut().zip(surfaces) {
-            account.work.add(0.5 * (account.last.moment + now.moment) * turn);
+            let moment = 0.5 * (account.last.moment + now.moment);
+            account.work.add(moment * turn);
+            account.angular_impulse.add(moment * time_step);
             account.impulse[0].add(0.5 * (account.last.force.x + now.force.x) * time_step);
             account.impulse[1].add(0.5 * (account.last.force.y + now.force.y) * time_step);
             account.last = *now;

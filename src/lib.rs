@@ -7,7 +7,7 @@
 //! |-------|----------------------------------------------------------------------|
 //! | 0     | [`vector`], [`error`]                                                |
 //! | 1     | [`lanes`], [`threads`], [`particles`], [`drum`], [`energy`]          |
-//! | 2     | [`contact`], [`packing`], [`integrator`], [`recorder`]               |
+//! | 2     | [`contact`], [`order`], [`packing`], [`integrator`], [`recorder`]    |
 //! | 3     | [`config`], [`neighbors`], [`forces`], [`state`], [`summary`]        |
 //! | 4     | [`start`]                                                            |
 //! | 5     | [`simulation`]                                                       |
@@ -36,6 +36,7 @@ pub mod forces;
 pub mod integrator;
 pub mod lanes;
 pub mod neighbors;
+pub mod order;
 pub mod packing;
 pub mod particles;
 #[cfg(feature = "python")]

@@ -1,4 +1,5 @@
-//! The bundles: structure of arrays, one entry a particle, in id order.
+//! The bundles: structure of arrays, one entry a particle, in memory order (see `order`). What leaves the core is in id
+//! order.
 
 use std::f64::consts::PI;
 
@@ -30,6 +31,8 @@ pub struct Particles {
     pub inertias: Vec<f64>,
     /// Index of the material each particle is made of.
     pub materials: Vec<u16>,
+    /// The ids: where each particle stood at the start.
+    pub ids: Vec<u32>,
 }
 
 impl Particles {
@@ -47,6 +50,7 @@ impl Particles {
             angular_accelerations: vec![0.0; count],
             inertias: masses.iter().zip(&radii).map(inertia).collect(),
             materials: vec![0; count],
+            ids: (0..count as u32).collect(),
             positions,
             radii,
             masses,
@@ -63,9 +67,37 @@ impl Particles {
         self.positions.is_empty()
     }
 
+    /// Puts particle `order[k]` at place `k`.
+    pub fn reorder(&mut self, order: &[u32]) {
+        fn permute<T: Copy>(values: &mut Vec<T>, order: &[u32]) {
+            *values = order.iter().map(|&i| values[i as usize]).collect();
+        }
+        permute(&mut self.positions, order);
+        permute(&mut self.velocities, order);
+        permute(&mut self.angles, order);
+        permute(&mut self.angular_velocities, order);
+        permute(&mut self.accelerations, order);
+        permute(&mut self.angular_accelerations, order);
+        permute(&mut self.radii, order);
+        permute(&mut self.masses, order);
+        permute(&mut self.inertias, order);
+        permute(&mut self.materials, order);
+        permute(&mut self.ids, order);
+    }
+
+    /// One of the vectors above in id order.
+    pub fn by_id<T: Copy>(&self, values: &[T]) -> Vec<T> {
+        let mut sorted = values.to_vec();
+        for (&id, &value) in self.ids.iter().zip(values) {
+            sorted[id as usize] = value;
+        }
+        sorted
+    }
+
     /// Mass of all particles [kg/m].
     pub fn total_mass(&self) -> f64 {
-        self.masses.iter().sum()
+        // In id order, so that memory order does not show.
+        self.by_id(&self.masses).iter().sum()
     }
 
     /// The largest radius [m], 0 without particles.
@@ -136,12 +168,18 @@ impl Particles {
             ("masses", self.masses.len()),
             ("inertias", self.inertias.len()),
             ("materials", self.materials.len()),
+            ("ids", self.ids.len()),
         ];
         for (name, length) in lengths {
             if length != count {
                 let found = format!("of length {length}");
                 return Err(Error::config(format!("state.{name}"), found, format!("of length {count}")));
             }
+        }
+        let mut ids = self.ids.clone();
+        ids.sort_unstable();
+        if !ids.iter().copied().eq(0..count as u32) {
+            return Err(Error::config("state.ids", "not every number once", "a permutation"));
         }
         if let Some(i) = self.first_non_finite() {
             return Err(Error::config(format!("state of bundle {i}"), "not finite", "finite"));

@@ -4,8 +4,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::energy::{EnergyLedger, StoredEnergy};
-use crate::vector::Vec2;
+use crate::energy::{EnergyLedger, StoredEnergy, SurfaceAccount};
 
 /// Everything that a sample may look at.
 #[derive(Debug)]
@@ -41,7 +40,7 @@ pub struct Snapshot<'a> {
 pub struct Earlier {
     drum_work: f64,
     mass_moment: [f64; 2],
-    impulses: Vec<[f64; 2]>,
+    impulses: Vec<[f64; 3]>,
 }
 
 /// One recorded quantity.
@@ -70,6 +69,7 @@ quantities! {
     "drum_angular_velocity", "rad/s", "angular velocity of the drum", |s| s.angular_velocity;
     "drum_power", "W/m", "mean power of the drum on the load since the last sample", |s| s.drum_power();
     "specific_power", "W/kg", "drum power over the mass of the load", |s| s.drum_power() / s.mass;
+    "drum_torque", "N m/m", "mean torque of the drum on the load about the axis since the last sample", |s| s.drum_torque();
     "work_drum", "J/m", "work of the drum on the load since t = 0", |s| s.ledger.drum_work();
     "balance_work", "J/m", "the same from the balance of moments, integral of angular velocity x (M g x + dL/dt)", |s| s.balance_work;
     "work_normal", "J/m", "work into contacts along their normals since t = 0", |s| s.ledger.work_normal.value();
@@ -114,11 +114,22 @@ impl Snapshot<'_> {
         (2 * self.contacts.0 + self.contacts.1) as f64 / self.count as f64
     }
 
-    /// Mean force of the load on a surface since the last sample.
-    fn mean_force(&self, surface: usize, axis: usize) -> f64 {
-        let earlier = self.earlier.impulses.get(surface).map_or(0.0, |impulse| impulse[axis]);
-        self.over_interval(earlier - self.ledger.surfaces[surface].impulse[axis].value())
+    /// Mean torque of the whole drum on the load since the last sample.
+    fn drum_torque(&self) -> f64 {
+        (0..self.ledger.surfaces.len()).map(|surface| self.mean_load(surface)[2]).sum()
     }
+
+    /// Mean force (x, y) and torque of a surface on the load since the last sample.
+    fn mean_load(&self, surface: usize) -> [f64; 3] {
+        let earlier = self.earlier.impulses.get(surface).copied().unwrap_or_default();
+        let now = impulses(&self.ledger.surfaces[surface]);
+        std::array::from_fn(|part| self.over_interval(now[part] - earlier[part]))
+    }
+}
+
+/// Integrals of force (x, y) and torque of a surface on the load.
+fn impulses(account: &SurfaceAccount) -> [f64; 3] {
+    [account.impulse[0].value(), account.impulse[1].value(), account.angular_impulse.value()]
 }
 
 /// A column of the series: (name, unit, meaning).
@@ -131,6 +142,11 @@ pub fn columns(baffles: usize, walls: usize) -> Vec<Column> {
         let words = part.replace('_', " ");
         [
             (format!("work_{part}"), "J/m".into(), format!("work of the {words} on the load since t = 0")),
+            (
+                format!("torque_{part}"),
+                "N m/m".into(),
+                format!("mean torque of the {words} on the load about the axis since the last sample"),
+            ),
             (
                 format!("force_{part}_x"),
                 "N/m".into(),
@@ -196,14 +212,14 @@ impl Series {
     pub fn push(&mut self, snapshot: &Snapshot) {
         self.values.extend(QUANTITIES.iter().map(|quantity| (quantity.value)(snapshot)));
         for (surface, account) in snapshot.ledger.surfaces.iter().enumerate() {
-            let forces = [snapshot.mean_force(surface, 0), snapshot.mean_force(surface, 1)];
-            self.values.extend([account.work.value(), forces[0], forces[1]]);
+            // Forces are those of the load on the surface, as bearings feel them; torque is that of the drive.
+            let [x, y, torque] = snapshot.mean_load(surface);
+            self.values.extend([account.work.value(), torque, 0.0 - x, 0.0 - y]);
         }
-        let impulse = |account: &crate::energy::SurfaceAccount| account.impulse.map(|axis| axis.value());
         self.earlier = Earlier {
             drum_work: snapshot.ledger.drum_work(),
             mass_moment: snapshot.ledger.mass_moment.map(|axis| axis.value()),
-            impulses: snapshot.ledger.surfaces.iter().map(impulse).collect(),
+            impulses: snapshot.ledger.surfaces.iter().map(impulses).collect(),
         };
     }
 
@@ -220,7 +236,7 @@ pub struct Frames {
     pub times: Vec<f64>,
     /// Angles of the drum [rad].
     pub drum_angles: Vec<f64>,
-    /// Centers [m]: x, y of each particle, frame after frame.
+    /// Centers [m]: x, y of each particle in id order, frame after frame.
     pub positions: Vec<f32>,
     /// Angles of the particles [rad], within ±π.
     pub angles: Vec<f32>,
@@ -233,12 +249,19 @@ impl Frames {
     pub fn push(&mut self, time: f64, drum_angle: f64, particles: &crate::particles::Particles) {
         self.times.push(time);
         self.drum_angles.push(drum_angle);
-        self.positions.extend(particles.positions.iter().flat_map(|p| [p.x as f32, p.y as f32]));
-        self.angles.extend(particles.angles.iter().map(|angle| {
+        let (start, end) = (self.angles.len(), self.angles.len() + particles.len());
+        self.positions.resize(2 * end, 0.0);
+        self.angles.resize(end, 0.0);
+        self.speeds.resize(end, 0.0);
+        for (i, &id) in particles.ids.iter().enumerate() {
+            let place = start + id as usize;
+            let (position, angle) = (particles.positions[i], particles.angles[i]);
             let turns = (angle / std::f64::consts::TAU).round();
-            (angle - turns * std::f64::consts::TAU) as f32
-        }));
-        self.speeds.extend(particles.velocities.iter().map(|v: &Vec2| v.norm() as f32));
+            self.positions[2 * place] = position.x as f32;
+            self.positions[2 * place + 1] = position.y as f32;
+            self.angles[place] = (angle - turns * std::f64::consts::TAU) as f32;
+            self.speeds[place] = particles.velocities[i].norm() as f32;
+        }
     }
 
     /// Whether these are whole frames of `count` particles.
@@ -271,7 +294,7 @@ mod tests {
         let mut names: Vec<_> = columns.iter().map(|column| &column.0).collect();
         names.sort_unstable();
         names.dedup();
-        assert_eq!(names.len(), QUANTITIES.len() + 3 * 5);
+        assert_eq!(names.len(), QUANTITIES.len() + 4 * 5);
         assert!(columns.iter().all(|(_, unit, meaning)| !unit.is_empty() && !meaning.is_empty()));
     }
 }

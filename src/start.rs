@@ -130,8 +130,8 @@ pub fn mass_moment(particles: &Particles) -> Vec2 {
 /// Energy in all springs [J/m]: (normal, tangential).
 pub fn elastic_energies(table: &ContactTable, laws: &Laws) -> (f64, f64) {
     let mut sums = (0.0, 0.0);
-    let pairs = table.pairs().map(|entry| (entry.contact.history, laws.pair(entry.law)));
-    let walls = table.walls().map(|entry| (entry.contact.history, laws.wall(entry.law)));
+    let pairs = table.pairs().map(|entry| (entry.contact.history, laws.pair(entry.traits.law)));
+    let walls = table.walls().map(|entry| (entry.contact.history, laws.wall(entry.traits.law)));
     for (history, law) in pairs.chain(walls) {
         let (normal, tangential) = law.stored(&history);
         sums.0 += normal;
@@ -140,7 +140,7 @@ pub fn elastic_energies(table: &ContactTable, laws: &Laws) -> (f64, f64) {
     sums
 }
 
-/// The particle with the deepest overlap, and that overlap over the smaller radius.
+/// The place of the particle with the deepest overlap, and that overlap over the smaller radius.
 pub fn deepest_overlap(table: &ContactTable, particles: &Particles) -> (usize, f64) {
     let radius = |i: u32| particles.radii[i as usize];
     let pairs = (table.pairs().map(|entry| entry.contact))

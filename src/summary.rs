@@ -29,7 +29,6 @@ pub fn summarize(series: &Series, mass: f64, start: f64, end: f64) -> Result<Vec
     let dissipated_sliding = rate("dissipated_sliding");
     let normal = dissipated_normal + rate("elastic_normal");
     let tangential = dissipated_sliding + rate("elastic_tangential");
-    let turned = table.change("drum_angle", window);
     let power = rate("work_drum");
     let motion = rate("kinetic_translation") + rate("kinetic_rotation") + rate("gravitational");
     let by_ledger = motion + normal + tangential + rate("numerical");
@@ -40,7 +39,7 @@ pub fn summarize(series: &Series, mass: f64, start: f64, end: f64) -> Result<Vec
     Ok(vec![
         ("window_start", Some(table.column("time")[window.first])),
         ("window_end", Some(table.column("time")[window.last])),
-        ("drum_torque", (turned != 0.0).then(|| power * time / turned)),
+        ("drum_torque", Some(table.exact_mean("drum_torque", window))),
         ("drum_power", Some(power)),
         ("specific_power", Some(power / mass)),
         ("specific_power_error", spread.map(|spread| spread.error / mass)),
@@ -125,6 +124,14 @@ impl Table<'_> {
         let column = self.column(name);
         let values = &column[window.first + 1..=window.last];
         values.iter().sum::<f64>() / values.len() as f64
+    }
+
+    /// Mean over the window's time of what is a mean over each interval: exact where intervals differ in length.
+    fn exact_mean(&self, name: &str, window: Window) -> f64 {
+        let (column, times) = (self.column(name), self.column("time"));
+        let total: f64 =
+            (window.first + 1..=window.last).map(|k| column[k] * (times[k] - times[k - 1])).sum();
+        total / (times[window.last] - times[window.first])
     }
 
     fn greatest(&self, name: &str, window: Window) -> f64 {

@@ -104,7 +104,7 @@ impl Threads {
     /// Runs `kernel` on each chunk of `work`, on several threads where that pays for `count` particles.
     pub fn for_each_chunk<W: Chunked>(&self, count: usize, work: W, kernel: &(impl Fn(W) + Sync)) {
         match self.pool_for(count) {
-            Some(pool) => pool.install(|| fork(work, kernel)),
+            Some(pool) => pool.install(|| fork(work, kernel, pool.current_num_threads())),
             None => in_turn(work, kernel),
         }
     }
@@ -114,13 +114,16 @@ impl Threads {
 /// 10 000; at 30 000 memory holds both back (0.9).
 const PARALLEL_THRESHOLD: usize = 8192;
 
-fn fork<W: Chunked>(work: W, kernel: &(impl Fn(W) + Sync)) {
+/// Gives each of `threads` threads one stretch of chunks. The stretches are the same in every pass, so that a thread finds
+/// in its own cache what it left there.
+fn fork<W: Chunked>(work: W, kernel: &(impl Fn(W) + Sync), threads: usize) {
     let chunks = work.chunks();
-    if chunks <= 1 {
-        kernel(work);
+    if threads <= 1 || chunks <= 1 {
+        in_turn(work, kernel);
     } else {
-        let (left, right) = work.split(chunks / 2);
-        rayon::join(|| fork(left, kernel), || fork(right, kernel));
+        let left_threads = threads / 2;
+        let (left, right) = work.split(chunks * left_threads / threads);
+        rayon::join(|| fork(left, kernel, left_threads), || fork(right, kernel, threads - left_threads));
     }
 }
 

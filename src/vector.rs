@@ -28,6 +28,12 @@ pub fn larger(a: f64, b: f64) -> f64 {
     if a > b { a } else { b }
 }
 
+/// The corners (left and low, right and high) of the box round `points`; none without points.
+pub fn bounds(points: &[Vec2]) -> Option<(Vec2, Vec2)> {
+    let first = *points.first()?;
+    Some(points.iter().fold((first, first), |(low, high), point| (low.inf(point), high.sup(point))))
+}
+
 /// A rotation of the plane, kept as cosine and sine.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rotation {

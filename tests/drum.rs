@@ -27,7 +27,7 @@ fn force_and_spring_survive_a_tip() {
     let mut features = Vec::new();
     // On the vertex the center's path bends, so the force changes by m v²/r, damped, over a collision time; the first
     // step takes the dashpot's share of it: νₙ (v²/r) Δt.
-    let damping = simulation.contacts().walls().next().unwrap().law.damping;
+    let damping = simulation.contacts().walls().next().unwrap().traits.law.damping;
     let bend = damping * speed * speed / RADIUS * simulation.time_step();
     let mut last_force = None;
     let (mut last_stretch, mut greatest) = (0.0_f64, 0.0_f64);

@@ -113,3 +113,38 @@ fn the_drums_work_is_the_sum_of_its_parts() {
     assert!((parts / last(&simulation, "work_drum") - 1.0).abs() < 1e-12);
     assert!(last(&simulation, "work_baffle_2") != 0.0);
 }
+
+/// At a constant speed a part's work over an interval is its mean torque times the angle turned.
+#[test]
+fn torque_times_angle_is_work_for_every_part() {
+    let simulation = tumbled(&baseline(100, 3), 0.5);
+    let angles = column(&simulation, "drum_angle");
+    for part in ["drum", "rim", "baffle_1", "baffle_2", "baffle_3"] {
+        let name = if part == "drum" { "drum_torque".into() } else { format!("torque_{part}") };
+        let torques = column(&simulation, &name);
+        let works = column(&simulation, &format!("work_{part}"));
+        let scale = works.iter().fold(0.0, |most: f64, work| most.max(work.abs()));
+        for k in 1..works.len() {
+            let work = torques[k] * (angles[k] - angles[k - 1]);
+            assert!((work - (works[k] - works[k - 1])).abs() < 1e-12 * scale, "{part} at sample {k}");
+        }
+        assert!(scale > 0.0);
+    }
+}
+
+/// A drum that stands still does no work, but holds a load that lies on one side: torque and force tell.
+#[test]
+fn a_drum_at_rest_has_a_torque() {
+    let mut config = baseline(1, 0);
+    config.load.spin_locked = true;
+    config.rotation.knots = vec![[0.0, 0.0]];
+    let angle = 0.2;
+    let orbit = DRUM_RADIUS - RADIUS + mass() * GRAVITY * libm::cos(angle) / 9.70e7;
+    let at = polar(orbit, angle - std::f64::consts::FRAC_PI_2);
+    let mut simulation = start(&config, single(at, [0.0, 0.0], 0.0));
+    run(&mut simulation, 0.1);
+    let torque = mass() * GRAVITY * DRUM_RADIUS * libm::sin(angle);
+    let seen = statistic(&simulation, "drum_torque", 0.0, 0.1);
+    assert!((seen / torque - 1.0).abs() < 0.01, "{seen} {torque}");
+    assert_eq!(statistic(&simulation, "drum_power", 0.0, 0.1), 0.0);
+}

@@ -80,9 +80,10 @@ impl Motion {
 fn require_momentum(start: &Motion, simulation: &Simulation, drawn: &Drawn) -> Result<(), TestCaseError> {
     let (now, ledger) = (Motion::of(simulation), &simulation.state().ledger);
     let gravity = Vec2::new(drawn.config.gravity[0], drawn.config.gravity[1]);
-    let given = ledger.surfaces.iter().fold(gravity * simulation.mass() * simulation.time(), |sum, surface| {
-        sum + Vec2::new(surface.impulse[0].value(), surface.impulse[1].value())
-    });
+    let given =
+        ledger.surfaces.iter().fold(gravity * simulation.mass() * simulation.time(), |sum, surface| {
+            sum + Vec2::new(surface.impulse[0].value(), surface.impulse[1].value())
+        });
     let scale = simulation.mass() * drawn.speed;
     let missing = (now.momentum - start.momentum - given).norm() / scale;
     prop_assert!(missing < 1e-9, "{missing:e} of the momentum came from nowhere");

@@ -20,6 +20,7 @@ from drumrs.result import Result, Summary, load
 from drumrs.simulation import Simulation, info, quantities, units
 from drumrs.state import State
 from drumrs.sweep import Case, Sweep
+from drumrs.verification import Verification, verify
 
 __version__ = version("drumrs")
 
@@ -36,6 +37,7 @@ __all__ = [
     "Summary",
     "Sweep",
     "UnstableError",
+    "Verification",
     "__version__",
     "baseline",
     "errors",
@@ -44,6 +46,7 @@ __all__ = [
     "quantities",
     "run",
     "units",
+    "verify",
 ]
 
 

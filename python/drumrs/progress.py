@@ -22,10 +22,15 @@ class Journey:
 
 @dataclass(frozen=True)
 class Campaign:
-    """Many cases to be reported: how many, and their particle-steps together."""
+    """Many cases to be reported: how many, their particle-steps together, what they are.
+
+    Where particle-steps are known roughly only, it is not `rated` by them.
+    """
 
     cases: int
     cost: float
+    label: str = "sweep"
+    rated: bool = True
 
 
 class Board:
@@ -62,13 +67,14 @@ def board(*, show: bool) -> Board:
         return Board()
     from rich.console import Console
 
-    notebook = Console().is_jupyter
-    if notebook or sys.stderr.isatty():
-        return _Bars(notebook=notebook)
-    return _Lines()
+    if Console().is_jupyter:
+        from drumrs.notebook import Cell
+
+        return Cell()
+    return _Bars() if sys.stderr.isatty() else _Lines()
 
 
-class _Meter:
+class Meter:
     """Rate and time left of one run."""
 
     def __init__(self, journey: Journey) -> None:
@@ -91,7 +97,7 @@ class _Meter:
         return f"{label}{share:.0%}, {done:.2f} of {end:.2f} s, {rate / 1e6:.1f} M particle-steps/s, {left:.0f} s left"
 
 
-class _Score:
+class Score:
     """Rate and time left of many cases, by what they cost and not by their number."""
 
     def __init__(self, campaign: Campaign) -> None:
@@ -101,19 +107,20 @@ class _Score:
     def state(self, cases: int, cost: float) -> str:
         """Say how many cases are done, and how fast."""
         rate = cost / max(time.perf_counter() - self.began, 1e-9)
-        return f"{cases} of {self.campaign.cases} cases · {rate / 1e6:.1f} M particle-steps/s"
+        speed = f" · {rate / 1e6:.1f} M particle-steps/s" if self.campaign.rated else ""
+        return f"{cases} of {self.campaign.cases} cases{speed}"
 
     def line(self, cases: int, cost: float) -> str:
         """Say in one line how far it is."""
         share = cost / max(self.campaign.cost, 1.0)
         elapsed = time.perf_counter() - self.began
         left = f"{elapsed * (1.0 / share - 1.0):.0f} s left" if share else "time left unknown"
-        return f"sweep: {share:.0%}, {self.state(cases, cost)}, {left}"
+        return f"{self.campaign.label}: {share:.0%}, {self.state(cases, cost)}, {left}"
 
 
 class _Lines(Board):
     def add(self, journey: Journey) -> Callable[[int], None]:
-        meter = _Meter(journey)
+        meter = Meter(journey)
         due = meter.began + _MINUTE
 
         def report(step: int) -> None:
@@ -125,7 +132,7 @@ class _Lines(Board):
         return report
 
     def add_campaign(self, campaign: Campaign) -> Callable[[int, float], None]:
-        score = _Score(campaign)
+        score = Score(campaign)
         due = score.began + _MINUTE
 
         def report(cases: int, cost: float) -> None:
@@ -142,7 +149,7 @@ class _Lines(Board):
 
 
 class _Bars(Board):
-    def __init__(self, *, notebook: bool) -> None:
+    def __init__(self) -> None:
         from rich.console import Console
         from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
 
@@ -153,7 +160,7 @@ class _Bars(Board):
             TextColumn("{task.fields[state]}"),
             TimeRemainingColumn(),
             TextColumn("left"),
-            console=None if notebook else Console(stderr=True),
+            console=Console(stderr=True),
         )
 
     def __enter__(self) -> Self:
@@ -164,7 +171,7 @@ class _Bars(Board):
         self._progress.stop()
 
     def add(self, journey: Journey) -> Callable[[int], None]:
-        meter = _Meter(journey)
+        meter = Meter(journey)
         label = journey.label or "drum"
         task = self._progress.add_task(label, total=journey.last_step, completed=journey.first_step, state="")
         end = journey.last_step * journey.time_step
@@ -177,8 +184,8 @@ class _Bars(Board):
         return report
 
     def add_campaign(self, campaign: Campaign) -> Callable[[int, float], None]:
-        score = _Score(campaign)
-        task = self._progress.add_task("sweep", total=max(campaign.cost, 1.0), state="")
+        score = Score(campaign)
+        task = self._progress.add_task(campaign.label, total=max(campaign.cost, 1.0), state="")
 
         def report(cases: int, cost: float) -> None:
             self._progress.update(task, completed=cost, state=score.state(cases, cost))

@@ -10,7 +10,7 @@ from pathlib import Path
 from drumrs import study
 from drumrs.config import baseline
 from drumrs.files import write_whole
-from drumrs.report import Findings, Picture, write
+from drumrs.report import Findings, Picture, summary, write
 from drumrs.simulation import Simulation
 from drumrs.sweep import Case, Sweep
 from drumrs.sweep.crew import check_jobs, usable_cores
@@ -35,6 +35,8 @@ class Reproduction:
         Table, verdicts, failures.
     report
         The report, one HTML file.
+    summary
+        Findings, verdicts and figures as a page of Markdown.
     table
         The table of all runs, parquet.
     pictures
@@ -43,6 +45,7 @@ class Reproduction:
 
     findings: Findings
     report: Path
+    summary: Path
     table: Path
     pictures: tuple[Picture, ...]
 
@@ -55,7 +58,7 @@ class Plan:
     scale
         ``"quick"``, ``"default"`` or ``"full"``, or a `study.Scale` of your own.
     folder
-        Gets report.html, table.parquet, figures/ and runs/, the results of every case.
+        Gets report.html, summary.md, table.parquet, figures/ and runs/, the results of every case.
     jobs
         Cases at once; one a usable core unless given.
 
@@ -140,9 +143,10 @@ class Plan:
         write_whole(self.folder / "table.parquet", buffer.getvalue())
         taken = time.perf_counter() - began
         findings = Findings(self.scale, self.sweep, self.runs_folder, table, outcome.failures, taken)
-        page = self.folder / "report.html"
+        page, text = self.folder / "report.html", self.folder / "summary.md"
         pictures = write(findings, page, self.folder / "figures")
-        return Reproduction(findings, page, self.folder / "table.parquet", tuple(pictures))
+        summary.write(findings, pictures, text)
+        return Reproduction(findings, page, text, self.folder / "table.parquet", tuple(pictures))
 
 
 def measure_speed(jobs: int) -> float:

@@ -37,7 +37,7 @@ class Summary:
     window_start, window_end
         The window [s].
     drum_torque
-        Torque of the drum on the load about its axis [N m/m]; `None` where the drum does not turn.
+        Mean torque of the drum on the load about its axis [N m/m].
     drum_power
         Power of the drum [W/m], positive where it does work on the load.
     specific_power
@@ -83,7 +83,7 @@ class Summary:
     time_step: float
     window_start: float
     window_end: float
-    drum_torque: float | None
+    drum_torque: float
     drum_power: float
     specific_power: float
     specific_power_error: float | None

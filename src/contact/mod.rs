@@ -10,6 +10,7 @@
 //! on `j` the opposite. With the spring's stretch ξ growing as `j` moves along `t` relative to `i` (spin included),
 //! Fₜ = kₛ ξ. Approach (growing overlap) and slip (growing ξ) are positive.
 
+pub mod block;
 pub mod laws;
 pub mod linear;
 pub mod list;

@@ -5,8 +5,8 @@
 //! trajectory independent of the margin. Both are kept by chunk of particles, in key order.
 
 use super::Contact;
-use super::laws::SlotLaw;
-use super::list::{ContactList, Entry, NO_CANDIDATE};
+use super::block::Traits;
+use super::list::{ContactList, Entry};
 use crate::lanes::LANES;
 use crate::threads::{CHUNK, chunk_count};
 
@@ -17,8 +17,6 @@ pub struct Candidate {
     pub owner: u32,
     /// The particle of higher id, or a feature of the drum.
     pub other: u32,
-    /// The square of the distance at which two particles touch [m²].
-    pub squared_reach: f64,
 }
 
 /// Pairs of bodies near each other, in key order, and until when they may sleep.
@@ -102,11 +100,10 @@ impl Candidates {
         self.wake[candidate / LANES][candidate % LANES] = until;
     }
 
-    /// Wakes a candidate that is no contact any longer, if there is one.
-    #[inline]
-    pub fn wake(&mut self, candidate: u32) {
-        if candidate != NO_CANDIDATE {
-            self.sleep(candidate as usize, 0.0);
+    /// Wakes the candidate of a contact that has ended, if the list still holds it.
+    pub fn wake(&mut self, (owner, other): (u32, u32)) {
+        if let Some(candidate) = self.of(owner).find(|&candidate| self.bodies[candidate].other == other) {
+            self.sleep(candidate, 0.0);
         }
     }
 }
@@ -122,31 +119,30 @@ pub struct Slots {
 
 impl Slots {
     /// Makes a contact, still without history, of candidate `index`.
-    pub fn open(&mut self, index: usize, law: SlotLaw, radii: [f64; 2]) {
+    pub fn open(&mut self, index: usize, traits: Traits) {
         let (particle, other) = self.candidates.key(index);
         self.candidates.sleep(index, f64::INFINITY);
         let contact = Contact { particle, other, ..Contact::default() };
-        self.contacts.insert(Entry { contact, law, radii, candidate: index as u32 });
+        self.contacts.insert(Entry { contact, traits });
     }
 
     /// Makes candidates again of the contacts that no longer touch.
     pub fn close_ended(&mut self) {
         let candidates = &mut self.candidates;
-        self.contacts
-            .remove_where(|list, index| !list.is_touching(index), |entry| candidates.wake(entry.candidate));
+        self.contacts.remove_where(|list, index| !list.is_touching(index), |key| candidates.wake(key));
     }
 
     /// Lets contact `index` go on as candidate `heir` of the same particle, with its history.
     pub fn pass_on(&mut self, index: usize, heir: usize) {
+        let key = self.contacts.key(index);
         let mut entry = self.contacts.remove(index);
-        self.candidates.wake(entry.candidate);
+        self.candidates.wake(key);
         self.candidates.sleep(heir, f64::INFINITY);
         entry.contact.other = self.candidates.key(heir).1;
-        entry.candidate = heir as u32;
         self.contacts.insert(entry);
     }
 
-    /// Finds the contacts among new candidates.
+    /// Lets those of the new candidates sleep that are contacts.
     pub fn link(&mut self) {
         let mut candidate = 0;
         for index in 0..self.contacts.len() {
@@ -154,11 +150,9 @@ impl Slots {
             while candidate < self.candidates.len() && self.candidates.key(candidate) < key {
                 candidate += 1;
             }
-            let found = candidate < self.candidates.len() && self.candidates.key(candidate) == key;
-            if found {
+            if candidate < self.candidates.len() && self.candidates.key(candidate) == key {
                 self.candidates.sleep(candidate, f64::INFINITY);
             }
-            self.contacts.link(index, if found { candidate as u32 } else { NO_CANDIDATE });
         }
     }
 }
@@ -202,16 +196,39 @@ impl ContactTable {
         })
     }
 
+    /// Follows the particles to other places in memory: particle `i` is now at `places[i]`. Candidates are forgotten.
+    pub fn follow(&mut self, places: &[u32]) {
+        let place = |particle: u32| places[particle as usize];
+        let mut moved = Self::empty(places.len());
+        for chunk in self.chunks.drain(..) {
+            for entry in chunk.pairs.contacts.iter() {
+                let entry = entry.between(place(entry.contact.particle), place(entry.contact.other));
+                moved.chunk_of(entry.contact.particle).pairs.contacts.append(&entry);
+            }
+            for mut entry in chunk.walls.contacts.iter() {
+                entry.contact.particle = place(entry.contact.particle);
+                moved.chunk_of(entry.contact.particle).walls.contacts.append(&entry);
+            }
+        }
+        for chunk in &mut moved.chunks {
+            chunk.pairs.contacts.sort();
+            chunk.walls.contacts.sort();
+        }
+        *self = moved;
+    }
+
+    fn chunk_of(&mut self, particle: u32) -> &mut ChunkSlots {
+        &mut self.chunks[particle as usize / CHUNK]
+    }
+
     /// Adds a contact between particles, as after reading a checkpoint.
-    pub fn add_pair(&mut self, contact: Contact, law: SlotLaw, radii: [f64; 2]) {
-        let entry = Entry { contact, law, radii, candidate: NO_CANDIDATE };
-        self.chunks[contact.particle as usize / CHUNK].pairs.contacts.insert(entry);
+    pub fn add_pair(&mut self, contact: Contact, traits: Traits) {
+        self.chunk_of(contact.particle).pairs.contacts.insert(Entry { contact, traits });
     }
 
     /// Adds a contact with the drum.
-    pub fn add_wall(&mut self, contact: Contact, law: SlotLaw, radius: f64) {
-        let entry = Entry { contact, law, radii: [radius, 0.0], candidate: NO_CANDIDATE };
-        self.chunks[contact.particle as usize / CHUNK].walls.contacts.insert(entry);
+    pub fn add_wall(&mut self, contact: Contact, traits: Traits) {
+        self.chunk_of(contact.particle).walls.contacts.insert(Entry { contact, traits });
     }
 }
 
@@ -223,7 +240,7 @@ mod tests {
     fn slots(candidates: &[(u32, u32)]) -> Slots {
         let mut slots = Slots::default();
         for &(owner, other) in candidates {
-            slots.candidates.push(Candidate { owner, other, squared_reach: 1.0 });
+            slots.candidates.push(Candidate { owner, other });
         }
         slots
     }
@@ -231,7 +248,7 @@ mod tests {
     fn touching(particle: u32, other: u32) -> Entry {
         let history = History { overlap: 1e-6, ..History::default() };
         let contact = Contact { particle, other, history };
-        Entry { contact, law: SlotLaw::default(), radii: [1.0; 2], candidate: NO_CANDIDATE }
+        Entry { contact, traits: Traits::default() }
     }
 
     #[test]
@@ -241,8 +258,6 @@ mod tests {
             slots.contacts.insert(touching(particle, other));
         }
         slots.link();
-        let links: Vec<u32> = slots.contacts.iter().map(|entry| entry.candidate).collect();
-        assert_eq!(links, [0, NO_CANDIDATE, 3]);
         assert_eq!(slots.candidates.wakes(0), [f64::INFINITY, 0.0, 0.0, f64::INFINITY]);
         slots.close_ended();
         assert_eq!(slots.contacts.len(), 3, "all of them still touch");
@@ -251,7 +266,7 @@ mod tests {
     #[test]
     fn a_contact_without_overlap_becomes_a_candidate_again() {
         let mut slots = slots(&[(2, 3), (2, 5)]);
-        slots.open(1, SlotLaw::default(), [1.0; 2]);
+        slots.open(1, Traits::default());
         assert_eq!(slots.candidates.wakes(0), [0.0, f64::INFINITY, f64::INFINITY, f64::INFINITY]);
         slots.close_ended();
         assert!(slots.contacts.is_empty());

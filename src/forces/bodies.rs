@@ -4,7 +4,7 @@ use crate::contact::linear::LinearLanes;
 use crate::contact::{Displacement, Encounter, HistoryLanes};
 use crate::energy::StepFlows;
 use crate::integrator::Motion;
-use crate::lanes::{LANES, Lanes, Vec2Lanes, transpose};
+use crate::lanes::{LANES, Lanes, Vec2Lanes, lanes, transpose};
 
 /// Where bodies meet now.
 #[derive(Debug, Clone, Copy)]
@@ -29,12 +29,10 @@ pub trait Bodies {
 /// Particles in pairs; they touch halfway into the overlap.
 #[derive(Debug, Clone, Copy)]
 pub struct Pairs {
-    /// From the owners' centers to the others' [m].
-    gap: Vec2Lanes,
     /// Relative displacement of the step [m].
     apart: Vec2Lanes,
-    /// Relative velocity at the time of the force [m/s].
-    velocity: Vec2Lanes,
+    /// Rate of approach at the time of the force [m/s].
+    closing_speed: Lanes,
     own_turn: Lanes,
     other_turn: Lanes,
     own_radius: Lanes,
@@ -42,34 +40,44 @@ pub struct Pairs {
 }
 
 impl Pairs {
-    /// Owners, others, and the radii of both.
-    #[inline(always)]
-    pub fn new(
-        own: [&Motion; LANES],
-        other: [&Motion; LANES],
-        [own_radius, other_radius]: [Lanes; 2],
-    ) -> Self {
-        let [gap_x, gap_y, apart_x, apart_y] =
-            transpose(std::array::from_fn(|lane| other[lane].place - own[lane].place));
-        let [own_x, own_y, own_turn, _] = transpose(own.map(|motion| motion.pace));
-        let [other_x, other_y, other_turn, _] = transpose(other.map(|motion| motion.pace));
+    /// Nobody.
+    pub fn none() -> Self {
+        let (zero, none) = (Lanes::ZERO, Vec2Lanes { x: Lanes::ZERO, y: Lanes::ZERO });
         Self {
-            gap: Vec2Lanes { x: gap_x, y: gap_y },
-            apart: Vec2Lanes { x: apart_x, y: apart_y },
-            velocity: Vec2Lanes { x: other_x - own_x, y: other_y - own_y },
-            own_turn,
-            other_turn,
-            own_radius,
-            other_radius,
+            apart: none,
+            closing_speed: zero,
+            own_turn: zero,
+            other_turn: zero,
+            own_radius: zero,
+            other_radius: zero,
         }
     }
 
-    /// Where they meet.
+    /// Owners, others, the radii of both, and where they meet.
     #[inline(always)]
-    pub fn meet(&self) -> Meeting {
-        let distance = self.gap.dot(self.gap).sqrt();
-        let overlap = self.own_radius + self.other_radius - distance;
-        Meeting { overlap, normal: self.gap * (Lanes::ONE / distance) }
+    pub fn meet(
+        own: [&Motion; LANES],
+        other: [&Motion; LANES],
+        [own_radius, other_radius]: [Lanes; 2],
+    ) -> (Self, Meeting) {
+        // From the owners' centers to the others', and the displacement that changed it.
+        let [gap_x, gap_y, apart_x, apart_y] =
+            transpose(std::array::from_fn(|lane| other[lane].place - own[lane].place));
+        let gap = Vec2Lanes { x: gap_x, y: gap_y };
+        let distance = gap.dot(gap).sqrt();
+        let overlap = own_radius + other_radius - distance;
+        let normal = gap * (Lanes::ONE / distance);
+        let [velocity_x, velocity_y, ..] =
+            transpose(std::array::from_fn(|lane| other[lane].pace - own[lane].pace));
+        let bodies = Self {
+            apart: Vec2Lanes { x: apart_x, y: apart_y },
+            closing_speed: -Vec2Lanes { x: velocity_x, y: velocity_y }.dot(normal),
+            own_turn: lanes(|lane| own[lane].turn()),
+            other_turn: lanes(|lane| other[lane].turn()),
+            own_radius,
+            other_radius,
+        };
+        (bodies, Meeting { overlap, normal })
     }
 
     /// From the owners' centers to the points of contact [m].
@@ -96,8 +104,8 @@ impl Bodies for Pairs {
     }
 
     #[inline(always)]
-    fn closing_speed(&self, meeting: Meeting) -> Lanes {
-        -self.velocity.dot(meeting.normal)
+    fn closing_speed(&self, _meeting: Meeting) -> Lanes {
+        self.closing_speed
     }
 
     #[inline(always)]

@@ -17,7 +17,7 @@ use crate::lanes::{LANES, Lanes, lanes};
 use crate::particles::Particles;
 use crate::threads::{CHUNK, Chunked, Threads, chunk_count};
 use crate::vector::Rotation;
-use post::{Delivery, Outbox, Sink};
+use post::{Outbox, PostOffice, Sink};
 
 /// All that a contact needs beyond its own history.
 #[derive(Debug, Clone, Copy)]
@@ -55,7 +55,7 @@ pub struct ForcePass {
     pub flows: StepFlows,
     chunk_flows: Vec<StepFlows>,
     chunk_surfaces: Vec<SurfaceLoad>,
-    outboxes: Vec<Outbox>,
+    post: PostOffice,
 }
 
 impl ForcePass {
@@ -68,15 +68,13 @@ impl ForcePass {
             flows: StepFlows::default(),
             chunk_flows: vec![StepFlows::default(); chunks],
             chunk_surfaces: vec![SurfaceLoad::default(); chunks * surfaces],
-            outboxes: vec![Outbox::default(); chunks],
+            post: PostOffice::new(chunks),
         }
     }
 
     /// Takes note of new candidates: which chunk may have post for which.
-    pub fn prepare(&mut self, table: &ContactTable) {
-        for (chunk, outbox) in self.outboxes.iter_mut().enumerate() {
-            outbox.address(chunk, table);
-        }
+    pub fn prepare(&mut self, table: &ContactTable, threads: &Threads) {
+        self.post.prepare(table, self.loads.len(), threads);
     }
 
     /// Evaluates every contact; the loads must be empty.
@@ -86,15 +84,14 @@ impl ForcePass {
             first: 0,
             slots: &mut table.chunks,
             loads: &mut self.loads,
-            outboxes: &mut self.outboxes,
+            outboxes: self.post.outboxes_mut(),
             flows: &mut self.chunk_flows,
             surfaces: &mut self.chunk_surfaces,
             surfaces_per_chunk: self.surfaces.len(),
         };
         threads.for_each_chunk(count, work, &|chunk: Chunks| chunk.run(scene));
-        if self.outboxes.len() > 1 {
-            let (delivery, outboxes) = (Delivery { first: 0, loads: &mut self.loads }, &self.outboxes[..]);
-            threads.for_each_chunk(count, delivery, &|chunk: Delivery| chunk.collect(outboxes));
+        if self.chunk_flows.len() > 1 {
+            self.post.deliver(&mut self.loads, threads);
         }
         self.add_up();
     }
@@ -113,6 +110,16 @@ impl ForcePass {
             }
         }
     }
+}
+
+/// Reads what the contacts of a chunk are about to read in their own order, in the order in which it lies in memory:
+/// where that has left the cache, many reads are then under way at once.
+#[inline(always)]
+fn fetch(motions: &[Motion], loads: &[Load]) {
+    let places = motions.iter().take(CHUNK).fold(Lanes::ZERO, |seen, motion| seen | motion.place);
+    // Two loads to a cache line.
+    let loads = loads.iter().take(CHUNK).step_by(2).fold(Lanes::ZERO, |seen, load| seen | load.0);
+    std::hint::black_box(places | loads);
 }
 
 /// All ones in the first `count` lanes.
@@ -143,6 +150,7 @@ impl Chunks<'_> {
     fn run(self, scene: Scene) {
         let (Some(slots), Some(outbox)) = (self.slots.first_mut(), self.outboxes.first_mut()) else { return };
         outbox.clear();
+        fetch(&scene.motions[self.first * CHUNK..], self.loads);
         let mut sink = Sink { first: self.first * CHUNK, loads: self.loads, outbox };
         self.surfaces.fill(SurfaceLoad::default());
         let mut flows = pairs::evaluate(scene, &mut slots.pairs, &mut sink);

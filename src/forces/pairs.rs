@@ -1,16 +1,21 @@
 //! Contacts between particles: candidates that are awake are looked at, contacts are worked out four at a time.
 
-use super::bodies::{FlowLanes, Pairs, settle};
+use super::bodies::{FlowLanes, Meeting, Pairs, settle};
 use super::post::Sink;
 use super::{Scene, in_use};
+use crate::contact::block::{Block, Traits, TraitsLanes};
 use crate::contact::linear::LinearLanes;
-use crate::contact::list::Block;
+use crate::contact::list::ListTraits;
 use crate::contact::table::{Candidates, Slots};
 use crate::energy::StepFlows;
-use crate::lanes::{LANES, Lanes, lanes, transpose};
+use crate::lanes::{LANES, Lanes, Vec2Lanes, lanes, transpose};
 
 /// Candidates searched at a time; a power of two.
 const BLOCK: usize = 128;
+
+/// Blocks of contacts that go through the stages of a step together: so many that the stages' latencies overlap, so few
+/// that they stay in the cache.
+const GROUP: usize = 8;
 
 /// For each set of lanes, as bits: its lanes in front, in their order.
 const IN_FRONT: [[u32; LANES]; 1 << LANES] = {
@@ -33,13 +38,18 @@ const IN_FRONT: [[u32; LANES]; 1 << LANES] = {
 /// Evaluates the pairs of one chunk in key order.
 pub fn evaluate(scene: Scene, slots: &mut Slots, sink: &mut Sink) -> StepFlows {
     open_contacts(scene, slots);
-    // A load of one material has one law, which is then read once.
     let laws = scene.laws.pairs();
-    let (flows, all_touch) = if let [law] = laws {
-        let law = LinearLanes::splat(law);
-        work_through(scene, slots, sink, |_| law)
-    } else {
-        work_through(scene, slots, sink, |block| LinearLanes::new(|lane| &laws[block.laws()[lane] as usize]))
+    let (blocks, len, traits) = slots.contacts.parts_mut();
+    let (flows, all_touch) = match traits {
+        // In a load of equal bundles law and traits are read once.
+        ListTraits::Same(same) => {
+            let (law, traits) = (LinearLanes::splat(&laws[same.law.law as usize]), TraitsLanes::splat(same));
+            work_through(scene, (blocks, len), sink, |_| (law, traits))
+        }
+        ListTraits::Each(each) => work_through(scene, (blocks, len), sink, |block| {
+            let own = &each[block];
+            (LinearLanes::new(|lane| &laws[own.laws()[lane] as usize]), own.lanes())
+        }),
     };
     if !all_touch {
         slots.close_ended();
@@ -51,21 +61,34 @@ pub fn evaluate(scene: Scene, slots: &mut Slots, sink: &mut Sink) -> StepFlows {
 #[inline(always)]
 fn work_through(
     scene: Scene,
-    slots: &mut Slots,
+    (blocks, len): (&mut [Block], usize),
     sink: &mut Sink,
-    law_of: impl Fn(&Block) -> LinearLanes,
+    traits_of: impl Fn(usize) -> (LinearLanes, TraitsLanes),
 ) -> (FlowLanes, bool) {
     let mut flows = FlowLanes::zero();
     let mut all_touch = true;
-    let (blocks, len) = slots.contacts.blocks_mut();
+    let mut met = [Met::none(); GROUP];
     let (full, rest) = blocks.split_at_mut(len / LANES);
-    for block in full {
-        let law = law_of(block);
-        all_touch &= work_out(scene, (block, LANES), &law, &mut flows, sink);
+    for (group_index, group) in full.chunks_mut(GROUP).enumerate() {
+        let first = GROUP * group_index;
+        for (index, (block, met)) in group.iter().zip(&mut met).enumerate() {
+            *met = meet(scene, block, &traits_of(first + index).1);
+        }
+        for (index, (block, met)) in group.iter_mut().zip(&mut met).enumerate() {
+            let (law, traits) = traits_of(first + index);
+            let law = (&law, traits.damping, scene.step_rate);
+            all_touch &= work_out((block, LANES), met, law, &mut flows);
+        }
+        for (block, met) in group.iter().zip(&met) {
+            load((block, LANES), &met.loads, sink);
+        }
     }
     if let Some(block) = rest.first_mut() {
-        let law = law_of(block);
-        all_touch &= work_out(scene, (block, len % LANES), &law, &mut flows, sink);
+        let (law, traits) = traits_of(len / LANES);
+        let mut met = meet(scene, block, &traits);
+        let law = (&law, traits.damping, scene.step_rate);
+        all_touch &= work_out((block, len % LANES), &mut met, law, &mut flows);
+        load((block, len % LANES), &met.loads, sink);
     }
     (flows, all_touch)
 }
@@ -112,11 +135,12 @@ fn find_due(
 fn look_at(scene: Scene, slots: &mut Slots, due: &[u32; LANES]) {
     let candidates = &mut slots.candidates;
     let bodies = due.map(|candidate| candidates.bodies(candidate as usize));
-    let place = |id: u32| scene.motions[id as usize].place;
-    let [gap_x, gap_y, ..] = transpose(bodies.map(|pair| place(pair.other) - place(pair.owner)));
+    let own = bodies.map(|pair| &scene.motions[pair.owner as usize]);
+    let other = bodies.map(|pair| &scene.motions[pair.other as usize]);
+    let [gap_x, gap_y, ..] = transpose(std::array::from_fn(|lane| other[lane].place - own[lane].place));
     // Each of the two has to go half of the gap, which is (distance² − reach²) / (distance + reach).
-    let reach = lanes(|lane| bodies[lane].squared_reach);
-    let excess = gap_x * gap_x + gap_y * gap_y - reach;
+    let reach = lanes(|lane| own[lane].radius() + other[lane].radius());
+    let excess = gap_x * gap_x + gap_y * gap_y - reach * reach;
     let sleep = Lanes::splat(scene.way) + excess.fast_max(Lanes::ZERO) * scene.half_gap;
     for (&candidate, until) in due.iter().zip(sleep.to_array()) {
         candidates.sleep(candidate as usize, until);
@@ -139,34 +163,58 @@ fn open(scene: Scene, slots: &mut Slots, candidate: usize) {
     let (i, j) = (owner as usize, other as usize);
     let particles = scene.particles;
     let body = |id: usize| (particles.materials[id], particles.masses[id]);
-    slots.open(candidate, scene.laws.pair_slot(body(i), body(j)), [particles.radii[i], particles.radii[j]]);
+    let law = scene.laws.pair_slot(body(i), body(j));
+    slots.open(candidate, Traits { law, radii: [particles.radii[i], particles.radii[j]] });
+}
+
+/// A block between the stages of its step.
+#[derive(Debug, Clone, Copy)]
+struct Met {
+    bodies: Pairs,
+    meeting: Meeting,
+    /// On the owners: force, x and y, and moment; then the moment on the others with its sign turned round.
+    loads: [Lanes; LANES],
+}
+
+impl Met {
+    fn none() -> Self {
+        let (zero, none) = (Lanes::ZERO, Vec2Lanes { x: Lanes::ZERO, y: Lanes::ZERO });
+        Self { bodies: Pairs::none(), meeting: Meeting { overlap: zero, normal: none }, loads: [zero; LANES] }
+    }
+}
+
+/// Gathers the bodies of a block.
+#[inline(always)]
+fn meet(scene: Scene, block: &Block, traits: &TraitsLanes) -> Met {
+    let motion = |id: u32| &scene.motions[id as usize];
+    let (bodies, meeting) = Pairs::meet(block.owner.map(motion), block.other.map(motion), traits.radii);
+    Met { bodies, meeting, loads: [Lanes::ZERO; LANES] }
 }
 
 /// Works out the first `count` contacts of a block; returns whether all of them still touch.
 #[inline(always)]
 fn work_out(
-    scene: Scene,
     (block, count): (&mut Block, usize),
-    law: &LinearLanes,
+    met: &mut Met,
+    law: (&LinearLanes, Lanes, f64),
     flows: &mut FlowLanes,
-    sink: &mut Sink,
 ) -> bool {
-    let motion = |id: u32| &scene.motions[id as usize];
-    let pairs = Pairs::new(block.owner.map(motion), block.other.map(motion), block.radii());
-    let meeting = pairs.meet();
-    let history = block.history();
-    let used = in_use(count);
-    let now = settle(&pairs, (meeting, &history), (law, block.damping(), scene.step_rate), used, flows);
+    let (pairs, history, used) = (met.bodies, block.history(), in_use(count));
+    let now = settle(&pairs, (met.meeting, &history), law, used, flows);
     block.remember(&now);
-
     let force = now.force();
     let own_moment = pairs.own_arm(now.overlap) * now.tangential_force;
     let other_moment = pairs.other_arm(now.overlap) * now.tangential_force;
-    let rows = transpose([force.x, force.y, own_moment, -other_moment]);
-    for (lane, row) in rows.into_iter().enumerate().take(count) {
+    met.loads = [force.x, force.y, own_moment, -other_moment];
+    !(used & now.overlap.simd_le(Lanes::ZERO)).any()
+}
+
+/// Brings the loads of the first `count` contacts of a block to their particles, in key order.
+#[inline(always)]
+fn load((block, count): (&Block, usize), loads: &[Lanes; LANES], sink: &mut Sink) {
+    for (lane, row) in transpose(*loads).into_iter().enumerate().take(count) {
         sink.add(block.owner[lane], row);
         let [x, y, own_moment, other_moment] = row.to_array();
         sink.take_off(block.other[lane], Lanes::new([x, y, other_moment, own_moment]));
     }
-    !(used & now.overlap.simd_le(Lanes::ZERO)).any()
 }

@@ -6,7 +6,7 @@
 use crate::contact::table::ContactTable;
 use crate::integrator::Load;
 use crate::lanes::Lanes;
-use crate::threads::{CHUNK, Chunked};
+use crate::threads::{CHUNK, Chunked, Threads};
 
 /// A reaction on a particle of another chunk: what is to be taken off its force (x, y) and moment.
 #[derive(Debug, Clone, Copy)]
@@ -25,7 +25,7 @@ pub struct Outbox {
 
 impl Outbox {
     /// Makes room for post to every chunk that chunk `own` has candidates or contacts with.
-    pub fn address(&mut self, own: usize, table: &ContactTable) {
+    fn address(&mut self, own: usize, table: &ContactTable) {
         let pairs = &table.chunks[own].pairs;
         let contacts = pairs.contacts.iter().map(|entry| entry.contact.other);
         let others = pairs.candidates.iter().map(|candidate| candidate.other).chain(contacts);
@@ -85,25 +85,80 @@ impl Sink<'_> {
     }
 }
 
-/// Loads whose chunks collect their post.
-pub struct Delivery<'a> {
-    /// The first of the chunks.
-    pub first: usize,
-    /// Loads of whole chunks.
-    pub loads: &'a mut [Load],
+/// Who posts to whom.
+#[derive(Debug, Clone)]
+pub struct PostOffice {
+    outboxes: Vec<Outbox>,
+    /// By chunk: the chunks that may have post for it, ascending.
+    senders: Vec<Vec<u32>>,
 }
 
-impl Delivery<'_> {
-    /// Adds the post of every earlier chunk to this one's particles.
-    pub fn collect(self, outboxes: &[Outbox]) {
-        let first_particle = self.first * CHUNK;
-        for outbox in &outboxes[..self.first] {
-            for post in outbox.to(self.first) {
-                let [x, y, moment] = post.reaction;
-                self.loads[post.particle as usize - first_particle].0 -= Lanes::new([x, y, moment, 0.0]);
+impl PostOffice {
+    /// For `chunks` chunks.
+    pub fn new(chunks: usize) -> Self {
+        Self { outboxes: vec![Outbox::default(); chunks], senders: vec![Vec::new(); chunks] }
+    }
+
+    /// The outboxes, one a chunk.
+    pub fn outboxes_mut(&mut self) -> &mut [Outbox] {
+        &mut self.outboxes
+    }
+
+    /// Takes note of new candidates for `count` particles.
+    pub fn prepare(&mut self, table: &ContactTable, count: usize, threads: &Threads) {
+        let work = Addressing { first: 0, outboxes: &mut self.outboxes };
+        threads.for_each_chunk(count, work, &|work: Addressing| {
+            if let Some(outbox) = work.outboxes.first_mut() {
+                outbox.address(work.first, table);
+            }
+        });
+        self.senders.iter_mut().for_each(Vec::clear);
+        for (sender, outbox) in self.outboxes.iter().enumerate() {
+            for &target in &outbox.targets {
+                self.senders[target as usize].push(sender as u32);
             }
         }
     }
+
+    /// Adds all post to the particles that it goes to: by chunk in the order of its senders.
+    pub fn deliver(&self, loads: &mut [Load], threads: &Threads) {
+        let count = loads.len();
+        threads.for_each_chunk(count, Delivery { first: 0, loads }, &|work: Delivery| {
+            let first_particle = work.first * CHUNK;
+            for &sender in &self.senders[work.first] {
+                for post in self.outboxes[sender as usize].to(work.first) {
+                    let [x, y, moment] = post.reaction;
+                    work.loads[post.particle as usize - first_particle].0 -= Lanes::new([x, y, moment, 0.0]);
+                }
+            }
+        });
+    }
+}
+
+/// Chunks that address their outboxes.
+struct Addressing<'a> {
+    /// The first of the chunks.
+    first: usize,
+    outboxes: &'a mut [Outbox],
+}
+
+impl Chunked for Addressing<'_> {
+    fn chunks(&self) -> usize {
+        self.outboxes.len()
+    }
+
+    fn split(self, chunks: usize) -> (Self, Self) {
+        let (left, right) = self.outboxes.split_at_mut(chunks);
+        (Self { first: self.first, outboxes: left }, Self { first: self.first + chunks, outboxes: right })
+    }
+}
+
+/// Chunks that collect their post.
+struct Delivery<'a> {
+    /// The first of the chunks.
+    first: usize,
+    /// Loads of whole chunks.
+    loads: &'a mut [Load],
 }
 
 impl Chunked for Delivery<'_> {

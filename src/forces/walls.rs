@@ -3,8 +3,9 @@
 use super::bodies::{FlowLanes, Meeting, Walls, settle};
 use super::post::Sink;
 use super::{Scene, in_use};
+use crate::contact::block::{Block, Traits, TraitsLanes};
 use crate::contact::linear::LinearLanes;
-use crate::contact::list::Block;
+use crate::contact::list::ListTraits;
 use crate::contact::table::Slots;
 use crate::drum::{FeatureId, RIM};
 use crate::energy::{StepFlows, SurfaceLoad};
@@ -21,14 +22,19 @@ pub fn evaluate(scene: Scene, slots: &mut Slots, surfaces: &mut [SurfaceLoad], s
     let mut flows = FlowLanes::zero();
     let mut all_touch = true;
     let laws = scene.laws.walls();
-    let (blocks, len) = slots.contacts.blocks_mut();
+    let (blocks, len, list_traits) = slots.contacts.parts_mut();
     for (index, block) in blocks.iter_mut().enumerate() {
         let count = (len - LANES * index).min(LANES);
-        let law = match laws {
-            [law] => LinearLanes::splat(law),
-            _ => LinearLanes::new(|lane| &laws[block.laws()[lane] as usize]),
+        let (law, traits) = match list_traits {
+            ListTraits::Same(same) => {
+                (LinearLanes::splat(&laws[same.law.law as usize]), TraitsLanes::splat(same))
+            }
+            ListTraits::Each(each) => {
+                (LinearLanes::new(|lane| &laws[each[index].laws()[lane] as usize]), each[index].lanes())
+            }
         };
-        all_touch &= work_out(scene, (block, count), &law, &mut flows, &mut (&mut *surfaces, sink));
+        all_touch &=
+            work_out(scene, (block, count), (&law, &traits), &mut flows, &mut (&mut *surfaces, sink));
     }
     if !all_touch {
         slots.close_ended();
@@ -64,7 +70,7 @@ fn open(scene: Scene, slots: &mut Slots, candidate: usize) {
     let id = slots.candidates.key(candidate).0 as usize;
     let particles = scene.particles;
     let law = scene.laws.wall_slot((particles.materials[id], particles.masses[id]));
-    slots.open(candidate, law, [particles.radii[id], 0.0]);
+    slots.open(candidate, Traits { law, radii: [particles.radii[id], 0.0] });
 }
 
 /// The gap between a particle and a feature of the drum, below zero where they overlap, or slightly less than the gap;
@@ -95,16 +101,16 @@ fn meet(scene: Scene, own: &Motion, feature: FeatureId) -> Option<Spot> {
 fn work_out(
     scene: Scene,
     (block, count): (&mut Block, usize),
-    law: &LinearLanes,
+    (law, traits): (&LinearLanes, &TraitsLanes),
     flows: &mut FlowLanes,
     (surfaces, sink): &mut (&mut [SurfaceLoad], &mut Sink),
 ) -> bool {
     let own = block.owner.map(|id| &scene.motions[id as usize]);
-    let walls = Walls::new(own, block.radii()[0], scene.turn, scene.angular_velocity);
+    let walls = Walls::new(own, traits.radii[0], scene.turn, scene.angular_velocity);
     let meeting = meetings(scene, block, &walls);
     let history = block.history();
     let used = in_use(count);
-    let now = settle(&walls, (meeting, &history), (law, block.damping(), scene.step_rate), used, flows);
+    let now = settle(&walls, (meeting, &history), (law, traits.damping, scene.step_rate), used, flows);
     block.remember(&now);
 
     let force = now.force();

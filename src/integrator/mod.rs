@@ -34,10 +34,16 @@ impl Motion {
         Vec2::new(x, y)
     }
 
+    /// Angle turned during the step [rad].
+    #[inline(always)]
+    pub fn turn(&self) -> f64 {
+        self.pace.as_array()[2]
+    }
+
     /// Radius [m].
     #[inline(always)]
     pub fn radius(&self) -> f64 {
-        self.pace.to_array()[3]
+        self.pace.as_array()[3]
     }
 }
 

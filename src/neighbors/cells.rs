@@ -1,6 +1,6 @@
 //! A uniform grid of cells, filled by counting sort.
 
-use crate::vector::Vec2;
+use crate::vector::{Vec2, bounds};
 
 /// Particles by cell; within a cell in id order.
 #[derive(Debug, Clone, Default)]
@@ -82,15 +82,6 @@ impl CellGrid {
             visit(&self.members[start..end]);
         }
     }
-}
-
-fn bounds(positions: &[Vec2]) -> Option<(Vec2, Vec2)> {
-    let first = *positions.first()?;
-    Some(
-        positions
-            .iter()
-            .fold((first, first), |(low, high), position| (low.inf(position), high.sup(position))),
-    )
 }
 
 #[cfg(test)]

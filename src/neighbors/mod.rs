@@ -80,6 +80,12 @@ impl VerletList {
         self.anchors.len() == positions.len() && self.budget > 0.1 * half
     }
 
+    /// Asks to be built anew at the next step, as the particles are in other places.
+    pub fn forget(&mut self) {
+        self.anchors.clear();
+        self.budget = -1.0;
+    }
+
     /// Builds the list anew; `table` keeps every contact that has a history.
     pub fn rebuild(&mut self, around: Surroundings, table: &mut ContactTable, threads: &Threads) {
         let particles = around.particles;
@@ -116,13 +122,11 @@ impl Search<'_> {
         for (i, &center) in anchors.iter().enumerate().skip(start).take(CHUNK) {
             find_pairs(i, around.particles, grid, skin, &mut found);
             for j in found.drain(..) {
-                let reach = around.particles.radii[i] + around.particles.radii[j as usize];
-                let squared_reach = reach * reach;
-                pairs.candidates.push(Candidate { owner: i as u32, other: j, squared_reach });
+                pairs.candidates.push(Candidate { owner: i as u32, other: j });
             }
             find_walls(around.drum, center, around.particles.radii[i] + skin, &mut found);
             for feature in found.drain(..) {
-                walls.candidates.push(Candidate { owner: i as u32, other: feature, squared_reach: 0.0 });
+                walls.candidates.push(Candidate { owner: i as u32, other: feature });
             }
         }
         pairs.link();

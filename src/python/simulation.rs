@@ -18,6 +18,7 @@ use super::error::to_python;
 use super::gate::Inside;
 use crate::config::SimulationConfig;
 use crate::error::Error;
+use crate::particles::Particles;
 use crate::recorder::{Column, columns};
 use crate::simulation::Simulation as Core;
 use crate::summary::summarize;
@@ -49,6 +50,11 @@ impl Simulation {
             let _inside = Inside::enter();
             look(&mut self.lock())
         })
+    }
+
+    /// One of the particles' vectors in id order.
+    fn by_id<T: Copy + Send>(&self, py: Python<'_>, values: fn(&Particles) -> &[T]) -> Vec<T> {
+        self.with(py, |core| core.state().particles.by_id(values(&core.state().particles)))
     }
 
     /// Does steps until `left` are done or a slice of time is over; returns how many it did.
@@ -208,32 +214,32 @@ impl Simulation {
 
     #[getter]
     fn positions<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
-        arrays::vectors(py, &self.with(py, |core| core.state().particles.positions.clone()))
+        arrays::vectors(py, &self.by_id(py, |particles| &particles.positions))
     }
 
     #[getter]
     fn velocities<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
-        arrays::vectors(py, &self.with(py, |core| core.state().particles.velocities.clone()))
+        arrays::vectors(py, &self.by_id(py, |particles| &particles.velocities))
     }
 
     #[getter]
     fn angles<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        self.with(py, |core| core.state().particles.angles.clone()).into_pyarray(py)
+        self.by_id(py, |particles| &particles.angles).into_pyarray(py)
     }
 
     #[getter]
     fn angular_velocities<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        self.with(py, |core| core.state().particles.angular_velocities.clone()).into_pyarray(py)
+        self.by_id(py, |particles| &particles.angular_velocities).into_pyarray(py)
     }
 
     #[getter]
     fn radii<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        self.with(py, |core| core.state().particles.radii.clone()).into_pyarray(py)
+        self.by_id(py, |particles| &particles.radii).into_pyarray(py)
     }
 
     #[getter]
     fn masses<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        self.with(py, |core| core.state().particles.masses.clone()).into_pyarray(py)
+        self.by_id(py, |particles| &particles.masses).into_pyarray(py)
     }
 
     #[getter]

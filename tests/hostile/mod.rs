@@ -37,7 +37,8 @@ pub fn checkpoint(bytes: &[u8]) {
 pub fn resealed(bytes: &[u8]) -> Vec<u8> {
     use sha2::{Digest, Sha256};
     let body = bytes.get(44..).unwrap_or_default();
-    let mut sealed = b"DRUMRS\r\n\x01\0\0\0".to_vec();
+    let mut sealed = b"DRUMRS\r\n".to_vec();
+    sealed.extend_from_slice(&drumrs::checkpoint::FORMAT_VERSION.to_le_bytes());
     sealed.extend_from_slice(&Sha256::digest(body));
     sealed.extend_from_slice(body);
     sealed

@@ -161,7 +161,7 @@ DAMAGE = {
     "empty": lambda data: data[:0],
     "another file": lambda data: b"PK" + data,
     "another version": lambda data: resealed(data[:-32].replace(b"checkpoint 1\n", b"checkpoint 2\n", 1)),
-    "a core of another version": lambda data: resealed(_core_of_version_2(data[:-32])),
+    "a core of another version": lambda data: resealed(_core_of_version_99(data[:-32])),
     "half": lambda data: data[: len(data) // 2],
     "last byte missing": lambda data: data[:-1],
     **{
@@ -171,10 +171,10 @@ DAMAGE = {
 }
 
 
-def _core_of_version_2(data: bytes) -> bytes:
+def _core_of_version_99(data: bytes) -> bytes:
     magic = b"DRUMRS\r\n"
-    assert magic + b"\x01" in data
-    return data.replace(magic + b"\x01", magic + b"\x02", 1)
+    version = data.index(magic) + len(magic)
+    return data[:version] + bytes([99]) + data[version + 1 :]
 
 
 def _flipped(data: bytes, index: int) -> bytes:

@@ -52,8 +52,9 @@ def test_every_claim_has_its_verdict_and_numbers(findings, text):
     for verdict in findings.verdicts:
         assert f"{verdict.claim} {verdict.statement} {verdict.verdict}" in text
         assert " ".join(verdict.criterion.split()) in text
-        for number in verdict.numbers:
-            assert f"{number.name} {number.text}" in text
+        for part in verdict.parts:
+            assert " ".join(part.sentence.split()) in text
+            assert all(number.text in part.sentence for number in part.numbers)
     for outcome, count in headline.count_of_verdicts(findings).items():
         assert count == sum(verdict.verdict == outcome for verdict in findings.verdicts)
 

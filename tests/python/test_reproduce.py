@@ -13,7 +13,7 @@ from small_study import SMALL
 TINY = replace(
     SMALL, duration=0.2, window=(0.1, 0.2), fills=(0.05,), fills_with_baffles=(0.05,), frictions=(0.0, 0.5)
 )
-FILES = {"report.html", "table.parquet", "figures", "runs"}
+FILES = {"report.html", "summary.md", "table.parquet", "figures", "runs"}
 
 
 @pytest.fixture
@@ -38,6 +38,16 @@ def test_one_command_does_it_all_and_goes_on(drum, tmp_path):
     table, report = (out / "table.parquet").read_bytes(), (out / "report.html").read_text(encoding="utf-8")
     assert pl.read_parquet(out / "table.parquet").height == count
     assert "<h1>Loads tumbling in a rotating drum</h1>" in report
+
+    summary = (out / "summary.md").read_text(encoding="utf-8")
+    assert re.findall(r"^## (C\d+)$", summary, re.MULTILINE) == [f"C{k}" for k in range(1, 15)]
+    verdicts = study.judge(pl.read_parquet(out / "table.parquet"))
+    assert all(f"{one.statement} **{one.verdict.capitalize()}.**" in summary for one in verdicts)
+    assert all(part.sentence in summary for one in verdicts for part in one.parts)
+    assert "F3, Snapshots with baffles: not drawn, for want of runs at 50 % fill" in summary
+    shown = re.findall(r"\((figures/\S+)\)", summary)
+    assert shown
+    assert all((out / path).is_file() for path in shown)
 
     taken_up = {path: path.stat().st_mtime_ns for path in (out / "runs").glob("*.parquet")}
     next(path for path in taken_up if not re.search(r"series|frames", path.name)).unlink()

@@ -44,12 +44,17 @@ BROKEN = {
         ("drum_power", pl.col("drum_power") * 1.4, baffles, fill == 0.2),
         ("drum_power", pl.col("drum_power") * 0.7, baffles, fill > 0.5),
     ],
-    "C3": [("drum_specific_power", fill, baffles, fill >= 0.6), ("drum_specific_power", fill, fill <= 0.4)],
+    "C3": [
+        ("drum_specific_power", fill, baffles, fill >= 0.6),
+        ("drum_specific_power", fill, fill <= 0.4),
+        ("drum_specific_power", pl.col("drum_specific_power") * 1.4, ~baffles, fill == 0.2),
+    ],
     "C4": [("dissipation_ratio", 0.7, fill == 0.3), ("dissipation_ratio", 2.5, fill == 0.7, baffles)],
     "C5": [
         ("dissipation_ratio", 3.0, baffles, fill == 0.1),
         ("dissipation_ratio", 1.5, baffles, fill < 0.6),
         ("dissipation_ratio", 1.0 + fill, baffles, fill >= 0.6),
+        ("dissipation_ratio", 2.4, baffles, fill == 0.65),
     ],
     "C6": [
         ("dissipation_ratio", 0.8, ~baffles, fill == 0.2),
@@ -64,11 +69,18 @@ BROKEN = {
     "C9": [
         ("normal_specific_power", 0.5, small),
         ("tangential_specific_power", 0.0, small, fill == 0.5),
-        ("angular_momentum_per_mass", 0.15 * friction, fill == 0.25),
+        ("angular_momentum_per_mass", 0.15 * (friction - 0.02), fill == 0.25),
     ],
     "C10": [
         ("dissipation_ratio", 1.0 - 0.3 * friction, fill == 0.25, ~small),
         ("dissipation_ratio", 1.0 + 0.3 * friction, fill == 0.75, ~small),
+        # Falls on the whole, but rises again.
+        (
+            "dissipation_ratio",
+            pl.max_horizontal(3.0 - 4.0 * friction, 0.6 + 0.8 * friction),
+            fill == 0.75,
+            ~small,
+        ),
     ],
     "C11": [
         ("carried_round", 0.1, baffles, fill == 0.25),
@@ -138,18 +150,69 @@ def test_one_seed_can_decide():
     assert lone == dict.fromkeys(CLAIMS, HOLDS)
 
 
+def drifting(*conditions: pl.Expr) -> pl.Expr:
+    chosen = pl.all_horizontal(*conditions)
+    return pl.when(chosen).then(pl.lit(value=True)).otherwise(pl.col("drifting")).alias("drifting")
+
+
 def test_drifting_loads_do_not_decide():
-    drifting = pl.when(fill == 0.5).then(pl.lit(value=True)).otherwise(pl.col("drifting")).alias("drifting")
     # C6 needs the point at 50 %.
-    found = verdict("C6", world().with_columns(drifting))
+    found = verdict("C6", world().with_columns(drifting(fill == 0.5)))
     assert found.verdict == UNDECIDED
     assert "Drifting" in found.sentence
     # What one drifting point alone breaks is open, what others break as well is not.
     one = changed("dissipation_ratio", 2.6, fill == 0.5)
     assert verdict("C4", one).verdict == FAILS
-    assert verdict("C4", one.with_columns(drifting)).verdict == UNDECIDED
+    assert verdict("C4", one.with_columns(drifting(fill == 0.5))).verdict == UNDECIDED
     more = changed("dissipation_ratio", 2.6, fill.is_in([0.45, 0.5]))
-    assert verdict("C4", more.with_columns(drifting)).verdict == FAILS
+    assert verdict("C4", more.with_columns(drifting(fill == 0.5))).verdict == FAILS
+
+
+def test_one_drifting_seed_leaves_the_word_to_the_others():
+    first = drifting(fill == 0.5, pl.col("seed") == 1)
+    assert verdict("C6", world().with_columns(first)).verdict == HOLDS
+    # Below 40 % the ratio fails, whatever is missing at 50 %.
+    broken = changed("dissipation_ratio", 0.8, ~baffles, fill == 0.2)
+    assert verdict("C6", broken.with_columns(drifting(fill == 0.5))).verdict == FAILS
+    assert verdict("C6", broken.filter(fill != 0.5)).verdict == FAILS
+
+
+def onset(share: pl.Expr, table: pl.DataFrame | None = None) -> study.Verdict:
+    """Judge C9 where the load has such a share of its usual angular momentum at 25 % fill."""
+    table = world() if table is None else table
+    usual = (
+        pl.when((fill == 0.25) & ~baffles).then(0.15 * share).otherwise(pl.col("angular_momentum_per_mass"))
+    )
+    return verdict("C9", table.with_columns(usual.alias("angular_momentum_per_mass")))
+
+
+def width(found: study.Verdict) -> list[float]:
+    """Return the least and the greatest width of the onset at 25 % fill that the cases allow."""
+    return [one.value for one in found.numbers if one.name.startswith("Onset of circulation, 25 %")]
+
+
+def test_onset_of_circulation_is_as_wide_as_the_cases_allow():
+    # A tenth between 0.05 and 0.1, half between 0.1 and 0.15.
+    steep = onset((8.0 * (friction - 0.075)).clip(0.0, 1.0))
+    assert width(steep) == pytest.approx([0.0, 0.1])
+    assert steep.verdict == HOLDS, steep.sentence
+    # A tenth between 0.1 and 0.15, half between 0.3 and 0.4.
+    slow = onset((2.0 * friction) ** 1.6)
+    assert width(slow) == pytest.approx([0.15, 0.3])
+    assert slow.verdict == FAILS
+
+
+def test_onset_needs_cases_near_each_other():
+    sparse = world().filter(~friction.is_in([0.1, 0.15, 0.2]))
+    found = onset((8.0 * (friction - 0.0875)).clip(0.0, 1.0), sparse)
+    assert width(found) == pytest.approx([0.0, 0.2])
+    assert found.verdict == UNDECIDED
+
+
+def test_a_load_that_always_circulates_has_no_onset():
+    found = onset(pl.lit(1.0))
+    assert found.verdict == UNDECIDED
+    assert "missing: frictions at which the load surely rests" in found.sentence
 
 
 def test_seeds_that_disagree_leave_a_point_open():
@@ -163,3 +226,4 @@ def test_numbers_are_written_to_their_second_uncertain_digit():
     assert study.Number("x", 182.4, 12.3).text == "182 ± 12"
     assert study.Number("x", 1.0, math.inf).text == "1 ± ?"
     assert study.Number("x", 0.1, 0.0).text == "0.1"
+    assert study.Number("x", 1.3e-7, 4.84e-7).text == "(1.3 ± 4.8)·10⁻⁷"

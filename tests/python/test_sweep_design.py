@@ -87,6 +87,7 @@ AXIS = {"load.fill": [0.1]}
         (lambda: drumrs.Sweep(BASE, {"load.fil": [0.1]}), "load.fil is not a key; did you mean load.fill?"),
         (lambda: drumrs.Sweep(BASE, {"fill": [0.1]}), "fill is not a key; did you mean load.fill?"),
         (lambda: drumrs.Sweep(BASE, {}), "axes is empty"),
+        (lambda: drumrs.Sweep(BASE, "load.fill"), "axes is 'load.fill', but must be a table of keys"),
         (lambda: drumrs.Sweep(BASE, {"load.fill": []}), r"the axis load.fill is \[\], but must be a list"),
         (lambda: drumrs.Sweep(BASE, {"load.fill": 0.1}), "the axis load.fill is 0.1, but must be a list"),
         (

@@ -115,7 +115,8 @@ fn put_together(draw: &Draw, mut baffles: BaffleParameters, mut walls: Vec<Vec<[
     let fastest = draw.speeds.iter().fold(0.0_f64, |most, speed| most.max(speed.abs()));
     let speed = natural * (fastest + draw.start + 2.0);
     let mass = draw.density * PI * diameter * diameter / 4.0;
-    let parameters = |which: usize| parameters(&draw.laws[which], draw.hardness[which], mass, speed, diameter);
+    let parameters =
+        |which: usize| parameters(&draw.laws[which], draw.hardness[which], mass, speed, diameter);
     let contact = ContactParameters { bundle: parameters(0), drum: parameters(1) };
     let (pairs, rim) = Laws::new(&contact.bundle, &contact.drum).collision_times(mass);
     let time_step = pairs.min(rim) / draw.steps_a_collision;

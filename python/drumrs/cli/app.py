@@ -12,6 +12,7 @@ from drumrs.cli.info import info
 from drumrs.cli.reproduce import reproduce
 from drumrs.cli.run import run
 from drumrs.cli.sweep import sweep
+from drumrs.cli.verify import verify
 from drumrs.cli.view import view
 from drumrs.errors import CheckpointError, ConfigError, UnstableError
 from drumrs.files import NO_ROOM
@@ -33,14 +34,15 @@ app = App(
         "- `drumrs run --set 'run.window=[5, 15]' --set run.duration=15 --seed 2 --json`\n"
         "- `drumrs run --resume out` goes on after Ctrl-C or a power cut\n"
         "- `drumrs view out` plays the run in the browser\n"
-        "- `drumrs sweep study.toml --out out/study` runs many cases"
+        "- `drumrs sweep study.toml --out out/study` runs many cases\n"
+        "- `drumrs verify` holds drumrs against formulas and its own promises"
     ),
     version=drumrs.__version__,
     suppress_keyboard_interrupt=False,
     result_action="return_value",
 )
 
-for _command in (run, baseline, reproduce, sweep, view, config, info):
+for _command in (run, baseline, reproduce, sweep, view, verify, config, info):
     app.command(_command)
 
 

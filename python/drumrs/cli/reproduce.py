@@ -38,7 +38,7 @@ def reproduce(
     full
         Ten seeds instead of three.
     out
-        Folder for report.html, table.parquet, figures/ and runs/.
+        Folder for report.html, summary.md, table.parquet, figures/ and runs/.
     retry
         Run cases again that failed before.
     """
@@ -51,7 +51,7 @@ def reproduce(
     _announce(plan)
     done = plan.run(retry=retry, say=_say)
     _print_verdicts(done)
-    print_paths([*sorted({done.table, out / "figures"}), done.report])
+    print_paths([*sorted({done.table, done.summary, out / "figures"}), done.report])
     return _tell_failures(done)
 
 

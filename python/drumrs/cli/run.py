@@ -10,6 +10,7 @@ from cyclopts import Parameter
 from drumrs.cli.options import Seed, Settings, Threads, check_folder, layered
 from drumrs.cli.tables import print_paths, print_table
 from drumrs.config import Config
+from drumrs.config.softening import softening
 from drumrs.errors import ConfigError
 from drumrs.precision import Goal, pursue
 from drumrs.progress import board
@@ -31,6 +32,7 @@ def run(
     resume: Path | None = None,
     until: float | None = None,
     limit: float | None = None,
+    softer: float | None = None,
 ) -> None:
     """Run a case: the paper's baseline, a TOML file laid over it, settings laid over the file.
 
@@ -53,18 +55,21 @@ def run(
         averages' window then ends with the run.
     limit
         Simulated time [s] at which to give that up; ten times the duration unless given.
+    softer
+        Lower both stiffnesses by this factor, over all layers, and lengthen the time step by its square root: 100 is
+        ten times faster, with overlaps ten times larger or more. docs/accuracy.md has what it does to the results.
     """
     if resume is not None:
-        if case is not None or set_ or seed is not None or out is not None:
+        if case is not None or set_ or seed is not None or out is not None or softer is not None:
             raise ConfigError(
-                "--resume takes the case from its folder, so CASE, --set, --seed and --out must not be given"
+                "--resume takes the case from its folder, so CASE, --set, --seed, --softer and --out must not be given"
             )
         out = resume
         simulation = Simulation.load(out / _CHECKPOINT, threads)
         goal = _goal(until, limit, _first_duration(out, simulation.config))
         check_folder(out, "--resume")
     else:
-        config = layered(case, set_, seed)
+        config = _soften(layered(case, set_, seed), softer)
         goal = _goal(until, limit, config.run.duration)
         if out is not None:
             check_folder(out)
@@ -80,6 +85,16 @@ def run(
         print_paths(written)
     if reached:
         sys.stderr.write(f"drumrs: {reached}\n")
+
+
+def _soften(config: Config, factor: float | None) -> Config:
+    """Lower the stiffnesses by a factor, and say on standard error what that changes."""
+    if factor is None:
+        return config
+    changes = softening(config, factor, "--softer")
+    told = ", ".join(f"{key} {before:.4g} → {after:.4g}" for key, (before, after) in changes.items())
+    sys.stderr.write(f"drumrs: --softer {factor:g} changes {told}\n")
+    return config.softer(factor)
 
 
 def _goal(until: float | None, limit: float | None, duration: float) -> Goal | None:

@@ -15,6 +15,7 @@ from drumrs.config.layers import merge, nest, read_toml
 from drumrs.config.models import Contact, Drum, Load, Rotation, Run
 from drumrs.config.part import Part
 from drumrs.config.report import relation
+from drumrs.config.softening import softening
 from drumrs.errors import ConfigError
 
 
@@ -97,6 +98,31 @@ class Config(Part):
         """
         lower = self.model_dump(exclude_none=True)
         return self.model_validate(merge(type(self), lower, nest(changes)))
+
+    def softer(self, factor: float) -> Self:
+        """Return a copy with both stiffnesses lowered by a factor, and the time step longer by its square root.
+
+        A contact then lasts longer by that root and still takes as many steps; restitution stays what it is, so a
+        `normal_damping` that is given is lowered by the root too. ``docs/accuracy.md`` tells what it costs.
+
+        Parameters
+        ----------
+        factor
+            At least 1.
+
+        Raises
+        ------
+        ConfigError
+            Where the factor is not accepted.
+
+        Examples
+        --------
+        >>> import drumrs
+        >>> config = drumrs.baseline().softer(100.0)
+        >>> config.contact.bundle.normal_stiffness, f"{config.run.time_step:.3g}"
+        (925000.0, '3.7e-05')
+        """
+        return self.replace({key: after for key, (_, after) in softening(self, factor).items()})
 
     def to_toml(self, *, comments: bool = True) -> str:
         """Return the configuration as TOML, each key with its unit and meaning unless `comments` is false."""

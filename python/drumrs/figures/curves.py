@@ -68,18 +68,31 @@ def curves(points: "pl.DataFrame", labels: Labels) -> Figure:
 
 def draw_curves(axes: "Axes", points: "pl.DataFrame", labels: Labels) -> None:
     """Draw the curves of `curves` into axes."""
+    import polars as pl
+
     colors = mpl.rcParams["axes.prop_cycle"].by_key()["color"]
     ends: list[tuple[float, str, str]] = []
+    # Where the first curve ends all can still be compared: labels in that order are not mistaken for each other's.
+    last = min(float(x) for x in points.group_by("label").agg(pl.col("x").max())["x"])
     for k, label in enumerate(points["label"].unique(maintain_order=True)):
         rows = points.filter(points["label"] == label).sort("x")
         color = colors[k % len(colors)]
         _draw_line(axes, rows, labels.x_scale, {"color": color, "marker": _MARKERS[k % len(_MARKERS)]})
-        ends.append((float(rows["mean"][-1]), str(label), color))
+        height = np.interp(last, rows["x"].to_numpy(), rows["mean"].to_numpy())
+        ends.append((float(height), str(label), color))
     axes.set(xlabel=labels.x, ylabel=labels.y)
     axes.xaxis.set_major_locator(MaxNLocator(steps=[1, 2, 5, 10]))
     if labels.from_zero:
         axes.set_ylim(bottom=min(0.0, float(points["mean"].min() or 0.0)))  # type: ignore[arg-type]
+    if points["drifting"].any():
+        say_above(axes, "open: the load drifts")
     write_at_ends(axes, ends)
+
+
+def say_above(axes: "Axes", text: str) -> None:
+    """Write a note above axes, after what stands there."""
+    notes = [note for note in (axes.get_title(loc="left"), text) if note]
+    axes.set_title("; ".join(notes), loc="left", fontsize="small", color="0.35")
 
 
 def _draw_line(axes: "Axes", rows: "pl.DataFrame", scale: float, look: Mapping[str, Any]) -> None:

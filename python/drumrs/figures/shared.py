@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -33,6 +34,14 @@ def write(figure: Figure, path: str | Path) -> None:
     with drumrs_style():
         metadata = {"Date": None} if Path(path).suffix == ".svg" else {"Software": None}
         figure.savefig(path, metadata=metadata)
+
+
+def svg(figure: Figure) -> bytes:
+    """Return a figure as SVG; the same figure gives the same bytes."""
+    kept = BytesIO()
+    with drumrs_style():
+        figure.savefig(kept, format="svg", metadata={"Date": None})
+    return kept.getvalue()
 
 
 def label_lines(axes: "Axes") -> None:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib.figure import Figure
 
-from drumrs.figures.curves import Labels, curves
+from drumrs.figures.curves import Labels, curves, say_above
 from drumrs.figures.history import mean_rate
 from drumrs.figures.shared import Array, drumrs_style
 from drumrs.figures.snapshots import View, snapshots
@@ -48,7 +48,7 @@ def power_against_fill(points: "pl.DataFrame") -> Figure:
     """Draw F4: drum power against fill, without and with baffles; shaded is where the paper has the peak."""
     figure = curves(points, Labels(_FILL, _POWER, x_scale=100.0))
     figure.axes[0].axvspan(40.0, 50.0, color="0.93", zorder=0, linewidth=0)
-    _say_below(figure.axes[0], 45.0, "the paper’s peak")
+    _say_below(figure.axes[0], 45.0, "the paper’s\npeak")
     return figure
 
 
@@ -98,7 +98,7 @@ def specific_power_against_speed(points: "pl.DataFrame", centrifuging: float) ->
     figure = curves(points, Labels("drum speed [rpm]", _SPECIFIC))
     axes = figure.axes[0]
     axes.axvline(centrifuging, color="0.7", linewidth=0.8, zorder=0)
-    _say_below(axes, centrifuging, "Ω²R = g ")
+    _say_below(axes, centrifuging, "Ω²R = g", beside=4.0)
     return figure
 
 
@@ -107,9 +107,19 @@ def specific_power_against_restitution(points: "pl.DataFrame") -> Figure:
     return curves(points, Labels("coefficient of restitution e", _SPECIFIC))
 
 
-def _say_below(axes: "Axes", x: float, text: str) -> None:
-    where = axes.get_xaxis_transform()
-    axes.text(x, 0.02, text, transform=where, ha="center", va="bottom", color="0.45", fontsize="small")
+def _say_below(axes: "Axes", x: float, text: str, beside: float = 0.0) -> None:
+    """Write at the foot of axes, centered at x or so many points to the right of it."""
+    axes.annotate(
+        text,
+        (x, 0.02),
+        (beside, 0.0),
+        xycoords=axes.get_xaxis_transform(),
+        textcoords="offset points",
+        ha="left" if beside else "center",
+        va="bottom",
+        color="0.45",
+        fontsize="small",
+    )
 
 
 def _two_readings(points: "pl.DataFrame", other: "pl.DataFrame", labels: Labels) -> Figure:
@@ -117,7 +127,7 @@ def _two_readings(points: "pl.DataFrame", other: "pl.DataFrame", labels: Labels)
     axes = figure.axes[0]
     x, y = labels.x_scale * other["x"].to_numpy(), other["mean"].to_numpy()
     axes.plot(x, y, "x", color="black", markersize=6.5, markeredgewidth=0.6, zorder=4)
-    axes.set_title("by dissipation; × by work of the contact forces", fontsize="small", color="0.35")
+    say_above(axes, "× by work of the contact forces, else by dissipation")
     return figure
 
 

@@ -68,7 +68,12 @@ def times(findings: Findings) -> dict[str, str]:
     machines = sorted({name for name in facts["machine"] if name})
     if len(machines) > 1:
         told["machines"] = ", ".join(machines)
-    return {**told, "report written": f"{datetime.now(UTC):%Y-%m-%d %H:%M} UTC"}
+    return {**told, "report written": now()}
+
+
+def now() -> str:
+    """Return date and time, in UTC."""
+    return f"{datetime.now(UTC):%Y-%m-%d %H:%M} UTC"
 
 
 def duration(seconds: float) -> str:

@@ -3,7 +3,6 @@
 import math
 import re
 from functools import cache
-from importlib.resources import files
 from pathlib import Path
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
@@ -13,6 +12,7 @@ from drumrs.files import write_whole
 from drumrs.report import checks, facts, headline, pictures, table1
 from drumrs.report.findings import Findings
 from drumrs.report.players import players
+from drumrs.report.template import environment, style, text_of
 from drumrs.study import FIGURES
 from drumrs.study.cases import THIRDS
 from drumrs.study.verdict import FAILS, HOLDS, UNDECIDED
@@ -71,7 +71,7 @@ def render(findings: Findings, drawn: list[pictures.Picture]) -> str:
     contents = [(anchor, name) for anchor, name in _CONTENTS.items() if shown or anchor != "motion"]
     return _template().render(
         title=_TITLE,
-        style=_text("report.css"),
+        style=style(),
         contents=contents,
         outcomes=_OUTCOMES,
         pictures=drawn,
@@ -156,10 +156,6 @@ def _provenance(findings: Findings) -> dict[str, Any]:
     }
 
 
-def _text(name: str) -> str:
-    return files("drumrs.report").joinpath(name).read_text(encoding="utf-8")
-
-
 def _subscripts(text: str) -> str:
     """Set what follows an underscore lower: k_N."""
     from markupsafe import Markup, escape
@@ -169,11 +165,6 @@ def _subscripts(text: str) -> str:
 
 @cache
 def _template() -> "Template":
-    from jinja2 import Environment, StrictUndefined
-
-    # Names and messages come from files and errors: whatever is not marked safe is escaped.
-    environment = Environment(
-        autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
-    )
-    environment.filters["subscripts"] = _subscripts
-    return environment.from_string(_text("report.html.j2"))
+    made = environment()
+    made.filters["subscripts"] = _subscripts
+    return made.from_string(text_of("drumrs.report", "report.html.j2"))

@@ -1,13 +1,26 @@
-"""Claims about how the load moves."""
+"""Claims about how the load moves: the conditions of each."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
 
-from drumrs.analysis import Estimate, combine
+from drumrs.analysis import Estimate, Interval
 from drumrs.study.cases import BASELINE_FILL, THIRDS
-from drumrs.study.claims_power import percent
-from drumrs.study.claims_ratio import circulation
-from drumrs.study.curves import Curve, Results
-from drumrs.study.verdict import UNDECIDED, Finding, Number, all_of, each_within, within
+from drumrs.study.claims_power import POWER, over, percent
+from drumrs.study.claims_ratio import CIRCULATION
+from drumrs.study.curves import Results
+from drumrs.study.verdict import (
+    FAILS,
+    HOLDS,
+    UNDECIDED,
+    WORDS,
+    Condition,
+    Finding,
+    MissingError,
+    Number,
+    claimed,
+    each_within,
+    within,
+)
 from drumrs.study.words import (
     ABOUT,
     ABRUPT,
@@ -24,94 +37,90 @@ _HALF = 0.5
 _FULL = 0.75
 
 
-def _over(one: Estimate, usual: float) -> Estimate:
-    """Return an estimate over a value that stands for the usual, and whose own error is beside the point."""
-    return combine(one.mean / usual, [(1.0 / usual, one)])
-
-
-def rocks_then_circulates(results: Results) -> Finding:
-    """Judge C9 at the smallest friction, and by the angular momentum over friction."""
-    findings = []
+def rocks_then_circulates(results: Results) -> Iterator[Condition]:
+    """Judge C9 at each fill of F9: at the smallest friction, and by the load's angular momentum over friction."""
     for fill in THIRDS:
-        usual = results.curve("friction", "drum_specific_power", fill=fill).at(0.5).mean
-        for kind, low, high in (("normal", -ZERO, ZERO), ("tangential", ZERO, SMALL)):
-            curve = results.curve("friction", f"{kind}_specific_power", fill=fill)
-            curve = curve.above(0.0).between(high=SMALL_FRICTION)
-            least = curve.points[0]
-            name = f"{kind.capitalize()} over usual power at μ = {least.x:g}, {curve.label}"
-            findings.append(within(name, _over(least.estimate, usual), low, high))
-        findings.append(_sets_in(circulation(results, fill)))
-    return all_of(findings)
+        yield partial(_at_small_friction, results, fill, "normal", (-ZERO, ZERO))
+        yield partial(_at_small_friction, results, fill, "tangential", (ZERO, SMALL))
+        yield partial(_sets_in, results, fill)
 
 
-def _sets_in(curve: Curve) -> Finding:
-    """Ask over which range of friction the load comes from rest to circulating."""
-    usual = curve.at(0.5).mean
-    shares = [(point.x, _over(point.estimate, usual).interval()) for point in curve.points]
-    still = [x for x, share in shares if share.high < STILL]
-    going = [x for x, share in shares if share.low > CIRCULATING]
-    name = f"Onset of circulation, {curve.label}"
-    if not still or not going or min(going) < max(still):
-        return Finding(
-            UNDECIDED, f"{name}: no friction at which the load surely rests, below those at which not."
-        )
-    step = min(going) - max(still)
-    between = [x for x, _ in shares if max(still) < x < min(going)]
-    number = Number(f"{name}, width in μ", step, 0.0)
-    if step > ABRUPT + 1e-9 and not between:
-        return Finding(
-            UNDECIDED,
-            f"{name}: between μ = {max(still):g} and {min(going):g}, with no case there.",
-            (number,),
-        )
-    return within(name + ", width in μ", Estimate(step, 0.0, 1), 0.0, ABRUPT + 1e-9)
+def _at_small_friction(results: Results, fill: float, kind: str, limits: tuple[float, float]) -> Finding:
+    curve = results.curve("friction", f"{kind}_specific_power", fill=fill)
+    least = curve.above(0.0).between(high=SMALL_FRICTION).points[0]
+    name = f"{kind.capitalize()} over usual power at μ = {least.x:g}, {curve.label}"
+    return within(name, over(least.estimate, results.usual(POWER, fill)), *limits)
 
 
-def baffles_carry_the_load_round(results: Results) -> Finding:
-    """Judge C11 by what passes over the top, and by how far neighbors part."""
-    carried = results.curve("fill", "carried_round", baffles=True).at(BASELINE_FILL)
-    mixed, bare = (
-        results.curve("fill", "mixed_in_a_turn", baffles=baffles).at(BASELINE_FILL)
-        for baffles in (True, False)
-    )
-    return all_of(
-        [
-            within("Share of the load carried over the top in a turn", carried, low=CENTRIFUGING),
-            within("Mixing in a turn, with less without baffles", mixed - bare, high=0.0),
-        ]
-    )
+def _sets_in(results: Results, fill: float) -> Finding:
+    """Ask over which range of friction the load comes from rest to circulating, as narrowly as the cases tell.
+
+    Where between two cases a level is passed is not known, so neither is the range: from the least to the greatest
+    that is possible. Both within the limit is abrupt, neither is not.
+    """
+    curve, usual = results.curve("friction", CIRCULATION, fill=fill), results.usual(CIRCULATION, fill)
+    shares = [(point.x, over(point.estimate, usual).interval()) for point in curve.points]
+    begins, ends = (_passes(shares, level) for level in (STILL, CIRCULATING))
+    name = f"Onset of circulation, {curve.label}, width in μ"
+    if begins is None or ends is None:
+        raise MissingError(f"frictions at which the load surely rests and surely circulates, {curve.label}")
+    least, most = max(0.0, ends[0] - begins[1]), ends[1] - begins[0]
+    limit = ABRUPT + 1e-9
+    outcome = HOLDS if most <= limit else FAILS if least > limit else UNDECIDED
+    told = f"{name}: between {least:.3g} and {most:.3g} ({claimed(high=ABRUPT)}: {WORDS[outcome]})."
+    numbers = (Number(f"{name}, at least", least, 0.0), Number(f"{name}, at most", most, 0.0))
+    return Finding(outcome, told, numbers)
 
 
-def rigid_below_the_surface(results: Results) -> Finding:
+def _passes(shares: Sequence[tuple[float, Interval]], level: float) -> tuple[float, float] | None:
+    """Return the last friction surely below a level, and the first one above that is surely over it."""
+    below = [x for x, share in shares if share.high < level]
+    over = [x for x, share in shares if share.low > level and below and x > max(below)]
+    return (max(below), min(over)) if over else None
+
+
+def baffles_carry_the_load_round(results: Results) -> Iterator[Condition]:
+    """Judge C11: what centrifuges passes over the top along the rim; what mixes less, neighbors part less."""
+    carried = results.curve("fill", "carried_round", baffles=True)
+    mixed, bare = (results.curve("fill", "mixed_in_a_turn", baffles=baffles) for baffles in (True, False))
+    name = "Share of the load carried over the top in a turn"
+    yield lambda: within(name, carried.at(BASELINE_FILL), low=CENTRIFUGING)
+    parted = "Mixing in a turn, with less without baffles"
+    yield lambda: within(parted, mixed.at(BASELINE_FILL) - bare.at(BASELINE_FILL), high=0.0)
+
+
+def rigid_below_the_surface(results: Results) -> Iterator[Condition]:
     """Judge C12 by speeds relative to the turning drum, deep and at the surface."""
-    deep = results.curve("fill", "deep_speed").at(_FULL)
-    surface = results.curve("fill", "surface_speed").at(_FULL)
-    return all_of(
-        [
-            within("Speed relative to the drum, deep, over the rim's", deep, 0.0, LITTLE_MOTION),
-            within("The same at the surface over that deep", surface / deep, low=2.0),
-        ]
+    deep, surface = (results.curve("fill", f"{depth}_speed") for depth in ("deep", "surface"))
+    name = "Speed relative to the drum, deep, over the rim's"
+    yield lambda: within(name, deep.at(_FULL), 0.0, LITTLE_MOTION)
+    yield lambda: within(
+        "The same at the surface over that deep", surface.at(_FULL) / deep.at(_FULL), low=2.0
     )
 
 
-def baffles_matter_little_above_half(results: Results) -> Finding:
-    """Judge C13 by power and angular momentum, carrying and mixing."""
-    findings = []
-    for column, name in (("drum_power", "Power"), ("angular_momentum_per_mass", "Angular momentum")):
-        ratios = [(x, one) for x, one in _both(results, column, Estimate.__truediv__) if x > _HALF]
-        named = [(percent(x), one) for x, one in ratios]
-        findings.append(each_within(f"{name} with over without baffles", named, 1.0 - ABOUT, 1.0 + ABOUT))
+def baffles_matter_little_above_half(results: Results) -> Iterator[Condition]:
+    """Judge C13: "power" as such; "kinematics" by angular momentum, what passes over the top, and mixing."""
+    for column, name in (("drum_power", "Power"), (CIRCULATION, "Angular momentum")):
+        ratios = partial(_above_half, results, column, Estimate.__truediv__)
+        title = f"{name} with over without baffles"
+        yield partial(_each, title, ratios, (1.0 - ABOUT, 1.0 + ABOUT))
     for column, name in (
         ("carried_round", "Share carried over the top"),
         ("mixed_in_a_turn", "Mixing in a turn"),
     ):
-        differences = [(percent(x), one) for x, one in _both(results, column, Estimate.__sub__) if x > _HALF]
-        findings.append(each_within(f"{name}, with less without baffles", differences, -ABOUT, ABOUT))
-    return all_of(findings)
+        differences = partial(_above_half, results, column, Estimate.__sub__)
+        yield partial(_each, f"{name}, with less without baffles", differences, (-ABOUT, ABOUT))
 
 
-def _both(
-    results: Results, column: str, f: Callable[[Estimate, Estimate], Estimate]
-) -> list[tuple[float, Estimate]]:
+_Compared = list[tuple[str, Estimate]]
+
+
+def _each(name: str, points: Callable[[], _Compared], limits: tuple[float, float]) -> Finding:
+    return each_within(name, points(), *limits)
+
+
+def _above_half(results: Results, column: str, f: Callable[[Estimate, Estimate], Estimate]) -> _Compared:
+    """Return what a function makes of both drums, at the fills above 50 % that both have."""
     with_baffles, bare = (results.curve("fill", column, baffles=baffles) for baffles in (True, False))
-    return with_baffles.against(bare, f)
+    return [(percent(x), one) for x, one in with_baffles.against(bare, f) if x > _HALF]

@@ -132,7 +132,7 @@ class Results:
     table
         What `measure` returned.
     steady_only
-        Whether points with a drifting seed are left out.
+        Whether runs that drift are left out.
     """
 
     table: "pl.DataFrame"
@@ -157,19 +157,26 @@ class Results:
         Curve
             With no points where the table has none.
         """
-        rows = self._rows(axis, baffles=baffles, fill=fill)
-        points = []
-        for x in sorted({round(float(x), 9) for x in rows[AXES[axis][0]]}):
-            seeds = [
-                row
-                for row in rows.iter_rows(named=True)
-                if abs(row[AXES[axis][0]] - x) < _SAME and row[column] is not None
-            ]
-            point = _point(x, seeds, column)
-            if seeds and not (self.steady_only and point.drifting):
-                points.append(point)
+        rows = self._rows(axis, baffles=baffles, fill=fill).drop_nulls(column)
+        if self.steady_only:
+            rows = rows.filter(~rows["drifting"])
+        at: dict[float, list[dict[str, Any]]] = {}
+        for row in rows.iter_rows(named=True):
+            at.setdefault(round(float(row[AXES[axis][0]]), 9), []).append(row)
+        points = [_point(x, at[x], column) for x in sorted(at)]
         drum = "with baffles" if baffles else "without baffles"
         return Curve(drum if fill is None else f"{100.0 * fill:.0f} % fill", tuple(points))
+
+    def usual(self, column: str, fill: float) -> float:
+        """Return the mean of a quantity in Table 1's bare drum, drifting runs included: a scale for others.
+
+        Raises
+        ------
+        MissingError
+            Where there is no such case.
+        """
+        every = replace(self, steady_only=False).curve("fill", column)
+        return every.at(fill).mean
 
     def _rows(self, axis: str, *, baffles: bool, fill: float | None) -> "pl.DataFrame":
         import polars as pl

@@ -1,8 +1,8 @@
 """Verdicts: what a claim comes to, with the numbers that decide it."""
 
 import math
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 
 from drumrs.analysis import Estimate
 from drumrs.analysis.estimate import LEVEL
@@ -12,6 +12,9 @@ HOLDS, FAILS, UNDECIDED = "holds", "does not hold", "undecided"
 
 # Numbers below this are round-off.
 _NOTHING = 1e-9
+# Numbers below this are written with a power of ten.
+_TINY = 1e-3
+_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 class MissingError(LookupError):
@@ -48,6 +51,10 @@ class Number:
             return f"{self.value:.3g} ± ?{unit}"
         if self.half_width < _NOTHING:
             return f"{self.value if abs(self.value) > _NOTHING else 0.0:.3g}{unit}"
+        if max(abs(self.value), self.half_width) < _TINY:
+            power = math.floor(math.log10(max(abs(self.value), self.half_width)))
+            scaled = (self.value / 10.0**power, self.half_width / 10.0**power)
+            return f"({scaled[0]:.1f} ± {scaled[1]:.1f})·10{str(power).translate(_RAISED)}{unit}"
         digits = max(0, 1 - math.floor(math.log10(self.half_width)))
         return f"{self.value:.{digits}f} ± {self.half_width:.{digits}f}{unit}"
 
@@ -58,7 +65,7 @@ class Number:
 
 @dataclass(frozen=True)
 class Finding:
-    """What one condition of a claim comes to."""
+    """What one part of a claim comes to: its outcome, why in words, and the numbers that decide."""
 
     outcome: str
     sentence: str
@@ -77,32 +84,51 @@ class Verdict:
         What the paper says.
     criterion
         How that is read as numbers.
-    verdict
-        ``"holds"``, ``"does not hold"`` or ``"undecided"``.
-    sentence
-        Why, in words.
-    numbers
-        The numbers that decide, with 95 % intervals.
     figure
         The figure that shows it.
+    parts
+        What each part of the claim comes to: one that fails decides, else one that is undecided does.
     """
 
     claim: str
     statement: str
     criterion: str
-    verdict: str
-    sentence: str
-    numbers: tuple[Number, ...] = field(default=())
-    figure: str = ""
+    figure: str
+    parts: tuple[Finding, ...]
+
+    @property
+    def verdict(self) -> str:
+        """``"holds"``, ``"does not hold"`` or ``"undecided"``."""
+        outcomes = {part.outcome for part in self.parts}
+        return FAILS if FAILS in outcomes else UNDECIDED if UNDECIDED in outcomes else HOLDS
+
+    @property
+    def deciding(self) -> tuple[Finding, ...]:
+        """The parts for which the verdict is what it is."""
+        return tuple(part for part in self.parts if part.outcome == self.verdict)
+
+    @property
+    def sentence(self) -> str:
+        """Why, in words."""
+        return " ".join(part.sentence for part in self.parts)
+
+    @property
+    def numbers(self) -> tuple[Number, ...]:
+        """The numbers that decide, with 95 % intervals."""
+        return tuple(number for part in self.parts for number in part.numbers)
 
 
-def all_of(findings: Iterable[Finding]) -> Finding:
-    """Join conditions: one that fails decides, else one that is undecided does."""
-    found = list(findings)
-    outcomes = [finding.outcome for finding in found]
-    outcome = FAILS if FAILS in outcomes else UNDECIDED if UNDECIDED in outcomes else HOLDS
-    numbers = tuple(number for finding in found for number in finding.numbers)
-    return Finding(outcome, " ".join(finding.sentence for finding in found), numbers)
+Condition = Callable[[], Finding]
+
+
+def settle(condition: Condition) -> Finding:
+    """Judge a part of a claim, which is undecided where its cases are missing or it compares with a mean of 0."""
+    try:
+        return condition()
+    except MissingError as missing:
+        return Finding(UNDECIDED, f"Cases are missing: {missing}.")
+    except ZeroDivisionError:
+        return Finding(UNDECIDED, "A mean of 0 stands where others are compared with it.")
 
 
 def within(
@@ -112,7 +138,7 @@ def within(
     number = Number.of(name, estimate, unit)
     outcome = _place(estimate, low, high, LEVEL)
     return Finding(
-        outcome, f"{name}: {number.text} ({_claimed(low, high, unit)}: {_WORDS[outcome]}).", (number,)
+        outcome, f"{name}: {number.text} ({claimed(low, high, unit)}: {WORDS[outcome]}).", (number,)
     )
 
 
@@ -139,10 +165,19 @@ def each_within(
     numbers = tuple(Number.of(f"{name} at {place}", one) for place, one in dict.fromkeys((least, most)))
     told = f"{name}: from {numbers[0].text} at {least[0]} to {numbers[-1].text} at {most[0]}"
     where = f", for what is at {', '.join(outside)}" if outside else ""
-    return Finding(outcome, f"{told} (each {_claimed(low, high)}: {_WORDS[outcome]}{where}).", numbers)
+    return Finding(outcome, f"{told} (each {claimed(low, high)}: {WORDS[outcome]}{where}).", numbers)
 
 
-_WORDS = {HOLDS: "yes", FAILS: "no", UNDECIDED: "open"}
+def none_outside(
+    name: str, points: Sequence[tuple[str, Estimate]], low: float = -math.inf, high: float = math.inf
+) -> Finding:
+    """Ask whether no mean surely lies outside of limits, as `each_within` does; none needs to be surely within."""
+    found = each_within(name, points, low, high)
+    return replace(found, outcome=HOLDS) if found.outcome == UNDECIDED else found
+
+
+# Whether a number is within the limits that are claimed.
+WORDS = {HOLDS: "yes", FAILS: "no", UNDECIDED: "open"}
 
 
 def _place(estimate: Estimate, low: float, high: float, level: float) -> str:
@@ -152,7 +187,8 @@ def _place(estimate: Estimate, low: float, high: float, level: float) -> str:
     return FAILS if interval.high < low or interval.low > high else UNDECIDED
 
 
-def _claimed(low: float, high: float, unit: str = "") -> str:
+def claimed(low: float = -math.inf, high: float = math.inf, unit: str = "") -> str:
+    """Write the limits that a claim sets."""
     unit = f" {unit}" if unit else ""
     if low == -math.inf:
         return f"claimed below {high:.3g}{unit}"

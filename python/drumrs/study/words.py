@@ -1,4 +1,4 @@
-"""How the paper's words are read as numbers: fixed before any verdict, the same for every claim."""
+"""How the paper's words are read as numbers, the same for every claim."""
 
 # "About", "nearly", "just under", "similar", "minor", "constant": within ten per cent, which is what a point read
 # off a printed figure is worth.

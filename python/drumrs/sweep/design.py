@@ -26,6 +26,8 @@ def from_axes(base: Config, axes: Axes | None, seeds: Seeds) -> tuple[Case, ...]
     ConfigError
         Where an axis names no key, is empty or holds a value that is not accepted, or where a case comes twice.
     """
+    if axes is not None and not isinstance(axes, Mapping):
+        raise ConfigError(f"axes is {show(axes):.60}, but must be a table of keys with a list of values each")
     if axes is not None and not axes:
         raise ConfigError("axes is empty, but must name at least one key with a list of values")
     _check_keys(base, axes or ())

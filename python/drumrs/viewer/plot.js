@@ -124,8 +124,9 @@ class Plot {
     if (!this.first || to - from < context.measureText(label).width + 8) return;
     context.fillStyle = this.theme.muted;
     context.textAlign = "right";
-    context.textBaseline = "top";
-    context.fillText(label, to - 4, TOP + 2);
+    // Powers are drawn from 0 on, so there is room at the foot.
+    context.textBaseline = "bottom";
+    context.fillText(label, to - 4, this.height - BOTTOM - 2);
   }
 
   drawAxes(context) {

@@ -1,5 +1,10 @@
 //! `Simulation`: configuration, state and scratch; it steps, guards and records.
 
+mod fixed;
+mod views;
+
+use fixed::Fixed;
+
 use crate::config::SimulationConfig;
 use crate::contact::laws::Laws;
 use crate::contact::table::ContactTable;
@@ -9,6 +14,7 @@ use crate::error::Error;
 use crate::forces::{ForcePass, Scene};
 use crate::integrator::{DriftSums, Integrator, Load};
 use crate::neighbors::{Surroundings, VerletList};
+use crate::order;
 use crate::packing::pack;
 use crate::particles::Particles;
 use crate::recorder::{Frames, Series, Snapshot, columns};
@@ -35,20 +41,6 @@ pub struct Simulation {
     /// Whether the second half of the last kick is still to come; never between two runs.
     kick_waits: bool,
     failure: Option<Error>,
-}
-
-/// What follows from the configuration and the particles' sizes.
-#[derive(Debug)]
-struct Fixed {
-    drum: Drum,
-    laws: Laws,
-    time_step: f64,
-    gravity: Vec2,
-    mass: f64,
-    sample_steps: u64,
-    frame_steps: u64,
-    /// The drum's speed where it is constant.
-    steady_speed: Option<f64>,
 }
 
 /// The instant at which forces are evaluated.
@@ -94,10 +86,14 @@ impl Simulation {
         config: SimulationConfig,
         seed: u64,
         threads: Threads,
-        particles: Particles,
+        mut particles: Particles,
     ) -> Result<Self, Error> {
         let table = ContactTable::empty(particles.len());
         let fixed = Fixed::new(&config, &particles)?;
+        start::require_inside(&fixed.drum, &particles)?;
+        if order::is_due(particles.len(), 0) {
+            particles.reorder(&order::along_curve(&particles.positions));
+        }
         let state = State {
             step: 0,
             series: Series::new(columns(fixed.drum.baffle_count(), fixed.drum.wall_count()).len()),
@@ -106,7 +102,6 @@ impl Simulation {
             particles,
         };
         let mut simulation = Self::assemble(config, seed, threads, (state, table), fixed);
-        start::require_inside(&simulation.fixed.drum, &simulation.state.particles)?;
         simulation.open();
         simulation.guard()?;
         Ok(simulation)
@@ -198,6 +193,9 @@ impl Simulation {
     /// One step. The second half of its kick waits for the next step's drift where nobody looks in between; `last`
     /// says that somebody will.
     fn step(&mut self, last: bool) -> Result<(), Error> {
+        if self.state.step > 0 && order::is_due(self.state.particles.len(), self.state.step) {
+            self.sort();
+        }
         let (from, to) = (self.time(), self.time_at(self.state.step + 1));
         let schedule = &self.config.rotation;
         let (angle, angular_velocity) = (schedule.angle(to), schedule.angular_velocity(to));
@@ -205,7 +203,7 @@ impl Simulation {
         let sums = self.drift(turn);
         self.state.step += 1;
         if !(sums.mass_moment.x + sums.mass_moment.y).is_finite() {
-            let particle = self.state.particles.first_non_finite().unwrap_or(0);
+            let particle = self.id_of(self.state.particles.first_non_finite().unwrap_or(0));
             return Err(Error::NonFinite { step: self.state.step, particle });
         }
         let look = self.list.advance(sums.longest_way, turn);
@@ -222,6 +220,20 @@ impl Simulation {
         self.guard()?;
         self.record();
         Ok(())
+    }
+
+    /// Brings neighbors together in memory.
+    fn sort(&mut self) {
+        self.finish_kick();
+        let order = order::along_curve(&self.state.particles.positions);
+        let mut places = vec![0; order.len()];
+        for (place, &particle) in order.iter().enumerate() {
+            places[particle as usize] = place as u32;
+        }
+        self.state.particles.reorder(&order);
+        self.table.follow(&places);
+        self.integrator = Integrator::new(&self.state.particles, self.fixed.time_step, self.fixed.gravity);
+        self.list.forget();
     }
 
     fn drift(&mut self, turn: f64) -> DriftSums {
@@ -253,7 +265,7 @@ impl Simulation {
     fn rebuild(&mut self, rotation: Rotation) {
         let around = Surroundings { particles: &self.state.particles, drum: &self.fixed.drum, rotation };
         self.list.rebuild(around, &mut self.table, &self.threads);
-        self.forces.prepare(&self.table);
+        self.forces.prepare(&self.table, &self.threads);
     }
 
     fn evaluate(&mut self, instant: Instant) {
@@ -300,11 +312,16 @@ impl Simulation {
             return Ok(());
         }
         let step = self.state.step;
-        let (particle, ratio) = start::deepest_overlap(&self.table, &self.state.particles);
-        if self.fixed.drum.radius().is_some_and(|rim| self.state.particles.positions[particle].norm() > rim) {
+        let (place, ratio) = start::deepest_overlap(&self.table, &self.state.particles);
+        let particle = self.id_of(place);
+        if self.fixed.drum.radius().is_some_and(|rim| self.state.particles.positions[place].norm() > rim) {
             return Err(Error::Escaped { step, particle });
         }
         Err(Error::Overlap { step, particle, ratio, limit })
+    }
+
+    fn id_of(&self, place: usize) -> usize {
+        self.state.particles.ids[place] as usize
     }
 
     fn record(&mut self) {
@@ -359,85 +376,7 @@ impl Simulation {
     fn time_at(&self, step: u64) -> f64 {
         step as f64 * self.fixed.time_step
     }
-
-    /// Time [s]: steps × time step.
-    pub fn time(&self) -> f64 {
-        self.time_at(self.state.step)
-    }
-
-    /// Length of a step [s].
-    pub fn time_step(&self) -> f64 {
-        self.fixed.time_step
-    }
-
-    /// The configuration.
-    pub fn config(&self) -> &SimulationConfig {
-        &self.config
-    }
-
-    /// The seed of the start.
-    pub fn seed(&self) -> u64 {
-        self.seed
-    }
-
-    /// Number of threads.
-    pub fn threads(&self) -> usize {
-        self.threads.count()
-    }
-
-    /// State: step, particles, ledger, series, frames.
-    pub fn state(&self) -> &State {
-        &self.state
-    }
-
-    /// The contacts.
-    pub fn contacts(&self) -> &ContactTable {
-        &self.table
-    }
-
-    /// The drum.
-    pub fn drum(&self) -> &Drum {
-        &self.fixed.drum
-    }
-
-    /// Mass of the load [kg/m].
-    pub fn mass(&self) -> f64 {
-        self.fixed.mass
-    }
-
-    /// Angle of the drum [rad].
-    pub fn drum_angle(&self) -> f64 {
-        self.config.rotation.angle(self.time())
-    }
-
-    /// Shortest collision times [s] of this load: (between bundles, with the drum).
-    pub fn collision_times(&self) -> (f64, f64) {
-        start::collision_times(&self.fixed.laws, &self.state.particles)
-    }
-
-    /// The error that stopped this simulation, if one did.
-    pub fn failure(&self) -> Option<&Error> {
-        self.failure.as_ref()
-    }
 }
 
 /// Margin of the neighbor list in radii of the largest bundle; speed is flat from 0.1 to 0.3 at 100 … 10 000 bundles.
 const DEFAULT_SKIN: f64 = 0.3;
-
-impl Fixed {
-    fn new(config: &SimulationConfig, particles: &Particles) -> Result<Self, Error> {
-        let laws = Laws::new(&config.contact.bundle, &config.contact.drum);
-        let time_step = start::time_step(config, &laws, particles)?;
-        let every = |interval: f64| ((interval / time_step).round() as u64).max(1);
-        Ok(Self {
-            drum: Drum::new(&config.drum)?,
-            laws,
-            time_step,
-            gravity: Vec2::new(config.gravity[0], config.gravity[1]),
-            mass: particles.total_mass(),
-            sample_steps: every(config.run.sample_every),
-            frame_steps: every(config.run.frame_every),
-            steady_speed: config.rotation.is_constant().then(|| config.rotation.angular_velocity(0.0)),
-        })
-    }
-}

@@ -1,0 +1,44 @@
+"""The cases by family, in the order in which they are shown, and how to choose among them."""
+
+from collections.abc import Sequence
+from types import MappingProxyType
+
+from drumrs.errors import ConfigError
+from drumrs.verification import balances, bodies, friction, impacts, promises, rotation, sliding
+from drumrs.verification.case import Case
+
+FAMILIES = MappingProxyType(
+    {
+        "Impacts of one contact": impacts.CASES + sliding.CASES,
+        "The eight impact tests of Chung & Ooi": bodies.CASES,
+        "Friction and rolling": friction.CASES,
+        "In a turning drum": rotation.CASES,
+        "Balances of a whole drum": balances.CASES,
+        "Promises": promises.CASES,
+    }
+)
+
+
+def family_of(case: Case) -> str:
+    """Return the family that a case belongs to."""
+    return next(name for name, cases in FAMILIES.items() if case in cases)
+
+
+def chosen(only: Sequence[str] | None = None) -> tuple[Case, ...]:
+    """Return the cases of some names, in the catalog's order; all of them without any.
+
+    Raises
+    ------
+    ConfigError
+        Where a name is none of a case, or there is none.
+    """
+    cases = tuple(case for family in FAMILIES.values() for case in family)
+    if only is None:
+        return cases
+    names = [case.name for case in cases]
+    for name in only:
+        if name not in names:
+            raise ConfigError(f"only is {name!r}, but must be one of {', '.join(names)}")
+    if not only:
+        raise ConfigError("only is empty, but must name at least one case")
+    return tuple(case for case in cases if case.name in only)

@@ -1,0 +1,180 @@
+"""`verify`: run the cases, on threads, and `Verification`, what came of them."""
+
+import json
+import math
+import time
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from drumrs.files import write_whole
+from drumrs.progress import Campaign, board
+from drumrs.sweep.crew import check_jobs, usable_cores
+from drumrs.verification.case import Case, Trial
+from drumrs.verification.catalog import chosen, family_of
+
+if TYPE_CHECKING:
+    import polars as pl
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Verification:
+    """Cases that were run.
+
+    Attributes
+    ----------
+    trials
+        What came of each case, in the catalog's order.
+    wall_time
+        Time it took [s].
+    jobs
+        Cases that ran at once.
+    """
+
+    trials: tuple[Trial, ...]
+    wall_time: float
+    jobs: int
+
+    def __repr__(self) -> str:
+        """Say how many cases passed."""
+        count = sum(trial.passed for trial in self.trials)
+        return f"<Verification: {count} of {len(self.trials)} cases passed>"
+
+    @property
+    def passed(self) -> bool:
+        """Whether every case passed."""
+        return all(trial.passed for trial in self.trials)
+
+    @property
+    def failures(self) -> tuple[Trial, ...]:
+        """The cases that failed."""
+        return tuple(trial for trial in self.trials if not trial.passed)
+
+    @property
+    def table(self) -> "pl.DataFrame":
+        """Polars table, one row a case, with the check that is nearest to failing, or fails by most.
+
+        Its columns: family, case, title, source, quantity, unit, expected, measured, tolerance, strain (distance over
+        tolerance), checks (their number), passed, wall_time [s], error.
+        """
+        import polars as pl
+
+        texts = ("family", "case", "title", "source", "quantity", "unit", "error")
+        types: dict[str, Any] = dict.fromkeys(texts, pl.String)
+        types |= dict.fromkeys(("expected", "measured", "tolerance", "strain", "wall_time"), pl.Float64)
+        types |= {"checks": pl.Int64, "passed": pl.Boolean}
+        return pl.DataFrame([_row(trial) for trial in self.trials], schema_overrides=types)
+
+    def to_json(self) -> str:
+        """Return one JSON object: every case with every check; what is not finite is null."""
+        cases = [{**_row(trial), "checks": _checks(trial)} for trial in self.trials]
+        told = {"passed": self.passed, "wall_time": self.wall_time, "jobs": self.jobs}
+        for row in cases:
+            row.update({key: _finite(value) for key, value in row.items()})
+        return json.dumps({**told, "cases": cases}, indent=2, ensure_ascii=False, allow_nan=False)
+
+    def save(self, path: str | Path) -> Path:
+        """Write the page: one HTML file that needs nothing else, with a plot a case.
+
+        Raises
+        ------
+        OSError
+            Where the file cannot be written.
+        """
+        from drumrs.verification.page import render
+
+        write_whole(path, render(self).encode())
+        return Path(path)
+
+
+def _row(trial: Trial) -> dict[str, Any]:
+    case, evidence = trial.case, trial.evidence
+    worst = evidence.worst if evidence is not None else None
+    return {
+        "family": family_of(case),
+        "case": case.name,
+        "title": case.title,
+        "source": case.source,
+        "quantity": worst.quantity if worst else None,
+        "unit": worst.unit if worst else None,
+        "expected": worst.expected if worst else None,
+        "measured": worst.measured if worst else None,
+        "tolerance": worst.tolerance if worst else None,
+        "strain": worst.strain if worst else None,
+        "checks": len(evidence.checks) if evidence is not None else 0,
+        "passed": trial.passed,
+        "wall_time": trial.wall_time,
+        "error": trial.error,
+    }
+
+
+def _checks(trial: Trial) -> list[dict[str, Any]]:
+    found = trial.evidence.checks if trial.evidence is not None else ()
+    rows = [{**asdict(check), "passed": check.passed} for check in found]
+    return [{key: _finite(value) for key, value in row.items()} for row in rows]
+
+
+def _finite(value: Any) -> Any:
+    return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def verify(
+    only: Sequence[str] | str | None = None, *, jobs: int | None = None, progress: bool = True
+) -> Verification:
+    """Hold the simulation against formulas, identities and its own promises: minutes on two cores.
+
+    Parameters
+    ----------
+    only
+        Names of the cases to run; all of them unless given.
+    jobs
+        Cases at once; one a usable core unless given.
+    progress
+        Whether to show progress: a bar in a terminal or notebook, else a line a minute on standard error.
+
+    Returns
+    -------
+    Verification
+        Every case with what it measured.
+
+    Raises
+    ------
+    ConfigError
+        Where there is no case of a name.
+
+    Examples
+    --------
+    >>> import drumrs
+    >>> found = drumrs.verify(only=["restitution-clipped", "stack"], progress=False)
+    >>> found.passed, found.table["case"].to_list()
+    (True, ['restitution-clipped', 'stack'])
+    """
+    cases = chosen([only] if isinstance(only, str) else only)
+    check_jobs(jobs)
+    workers = jobs or usable_cores()
+    began = time.perf_counter()
+    trials = _run(cases, workers, progress=progress)
+    return Verification(trials, time.perf_counter() - began, workers)
+
+
+def _run(cases: Sequence[Case], workers: int, *, progress: bool) -> tuple[Trial, ...]:
+    """Run the cases, the long ones first, and return them in their order."""
+    order = sorted(cases, key=lambda case: -case.cost)
+    done, cost, trials = 0, 0.0, {}
+    with board(show=progress) as shown, ThreadPoolExecutor(workers) as pool:
+        campaign = Campaign(len(cases), sum(case.cost for case in cases), "verification", rated=False)
+        report = shown.add_campaign(campaign)
+        tasks = [pool.submit(case.run) for case in order]
+        try:
+            for task in as_completed(tasks):
+                trial = task.result()
+                trials[trial.case.name] = trial
+                done, cost = done + 1, cost + trial.case.cost
+                report(done, cost)
+        except BaseException:
+            # What has begun comes to its end, in seconds.
+            pool.shutdown(wait=False, cancel_futures=True)
+            raise
+    return tuple(trials[case.name] for case in cases)

@@ -1,0 +1,154 @@
+//! Four contacts, column by column: the hot loop reads the columns as they are.
+
+use super::laws::SlotLaw;
+use super::{Contact, History, HistoryLanes};
+use crate::lanes::{LANES, Lanes, Vec2Lanes};
+use crate::vector::Vec2;
+
+/// What a contact follows from its bodies alone.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Traits {
+    /// Law and damping.
+    pub law: SlotLaw,
+    /// Radii of the owner and of the other side [m]; that of the drum is zero.
+    pub radii: [f64; 2],
+}
+
+/// The traits of four contacts.
+#[derive(Debug, Clone, Copy)]
+pub struct TraitsLanes {
+    /// Dampings.
+    pub damping: Lanes,
+    /// The owners' radii and the other sides' [m].
+    pub radii: [Lanes; 2],
+}
+
+impl TraitsLanes {
+    /// The same for all.
+    #[inline(always)]
+    pub fn splat(traits: &Traits) -> Self {
+        Self { damping: Lanes::splat(traits.law.damping), radii: traits.radii.map(Lanes::splat) }
+    }
+}
+
+/// Four contacts.
+#[derive(Debug, Clone, Copy, Default)]
+#[repr(C, align(32))]
+pub struct Block {
+    overlap: [f64; LANES],
+    tangential_displacement: [f64; LANES],
+    normal_force: [f64; LANES],
+    tangential_force: [f64; LANES],
+    normal_x: [f64; LANES],
+    normal_y: [f64; LANES],
+    /// The contacts' owners.
+    pub owner: [u32; LANES],
+    /// Their other sides: particles later in memory, or features of the drum.
+    pub other: [u32; LANES],
+}
+
+impl Block {
+    /// What the contacts remember.
+    #[inline(always)]
+    pub fn history(&self) -> HistoryLanes {
+        HistoryLanes {
+            overlap: Lanes::new(self.overlap),
+            tangential_displacement: Lanes::new(self.tangential_displacement),
+            normal_force: Lanes::new(self.normal_force),
+            tangential_force: Lanes::new(self.tangential_force),
+            normal: Vec2Lanes { x: Lanes::new(self.normal_x), y: Lanes::new(self.normal_y) },
+        }
+    }
+
+    /// Replaces what they remember.
+    #[inline(always)]
+    pub fn remember(&mut self, history: &HistoryLanes) {
+        self.overlap = history.overlap.to_array();
+        self.tangential_displacement = history.tangential_displacement.to_array();
+        self.normal_force = history.normal_force.to_array();
+        self.tangential_force = history.tangential_force.to_array();
+        self.normal_x = history.normal.x.to_array();
+        self.normal_y = history.normal.y.to_array();
+    }
+
+    /// The key of a contact.
+    #[inline]
+    pub(super) fn key(&self, lane: usize) -> (u32, u32) {
+        (self.owner[lane], self.other[lane])
+    }
+
+    /// Whether a contact touched at the last force evaluation.
+    #[inline]
+    pub(super) fn is_touching(&self, lane: usize) -> bool {
+        self.overlap[lane] > 0.0
+    }
+
+    #[inline]
+    pub(super) fn contact(&self, lane: usize) -> Contact {
+        let history = History {
+            overlap: self.overlap[lane],
+            tangential_displacement: self.tangential_displacement[lane],
+            normal_force: self.normal_force[lane],
+            tangential_force: self.tangential_force[lane],
+            normal: Vec2::new(self.normal_x[lane], self.normal_y[lane]),
+        };
+        Contact { particle: self.owner[lane], other: self.other[lane], history }
+    }
+
+    #[inline]
+    pub(super) fn put(&mut self, lane: usize, contact: &Contact) {
+        let Contact { particle, other, history } = *contact;
+        self.overlap[lane] = history.overlap;
+        self.tangential_displacement[lane] = history.tangential_displacement;
+        self.normal_force[lane] = history.normal_force;
+        self.tangential_force[lane] = history.tangential_force;
+        (self.normal_x[lane], self.normal_y[lane]) = (history.normal.x, history.normal.y);
+        (self.owner[lane], self.other[lane]) = (particle, other);
+    }
+}
+
+/// The traits of four contacts that differ in them, column by column.
+#[derive(Debug, Clone, Copy, Default)]
+#[repr(C, align(32))]
+pub struct TraitsBlock {
+    damping: [f64; LANES],
+    own_radius: [f64; LANES],
+    other_radius: [f64; LANES],
+    law: [u32; LANES],
+}
+
+impl TraitsBlock {
+    pub(super) fn splat(traits: &Traits) -> Self {
+        let mut block = Self::default();
+        (0..LANES).for_each(|lane| block.put(lane, traits));
+        block
+    }
+
+    /// As lanes, but for the laws.
+    #[inline(always)]
+    pub fn lanes(&self) -> TraitsLanes {
+        TraitsLanes {
+            damping: Lanes::new(self.damping),
+            radii: [Lanes::new(self.own_radius), Lanes::new(self.other_radius)],
+        }
+    }
+
+    /// The laws.
+    #[inline(always)]
+    pub fn laws(&self) -> [u32; LANES] {
+        self.law
+    }
+
+    pub(super) fn traits(&self, lane: usize) -> Traits {
+        Traits {
+            law: SlotLaw { damping: self.damping[lane], law: self.law[lane] },
+            radii: [self.own_radius[lane], self.other_radius[lane]],
+        }
+    }
+
+    pub(super) fn put(&mut self, lane: usize, traits: &Traits) {
+        let Traits { law, radii } = *traits;
+        (self.damping[lane], self.law[lane]) = (law.damping, law.law);
+        [self.own_radius[lane], self.other_radius[lane]] = radii;
+    }
+}

@@ -1,0 +1,41 @@
+//! What follows from the configuration and the particles' sizes, and never changes.
+
+use crate::config::SimulationConfig;
+use crate::contact::laws::Laws;
+use crate::drum::Drum;
+use crate::error::Error;
+use crate::particles::Particles;
+use crate::start;
+use crate::vector::Vec2;
+
+/// What follows from the configuration and the particles' sizes.
+#[derive(Debug)]
+pub(super) struct Fixed {
+    pub(super) drum: Drum,
+    pub(super) laws: Laws,
+    pub(super) time_step: f64,
+    pub(super) gravity: Vec2,
+    pub(super) mass: f64,
+    pub(super) sample_steps: u64,
+    pub(super) frame_steps: u64,
+    /// The drum's speed where it is constant.
+    pub(super) steady_speed: Option<f64>,
+}
+
+impl Fixed {
+    pub(super) fn new(config: &SimulationConfig, particles: &Particles) -> Result<Self, Error> {
+        let laws = Laws::new(&config.contact.bundle, &config.contact.drum);
+        let time_step = start::time_step(config, &laws, particles)?;
+        let every = |interval: f64| ((interval / time_step).round() as u64).max(1);
+        Ok(Self {
+            drum: Drum::new(&config.drum)?,
+            laws,
+            time_step,
+            gravity: Vec2::new(config.gravity[0], config.gravity[1]),
+            mass: particles.total_mass(),
+            sample_steps: every(config.run.sample_every),
+            frame_steps: every(config.run.frame_every),
+            steady_speed: config.rotation.is_constant().then(|| config.rotation.angular_velocity(0.0)),
+        })
+    }
+}

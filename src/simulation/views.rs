@@ -1,0 +1,71 @@
+//! What a simulation shows of itself.
+
+use super::Simulation;
+use crate::config::SimulationConfig;
+use crate::contact::table::ContactTable;
+use crate::drum::Drum;
+use crate::error::Error;
+use crate::start;
+use crate::state::State;
+
+impl Simulation {
+    /// Time [s]: steps × time step.
+    pub fn time(&self) -> f64 {
+        self.time_at(self.state.step)
+    }
+
+    /// Length of a step [s].
+    pub fn time_step(&self) -> f64 {
+        self.fixed.time_step
+    }
+
+    /// The configuration.
+    pub fn config(&self) -> &SimulationConfig {
+        &self.config
+    }
+
+    /// The seed of the start.
+    pub fn seed(&self) -> u64 {
+        self.seed
+    }
+
+    /// Number of threads.
+    pub fn threads(&self) -> usize {
+        self.threads.count()
+    }
+
+    /// State: step, particles, ledger, series, frames.
+    pub fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// The contacts.
+    pub fn contacts(&self) -> &ContactTable {
+        &self.table
+    }
+
+    /// The drum.
+    pub fn drum(&self) -> &Drum {
+        &self.fixed.drum
+    }
+
+    /// Mass of the load [kg/m].
+    pub fn mass(&self) -> f64 {
+        self.fixed.mass
+    }
+
+    /// Angle of the drum [rad].
+    pub fn drum_angle(&self) -> f64 {
+        self.config.rotation.angle(self.time())
+    }
+
+    /// Shortest collision times [s] of this load: (between bundles, with the drum).
+    pub fn collision_times(&self) -> (f64, f64) {
+        start::collision_times(&self.fixed.laws, &self.state.particles)
+    }
+
+    /// The error that stopped this simulation, if one did.
+    pub fn failure(&self) -> Option<&Error> {
+        self.failure.as_ref()
+    }
+}

@@ -1,0 +1,56 @@
+"""Progress below a notebook's cell: bars that move, end where the run ended, and need nothing but IPython."""
+
+import re
+import sys
+from types import ModuleType
+
+import pytest
+
+import drumrs
+from drumrs import notebook, progress
+
+SHARE = re.compile(r'<progress max="1" value="([\d.]+)"></progress> ([^<]*)')
+
+
+class Shown:
+    """Stands for IPython's display of one output, and keeps what it showed."""
+
+    def __init__(self) -> None:
+        self.pages: list[str] = []
+
+    def update(self, thing: object) -> None:
+        self.pages.append(thing._repr_html_())
+
+
+@pytest.fixture
+def shown(monkeypatch):
+    """Pretend to be in a notebook; return what it shows."""
+    display = Shown()
+    module = ModuleType("IPython.display")
+    module.display = lambda _, **__: display
+    monkeypatch.setitem(sys.modules, "IPython.display", module)
+    monkeypatch.setattr("rich.console._is_jupyter", lambda: True)
+    monkeypatch.setattr(notebook, "_PAUSE", 0.0)
+    return display
+
+
+def test_a_run_shows_a_bar_that_ends_full(shown, short):
+    drumrs.run(short)
+    shares = [float(SHARE.search(page)[1]) for page in shown.pages if SHARE.search(page)]
+    assert shares == sorted(shares)
+    assert shares[-1] == 1.0
+    assert re.search(r"100%, 0.06 of 0.06 s, [\d.]+ M particle-steps/s, 0 s left", shown.pages[-1])
+
+
+def test_a_sweep_shows_cases_and_failures(shown, short, tmp_path):
+    sweep = drumrs.Sweep(short, axes={"load.fill": [0.05, 5.0]})
+    sweep.run(tmp_path)
+    assert "2 of 2 cases" in shown.pages[-1]
+    assert float(SHARE.search(shown.pages[-1])[1]) == 1.0
+
+
+def test_names_cannot_break_the_page(shown):
+    with progress.board(show=True) as board:
+        board.note("<b>a & b")
+    assert shown.pages[-1] == "<div>&lt;b&gt;a &amp; b</div>"
+    assert repr(board) == "<b>a & b"
