@@ -39,6 +39,7 @@ fn responses(criterion: &mut Criterion) {
     let contacts = encounters(&law, 1024);
     let laws = LinearLanes::splat(&law);
     let mut group = criterion.benchmark_group("law");
+    scenes::keep_short(&mut group);
     group.throughput(Throughput::Elements((contacts.len() * LANES) as u64));
     group.bench_function("linear", |bencher| {
         bencher.iter(|| {

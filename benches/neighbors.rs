@@ -9,8 +9,9 @@ use drumrs::vector::Rotation;
 
 fn rebuilds(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("rebuild");
+    scenes::keep_short(&mut group);
     let threads = Threads::new(1).expect("one thread");
-    for count in [1_000, 10_000] {
+    for count in [1_000, 10_000, 100_000] {
         group.throughput(Throughput::Elements(count as u64));
         group.bench_function(BenchmarkId::from_parameter(count), |bencher| {
             let simulation = scenes::tumbling(count, 3);

@@ -7,10 +7,11 @@ use drumrs::drum::Drum;
 use drumrs::packing::pack;
 
 fn beds(criterion: &mut Criterion) {
-    let drum = Drum::new(&scenes::common::baseline(1, 0).drum).expect("a valid drum");
     let mut group = criterion.benchmark_group("packing");
+    scenes::keep_short(&mut group);
     group.sample_size(10);
-    for count in [100, 300] {
+    for count in [100, 300, 10_000] {
+        let drum = Drum::new(&scenes::drum_for(count, 0).drum).expect("a valid drum");
         group.throughput(Throughput::Elements(count as u64));
         group.bench_function(BenchmarkId::from_parameter(count), |bencher| {
             bencher.iter(|| pack(&drum, count, scenes::common::RADIUS, 1).expect("a load that fits"));

@@ -6,10 +6,10 @@ use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_m
 
 fn steps(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("step");
-    group.sample_size(20);
+    scenes::keep_short(&mut group);
     for (name, baffle_count) in [("bare", 0), ("baffles", 3)] {
-        for count in [100, 300, 1_000, 10_000] {
-            let batch = (100_000 / count).max(10) as u64;
+        for count in [100, 200, 300, 1_000, 10_000, 100_000] {
+            let batch = (100_000 / count).max(2) as u64;
             group.throughput(Throughput::Elements(batch * count as u64));
             // Made when the bench is not filtered out, and once.
             let mut simulation = None;

@@ -5,8 +5,15 @@
 #[path = "../../tests/common/mod.rs"]
 pub mod common;
 
+use std::time::Duration;
+
+use criterion::BenchmarkGroup;
+use criterion::measurement::WallTime;
 use drumrs::config::SimulationConfig;
+use drumrs::drum::Drum;
 use drumrs::simulation::Simulation;
+use drumrs::start::InitialState;
+use drumrs::vector::{Vec2, perpendicular};
 
 /// Whether this is `cargo bench`, and not a test that only sees each bench run once.
 pub fn measuring() -> bool {
@@ -24,14 +31,49 @@ pub fn drum_for(count: usize, baffle_count: usize) -> SimulationConfig {
     config
 }
 
-/// A load out of its random start and in the tumble; larger ones have further to fall than the time that is spent here.
+/// Times that suffice for a ratio, so that all benches take minutes.
+pub fn keep_short(group: &mut BenchmarkGroup<WallTime>) {
+    group.sample_size(20).warm_up_time(Duration::from_secs(1)).measurement_time(Duration::from_secs(3));
+}
+
+/// A load in the tumble. Large ones, which would fall for longer than is spent here, start as a bed.
 pub fn tumbling(count: usize, baffle_count: usize) -> Simulation {
-    let mut simulation = Simulation::new(drum_for(count, baffle_count), 1, 1).expect("a load that fits");
+    let config = drum_for(count, baffle_count);
+    let mut simulation = if count > 1_000 {
+        let bed = bed(&config);
+        Simulation::with_state(config, 1, 1, bed).expect("a bed inside the drum")
+    } else {
+        Simulation::new(config, 1, 1).expect("a load that fits")
+    };
     let steps = match count {
         _ if !measuring() => 10,
         0..=1_000 => 200_000,
-        _ => 20_000,
+        _ => 2_000,
     };
     simulation.run(steps).expect("a stable run");
     simulation
+}
+
+/// Rows at the bottom of the drum that turn with it. They are not quite regular, so that about half of all neighbors
+/// touch.
+fn bed(config: &SimulationConfig) -> InitialState {
+    let drum = Drum::new(&config.drum).expect("a valid drum");
+    let (rim, spacing) = (drum.radius().expect("a rim"), 2.0 * common::RADIUS);
+    let across = (2.0 * rim / spacing) as usize;
+    let jitter = |k: usize| 1e-4 * spacing * ((k * 7919 % 1000) as f64 / 500.0 - 1.0);
+    let site = |k: usize| {
+        let (row, column) = (k / across, k % across);
+        let shift = 0.5 * (row % 2) as f64;
+        let x = -rim + spacing * (column as f64 + shift) + jitter(k);
+        Vec2::new(x, -rim + spacing * 0.75_f64.sqrt() * row as f64 + jitter(k + 1))
+    };
+    let sites = (0..across * across).map(site).filter(|&site| drum.clearance(site) > common::RADIUS);
+    let positions: Vec<Vec2> = sites.take(config.load.count).collect();
+    let speed = config.rotation.angular_velocity(0.0);
+    InitialState {
+        velocities: Some(positions.iter().map(|&position| perpendicular(position) * speed).collect()),
+        angular_velocities: Some(vec![speed; positions.len()]),
+        positions,
+        ..InitialState::default()
+    }
 }

@@ -6,7 +6,7 @@ from typing import Any, final
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Simulation", "info"]
+__all__ = ["Simulation", "close_gate", "info", "open_gate", "open_gate_alone"]
 
 @final
 class Simulation:

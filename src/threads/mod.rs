@@ -1,0 +1,122 @@
+//! Work over fixed chunks of particles, serial or by a simulation's own team of threads.
+//!
+//! A chunk always holds the same particles and is always worked through in the same order by one thread; sums are kept
+//! per chunk and added up in chunk order afterwards. That is why the number of threads never shows in a result.
+
+mod team;
+
+use std::sync::{Arc, Mutex, PoisonError};
+
+use crate::error::Error;
+use team::Team;
+
+/// Particles per chunk.
+pub const CHUNK: usize = 512;
+
+/// Number of chunks that `count` particles make.
+pub fn chunk_count(count: usize) -> usize {
+    count.div_ceil(CHUNK)
+}
+
+/// Slices that cover whole chunks and can be cut between two of them.
+pub trait Chunked: Sized + Send {
+    /// Number of chunks covered.
+    fn chunks(&self) -> usize;
+    /// Cuts after the first `chunks` chunks.
+    fn split(self, chunks: usize) -> (Self, Self);
+}
+
+/// The threads that one simulation may use.
+#[derive(Debug, Clone)]
+pub struct Threads {
+    team: Option<Arc<Team>>,
+}
+
+impl Threads {
+    /// A team of `count` threads; one thread needs no team.
+    ///
+    /// # Errors
+    /// `Error::Config` for no threads, `Error::System` where the system refuses them.
+    pub fn new(count: usize) -> Result<Self, Error> {
+        match count {
+            0 => Err(Error::config("threads", 0, "at least 1")),
+            1 => Ok(Self { team: None }),
+            _ => Team::new(count).map(|team| Self { team: Some(Arc::new(team)) }).map_err(|error| {
+                Error::System { action: format!("starting {count} threads"), reason: error.to_string() }
+            }),
+        }
+    }
+
+    /// Number of threads.
+    pub fn count(&self) -> usize {
+        self.team.as_ref().map_or(1, |team| team.count())
+    }
+
+    /// Whether work on `count` particles is worth handing over to other threads.
+    pub fn serve(&self, count: usize) -> bool {
+        self.team.is_some() && count >= PARALLEL_THRESHOLD
+    }
+
+    /// Runs `kernel` on each chunk of `work`, on several threads where that pays for `count` particles.
+    pub fn for_each_chunk<W: Chunked>(&self, count: usize, work: W, kernel: &(impl Fn(W) + Sync)) {
+        match &self.team {
+            Some(team) if self.serve(count) => share(work, kernel, team),
+            _ => in_turn(work, kernel),
+        }
+    }
+}
+
+/// Particles below which a second thread loses. Measured on two cores that need 0.2 µs to hear of each other, with a
+/// load that has just been packed, whose steps are the shortest: 0.6 times one thread at 2 000 particles, 1.2 at 3 000,
+/// 1.5 at 5 000.
+const PARALLEL_THRESHOLD: usize = 4096;
+
+/// Gives each thread a stretch of chunks, the same in every pass, so that it finds in its own cache what it left there.
+/// Who is done takes what others have not come to: a thread whose CPU is busy with something else holds nobody up.
+fn share<W: Chunked>(mut work: W, kernel: &(impl Fn(W) + Sync), team: &Team) {
+    let members = team.count().min(work.chunks());
+    let mut stretches = Vec::with_capacity(members);
+    for threads in (2..=members).rev() {
+        let chunks = work.chunks();
+        let (first, rest) = work.split(chunks / threads);
+        stretches.push(Mutex::new(Some(first)));
+        work = rest;
+    }
+    stretches.push(Mutex::new(Some(work)));
+    team.work(&|number| {
+        for turn in 0..members {
+            let stretch = &stretches[(number + turn) % members];
+            while let Some(chunk) = take(stretch, turn == 0) {
+                kernel(chunk);
+            }
+        }
+    });
+}
+
+/// The first or the last chunk of what is left of a stretch.
+fn take<W: Chunked>(stretch: &Mutex<Option<W>>, first: bool) -> Option<W> {
+    let mut left = stretch.lock().unwrap_or_else(PoisonError::into_inner);
+    let work = left.take()?;
+    let chunks = work.chunks();
+    if chunks <= 1 {
+        return Some(work);
+    }
+    if first {
+        let (chunk, rest) = work.split(1);
+        *left = Some(rest);
+        Some(chunk)
+    } else {
+        let (rest, chunk) = work.split(chunks - 1);
+        *left = Some(rest);
+        Some(chunk)
+    }
+}
+
+fn in_turn<W: Chunked>(mut work: W, kernel: &impl Fn(W)) {
+    while work.chunks() > 1 {
+        let (first, rest) = work.split(1);
+        kernel(first);
+        work = rest;
+    }
+    kernel(work);
+}
