@@ -182,6 +182,10 @@ impl Simulation {
                 self.failure = Some(failure);
             }
         }
+        // A step sees positions alone, and those of the step before; who looks now gets numbers throughout.
+        if let (None, Some(particle)) = (&self.failure, self.state.particles.first_non_finite()) {
+            self.failure = Some(Error::NonFinite { step: self.state.step, particle: self.id_of(particle) });
+        }
         self.failure.clone().map_or(Ok(()), Err)
     }
 

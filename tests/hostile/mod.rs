@@ -94,7 +94,10 @@ pub fn rotation(bytes: &[u8]) {
         let most = schedule.knots.iter().fold(0.0_f64, |most, knot| most.max(knot[1].abs())) * to.max(1.0);
         if most.is_finite() {
             assert!(schedule.angular_velocity(to).is_finite());
-            assert!((whole - parts).abs() <= 1e-9 * most + f64::MIN_POSITIVE, "{whole} is not {parts}: {schedule:?} at {from}, {to}");
+            assert!(
+                (whole - parts).abs() <= 1e-9 * most + f64::MIN_POSITIVE,
+                "{whole} is not {parts}: {schedule:?} at {from}, {to}"
+            );
         }
     }
 }

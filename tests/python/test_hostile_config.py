@@ -102,6 +102,7 @@ TINY = {"run.time_step": "auto", "run.duration": 1e-9, "run.sample_every": 1e-11
         ({"run.sample_every": 1.7e308}, "run.sample_every is 1.7e.308, but must be at most 5"),
         ({"run.frame_every": 1e-300}, "run.frame_every is 1e-300, but must be at least .* GiB of memory"),
         ({"run.duration": 3e9, "run.time_step": 3e-6}, "run.sample_every is 0.002, but must be at least"),
+        ({**TINY, "load.diameter": 1e-300}, "the mass of bundle 0 is 0e0 kg/m"),
         (
             {
                 **TINY,
