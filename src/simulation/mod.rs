@@ -173,6 +173,11 @@ impl Simulation {
     /// `Error::NonFinite`, `Error::Overlap` or `Error::Escaped`; the simulation then stays as it is and answers every
     /// further run with the same error.
     pub fn run(&mut self, steps: u64) -> Result<(), Error> {
+        let threads = self.threads.clone();
+        threads.enter(self.state.particles.len(), || self.run_here(steps))
+    }
+
+    fn run_here(&mut self, steps: u64) -> Result<(), Error> {
         for left in (0..steps).rev() {
             if let Some(failure) = &self.failure {
                 return Err(failure.clone());

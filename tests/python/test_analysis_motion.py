@@ -57,6 +57,15 @@ def test_a_ring_that_centrifuges_is_carried_round(omega):
     assert analysis.carried_round(frames, WINDOW).value == pytest.approx(1.0, abs=0.02)
 
 
+def test_time_along_the_rim_is_that_of_the_outer_layers_that_ride():
+    # Of three bundles one rides at the rim, one turns as fast near the axis, and one rests at the rim.
+    rim, inner = np.array([[0.95, 0.0]]), np.array([[0.3, 0.0]])
+    resting = np.broadcast_to(-rim, (len(TIMES), 1, 2))
+    paths = np.concatenate([moving(rim), moving(inner), resting], axis=1)
+    assert analysis.along_the_rim(made_up(paths), WINDOW).value == pytest.approx(1.0 / 3.0)
+    assert analysis.along_the_rim(made_up(paths, omega=0.0), WINDOW) is None
+
+
 def test_half_a_load_carried_round():
     both = np.concatenate([ring(30, 0.95), ring(30, 0.5)])
     assert analysis.carried_round(made_up(moving(both)), WINDOW).value == pytest.approx(0.5, abs=0.02)

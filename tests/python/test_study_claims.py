@@ -83,6 +83,7 @@ BROKEN = {
         ),
     ],
     "C11": [
+        ("along_the_rim", 0.3, baffles, fill == 0.25),
         ("carried_round", 0.1, baffles, fill == 0.25),
         ("mixed_in_a_turn", 0.9, baffles, fill == 0.25),
     ],

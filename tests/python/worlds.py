@@ -47,6 +47,7 @@ def measures(at: dict[str, float], baffles: bool) -> dict[str, float | None]:
         "dissipation_ratio": n_over_t if friction else None,
         "work_ratio": 1.002 * n_over_t if friction else None,
         "angular_momentum_per_mass": (0.15 if circulates else 0.0) * (1.03 if baffles else 1.0),
+        "along_the_rim": 0.7 if baffles else 0.1,
         "carried_round": ((0.6 if fill < 0.5 else 0.2) if baffles else 0.01) * (fill < 0.5)
         + 0.2 * (fill > 0.5),
         "mixed_in_a_turn": (0.4 if baffles else 0.6) if fill < 0.5 else 0.1,

@@ -9,7 +9,7 @@ from drumrs.analysis.blocks import Mean, Spread, block_error, rate_with_error, r
 from drumrs.analysis.depth import depth_profile
 from drumrs.analysis.drift import Drift, Wandering, drift, ratio_drift, wandering
 from drumrs.analysis.estimate import Estimate, Interval, combine, mean_of
-from drumrs.analysis.motion import carried_round, mixed_in_a_turn, mixing
+from drumrs.analysis.motion import along_the_rim, carried_round, mixed_in_a_turn, mixing
 from drumrs.analysis.quantiles import student_quantile
 from drumrs.analysis.seeds import disagreement, estimate, student
 from drumrs.analysis.statistics import STATISTICS, statistics
@@ -22,6 +22,7 @@ __all__ = [
     "Mean",
     "Spread",
     "Wandering",
+    "along_the_rim",
     "block_error",
     "carried_round",
     "combine",

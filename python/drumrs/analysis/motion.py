@@ -44,14 +44,43 @@ def carried_round(frames: "Frames", window: tuple[float, float]) -> Mean | None:
     return _mean(per_turn, seen.interval)
 
 
+def along_the_rim(frames: "Frames", window: tuple[float, float]) -> Mean | None:
+    """Return the share of the time that a bundle rides along the rim.
+
+    Riding is to be within one and a half diameters of the wall and at the drum's angular velocity, to 20 %, as for
+    `carried_round`, wherever that is.
+
+    Parameters
+    ----------
+    frames
+        Frames of a run, no further apart than an eighth of a turn.
+    window
+        Start and end [s].
+
+    Returns
+    -------
+    Mean or None
+        `None` where the drum does not turn.
+    """
+    seen = within(frames, window)
+    if seen.turned == 0.0 or frames.drum_radius is None:
+        return None
+    reach = frames.drum_radius - 2.0 * _LAYER * frames.radii
+    return _mean(np.array([_rides(*pair, reach).mean() for pair in seen.pairs()]), seen.interval)
+
+
 def _passages(before: Array, after: Array, angle: float, reach: Array) -> int:
     """Count the bundles carried over the top between two frames."""
-    swept = _swept(before, after)
-    carried = np.abs(swept - angle) <= _NEAR * abs(angle)
-    outside = np.hypot(*before.T) >= reach
     # Angle still to go to the top, in the sense of rotation.
     ahead = np.sign(angle) * (np.pi / 2.0 - np.arctan2(before[:, 1], before[:, 0])) % (2.0 * np.pi)
-    return int((carried & outside & (ahead < np.abs(swept))).sum())
+    return int((_rides(before, after, angle, reach) & (ahead < np.abs(_swept(before, after)))).sum())
+
+
+def _rides(before: Array, after: Array, angle: float, reach: Array) -> NDArray[np.bool_]:
+    """Tell which bundles go with the drum between two frames, beyond a distance from its axis."""
+    carried = np.abs(_swept(before, after) - angle) <= _NEAR * abs(angle)
+    outside: NDArray[np.bool_] = np.hypot(*before.T) >= reach
+    return carried & outside
 
 
 def mixing(frames: "Frames", window: tuple[float, float], turns: float = 1.0) -> tuple[Array, Array]:

@@ -143,6 +143,7 @@ _LINES = (
     ("drum power", "W/m", "drum_power"),
     ("N/T by dissipation", "", "dissipation_ratio"),
     ("N/T by work of forces", "", "work_ratio"),
+    ("time along the rim", "", "along_the_rim"),
     ("carried over the top in a turn", "", "carried_round"),
     ("mixing in a turn", "", "mixed_in_a_turn"),
 )

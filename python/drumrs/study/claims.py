@@ -110,8 +110,8 @@ CLAIMS = (
         "C11",
         "With baffles at 25 % fill the bundles are carried round the rim as if centrifuging; mixing is weaker than "
         "without baffles.",
-        "With baffles more than half of the load is carried over the top along the rim in a turn; in a turn"
-        " neighbors part less than without baffles.",
+        "With baffles bundles ride along the rim for more than half of the time, and more than half of the load is "
+        "carried over the top in a turn; in a turn neighbors part less than without baffles.",
         "F3",
         claims_motion.baffles_carry_the_load_round,
     ),

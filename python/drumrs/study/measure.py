@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from drumrs.sweep import Sweep
 
 _DEPTHS = ("surface_speed", "middle_speed", "deep_speed")
-_MOTIONS = ("carried_round", "mixed_in_a_turn", *_DEPTHS)
+_MOTIONS = ("along_the_rim", "carried_round", "mixed_in_a_turn", *_DEPTHS)
 
 
 def measure(sweep: "Sweep", folder: str | Path | None = None) -> "pl.DataFrame":
@@ -33,7 +33,7 @@ def measure(sweep: "Sweep", folder: str | Path | None = None) -> "pl.DataFrame":
     polars.DataFrame
         One row a finished case, in the order of ``sweep.table()``, with its columns, measured anew, and further ones:
         ``size_ratio``, D/d; ``drum_power_error`` [W/m]; and, where frames were kept,
-        ``carried_round``, ``mixed_in_a_turn`` and the speeds relative to the turning drum by depth,
+        ``along_the_rim``, ``carried_round``, ``mixed_in_a_turn`` and the speeds relative to the turning drum by depth,
         ``surface_speed``, ``middle_speed`` and ``deep_speed`` (over the rim's), each with ``…_error``.
     """
     import polars as pl
@@ -63,6 +63,7 @@ def _measures(config: "Config", series: "pl.DataFrame", frames: "Frames | None")
     columns["drum_power_error"] = error * mass if error is not None else None
     found: dict[str, Mean | None] = dict.fromkeys(_MOTIONS)
     if frames is not None:
+        found["along_the_rim"] = analysis.along_the_rim(frames, window)
         found["carried_round"] = analysis.carried_round(frames, window)
         found["mixed_in_a_turn"] = analysis.mixed_in_a_turn(frames, window)
         found |= dict(zip(_DEPTHS, analysis.depth_profile(frames, window), strict=True))

@@ -103,11 +103,6 @@ class Verdict:
         return FAILS if FAILS in outcomes else UNDECIDED if UNDECIDED in outcomes else HOLDS
 
     @property
-    def deciding(self) -> tuple[Finding, ...]:
-        """The parts for which the verdict is what it is."""
-        return tuple(part for part in self.parts if part.outcome == self.verdict)
-
-    @property
     def sentence(self) -> str:
         """Why, in words."""
         return " ".join(part.sentence for part in self.parts)

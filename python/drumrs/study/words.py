@@ -14,7 +14,8 @@ SMALL_FRICTION = 0.05
 # "Abruptly": within a tenth of the coefficient of friction, from a tenth of the usual circulation to half of it.
 ABRUPT = 0.10
 STILL, CIRCULATING = 0.1, 0.5
-# "As if centrifuging": at least half of the load is carried over the top in a turn of the drum.
+# "Carried round the rim as if centrifuging": along the rim for most of the time, and most of the load over the top
+# in a turn of the drum.
 CENTRIFUGING = 0.5
 # "Little relative motion": slower, relative to the turning drum, than a tenth of the rim.
 LITTLE_MOTION = 0.1

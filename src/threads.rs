@@ -1,14 +1,11 @@
-//! Work over fixed chunks of particles, serial or by a simulation's own team of threads.
+//! Work over fixed chunks of particles, serial or on a simulation's own thread pool.
 //!
 //! A chunk always holds the same particles and is always worked through in the same order by one thread; sums are kept
 //! per chunk and added up in chunk order afterwards. That is why the number of threads never shows in a result.
 
-mod team;
-
 use std::sync::{Arc, Mutex, PoisonError};
 
 use crate::error::Error;
-use team::Team;
 
 /// Particles per chunk.
 pub const CHUNK: usize = 512;
@@ -27,41 +24,88 @@ pub trait Chunked: Sized + Send {
 }
 
 /// The threads that one simulation may use.
+///
+/// A forked process has none of them. There the simulation goes on with the one thread that there is, with the same bits.
 #[derive(Debug, Clone)]
 pub struct Threads {
-    team: Option<Arc<Team>>,
+    pool: Option<Arc<Pool>>,
+}
+
+/// A thread pool, and the process that has its threads.
+#[derive(Debug)]
+struct Pool {
+    /// None only while it is dropped.
+    threads: Option<rayon::ThreadPool>,
+    home: u32,
+}
+
+impl Pool {
+    fn is_at_home(&self) -> bool {
+        std::process::id() == self.home
+    }
+}
+
+impl Drop for Pool {
+    fn drop(&mut self) {
+        if !self.is_at_home() {
+            // Ending threads that are not there could wait for a lock that one of them held.
+            std::mem::forget(self.threads.take());
+        }
+    }
 }
 
 impl Threads {
-    /// A team of `count` threads; one thread needs no team.
+    /// A pool of `count` threads; one thread needs no pool.
     ///
     /// # Errors
     /// `Error::Config` for no threads, `Error::System` where the system refuses them.
     pub fn new(count: usize) -> Result<Self, Error> {
         match count {
             0 => Err(Error::config("threads", 0, "at least 1")),
-            1 => Ok(Self { team: None }),
-            _ => Team::new(count).map(|team| Self { team: Some(Arc::new(team)) }).map_err(|error| {
-                Error::System { action: format!("starting {count} threads"), reason: error.to_string() }
-            }),
+            1 => Ok(Self { pool: None }),
+            _ => rayon::ThreadPoolBuilder::new()
+                .num_threads(count)
+                .build()
+                .map(|pool| Pool { threads: Some(pool), home: std::process::id() })
+                .map(|pool| Self { pool: Some(Arc::new(pool)) })
+                .map_err(|error| Error::System {
+                    action: format!("starting {count} threads"),
+                    reason: error.to_string(),
+                }),
         }
     }
 
     /// Number of threads.
     pub fn count(&self) -> usize {
-        self.team.as_ref().map_or(1, |team| team.count())
+        let threads = self.pool.as_ref().and_then(|pool| pool.threads.as_ref());
+        threads.map_or(1, rayon::ThreadPool::current_num_threads)
     }
 
     /// Whether work on `count` particles is worth handing over to other threads.
     pub fn serve(&self, count: usize) -> bool {
-        self.team.is_some() && count >= PARALLEL_THRESHOLD
+        self.pool_for(count).is_some()
+    }
+
+    /// The pool where it is here and pays for `count` particles.
+    fn pool_for(&self, count: usize) -> Option<&rayon::ThreadPool> {
+        let pool = self.pool.as_ref().filter(|pool| count >= PARALLEL_THRESHOLD && pool.is_at_home());
+        pool.and_then(|pool| pool.threads.as_ref())
+    }
+
+    /// Runs `work` on one of the pool's threads where that pays for `count` particles: a run of many steps enters the pool
+    /// once, since each entrance wakes a thread that has gone to sleep.
+    pub fn enter<R: Send>(&self, count: usize, work: impl FnOnce() -> R + Send) -> R {
+        match self.pool_for(count) {
+            Some(pool) => pool.install(work),
+            None => work(),
+        }
     }
 
     /// Runs `kernel` on each chunk of `work`, on several threads where that pays for `count` particles.
     pub fn for_each_chunk<W: Chunked>(&self, count: usize, work: W, kernel: &(impl Fn(W) + Sync)) {
-        match &self.team {
-            Some(team) if self.serve(count) => share(work, kernel, team),
-            _ => in_turn(work, kernel),
+        match self.pool_for(count) {
+            Some(pool) => pool.install(|| share(work, kernel, pool.current_num_threads())),
+            None => in_turn(work, kernel),
         }
     }
 }
@@ -73,8 +117,8 @@ const PARALLEL_THRESHOLD: usize = 4096;
 
 /// Gives each thread a stretch of chunks, the same in every pass, so that it finds in its own cache what it left there.
 /// Who is done takes what others have not come to: a thread whose CPU is busy with something else holds nobody up.
-fn share<W: Chunked>(mut work: W, kernel: &(impl Fn(W) + Sync), team: &Team) {
-    let members = team.count().min(work.chunks());
+fn share<W: Chunked>(mut work: W, kernel: &(impl Fn(W) + Sync), threads: usize) {
+    let members = threads.min(work.chunks());
     let mut stretches = Vec::with_capacity(members);
     for threads in (2..=members).rev() {
         let chunks = work.chunks();
@@ -83,13 +127,18 @@ fn share<W: Chunked>(mut work: W, kernel: &(impl Fn(W) + Sync), team: &Team) {
         work = rest;
     }
     stretches.push(Mutex::new(Some(work)));
-    team.work(&|number| {
+    let stretches = &stretches[..];
+    let help = move |number: usize| {
         for turn in 0..members {
             let stretch = &stretches[(number + turn) % members];
             while let Some(chunk) = take(stretch, turn == 0) {
                 kernel(chunk);
             }
         }
+    };
+    rayon::scope(|scope| {
+        (1..members).for_each(|number| scope.spawn(move |_| help(number)));
+        help(0);
     });
 }
 
