@@ -145,10 +145,13 @@ def draw(entries: Sequence[dict[str, Any]]) -> "Figure":
                 _draw_row(row, chosen, key, "three baffles" if baffles else "bare")
             for axes in row:
                 axes.set(xscale="log", xlabel=label)
+                places = sorted({entry[key] for entry in entries})
+                axes.set_xticks(places, [f"{place:g}" for place in places])
+                axes.minorticks_off()
             row[0].set_ylabel("Specific power [W/kg]")
             row[1].set_ylabel("N/T")
             row[2].set(ylabel="Time per simulated second [s]", yscale="log")
-        grid[0][0].legend()
+        grid[0][2].legend()
     return figure
 
 
@@ -158,7 +161,7 @@ def _draw_row(row: Any, entries: Sequence[dict[str, Any]], key: str, label: str)
         intervals = [entry[name].interval() for entry in entries]
         heights, halves = [i.mean for i in intervals], [i.half_width for i in intervals]
         axes.errorbar(places, heights, halves, marker=".", capsize=3.0, label=label)
-    row[2].plot(places, [entry["seconds"] for entry in entries], marker=".")
+    row[2].plot(places, [entry["seconds"] for entry in entries], marker=".", label=label)
 
 
 def main() -> int:

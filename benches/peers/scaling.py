@@ -31,6 +31,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 SIZES = (100, 200, 300, 1_000, 3_000, 10_000, 30_000, 100_000, 300_000, 1_000_000)
+# From here on a code has one turn: runs are long, and vary little.
+LARGE = 300_000
 # Each code with the largest load that it is given: the others need too long or too much memory for more.
 CODES: tuple[tuple[Code, int], ...] = (
     (Drumrs(), 1_000_000),
@@ -51,7 +53,7 @@ def measure(sizes: Sequence[int], repeats: int, seconds: float, beds: Path) -> "
         for count in sizes:
             case = settled(count, beds)
             costs: dict[str, list[float]] = {}
-            for _ in range(repeats):
+            for _ in range(repeats if count < LARGE else 1):
                 for code, largest in CODES:
                     if count > largest or code.name in missing:
                         continue
@@ -77,6 +79,16 @@ def measure(sizes: Sequence[int], repeats: int, seconds: float, beds: Path) -> "
             told = ", ".join(f"{name} {median(values):.1f}" for name, values in costs.items())
             print(f"N = {count}, {contacts:.2f} contacts a bundle; ns a particle-step: {told}", flush=True)
     return pl.DataFrame(rows)
+
+
+def joined(kept: Path, table: "pl.DataFrame") -> "pl.DataFrame":
+    """Return a kept table with the sizes of a new one in the place of its own, code by code."""
+    import polars as pl
+
+    earlier = pl.read_parquet(kept).join(table, on="count", how="anti")
+    order = {code.name: rank for rank, (code, _) in enumerate(CODES)}
+    rank = pl.col("code").replace_strict(order, return_dtype=pl.Int64)
+    return pl.concat([earlier, table]).sort(rank, "count")
 
 
 def contacts_per_bundle(config: drumrs.Config, state: drumrs.State) -> float:
@@ -129,6 +141,9 @@ def main() -> int:
         "--beds", type=Path, default=Path("out/peers/beds"), help="folder that keeps settled beds"
     )
     parser.add_argument("--out", type=Path, default=Path("docs"), help="folder of table and figure")
+    parser.add_argument(
+        "--append", action="store_true", help="keep the other sizes of the table that is there"
+    )
     options = parser.parse_args()
     if min(options.sizes) < 1 or options.repeats < 1 or not options.seconds > 0.0:
         parser.error("--sizes, --repeats and --seconds must be above 0")
@@ -138,6 +153,8 @@ def main() -> int:
     except (PeerError, OSError) as error:
         sys.stderr.write(f"scaling.py: {error}\n")
         return 1
+    if options.append and (options.out / "scaling.parquet").exists():
+        table = joined(options.out / "scaling.parquet", table)
     versions = ", ".join(f"{name} {version}" for name, version in machine.versions().items())
     options.out.mkdir(parents=True, exist_ok=True)
     facts = {"machine": machine.cpu(), "versions": versions, "units": json.dumps({"nanoseconds": "ns"})}

@@ -1,7 +1,7 @@
 //! Four contacts, column by column: the hot loop reads the columns as they are.
 
 use super::laws::SlotLaw;
-use super::{Contact, History, HistoryLanes};
+use super::{History, HistoryLanes};
 use crate::lanes::{LANES, Lanes, Vec2Lanes};
 use crate::vector::Vec2;
 
@@ -31,9 +31,32 @@ impl TraitsLanes {
     }
 }
 
-/// Four contacts.
+/// Who is at four contacts.
 #[derive(Debug, Clone, Copy, Default)]
 #[repr(C, align(32))]
+pub struct Ends {
+    /// The contacts' owners.
+    pub owner: [u32; LANES],
+    /// Their other sides: particles later in memory, or features of the drum.
+    pub other: [u32; LANES],
+}
+
+impl Ends {
+    /// The key of a contact.
+    #[inline]
+    pub(super) fn key(&self, lane: usize) -> (u32, u32) {
+        (self.owner[lane], self.other[lane])
+    }
+
+    #[inline]
+    pub(super) fn put(&mut self, lane: usize, (owner, other): (u32, u32)) {
+        (self.owner[lane], self.other[lane]) = (owner, other);
+    }
+}
+
+/// What four contacts remember; three cache lines.
+#[derive(Debug, Clone, Copy, Default)]
+#[repr(C, align(64))]
 pub struct Block {
     overlap: [f64; LANES],
     tangential_displacement: [f64; LANES],
@@ -41,10 +64,6 @@ pub struct Block {
     tangential_force: [f64; LANES],
     normal_x: [f64; LANES],
     normal_y: [f64; LANES],
-    /// The contacts' owners.
-    pub owner: [u32; LANES],
-    /// Their other sides: particles later in memory, or features of the drum.
-    pub other: [u32; LANES],
 }
 
 impl Block {
@@ -71,12 +90,6 @@ impl Block {
         self.normal_y = history.normal.y.to_array();
     }
 
-    /// The key of a contact.
-    #[inline]
-    pub(super) fn key(&self, lane: usize) -> (u32, u32) {
-        (self.owner[lane], self.other[lane])
-    }
-
     /// Whether a contact touched at the last force evaluation.
     #[inline]
     pub(super) fn is_touching(&self, lane: usize) -> bool {
@@ -84,26 +97,23 @@ impl Block {
     }
 
     #[inline]
-    pub(super) fn contact(&self, lane: usize) -> Contact {
-        let history = History {
+    pub(super) fn of(&self, lane: usize) -> History {
+        History {
             overlap: self.overlap[lane],
             tangential_displacement: self.tangential_displacement[lane],
             normal_force: self.normal_force[lane],
             tangential_force: self.tangential_force[lane],
             normal: Vec2::new(self.normal_x[lane], self.normal_y[lane]),
-        };
-        Contact { particle: self.owner[lane], other: self.other[lane], history }
+        }
     }
 
     #[inline]
-    pub(super) fn put(&mut self, lane: usize, contact: &Contact) {
-        let Contact { particle, other, history } = *contact;
+    pub(super) fn put(&mut self, lane: usize, history: &History) {
         self.overlap[lane] = history.overlap;
         self.tangential_displacement[lane] = history.tangential_displacement;
         self.normal_force[lane] = history.normal_force;
         self.tangential_force[lane] = history.tangential_force;
         (self.normal_x[lane], self.normal_y[lane]) = (history.normal.x, history.normal.y);
-        (self.owner[lane], self.other[lane]) = (particle, other);
     }
 }
 

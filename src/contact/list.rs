@@ -1,7 +1,7 @@
 //! Contacts that have a history, in key order, four to a block.
 
 use super::Contact;
-use super::block::{Block, Traits, TraitsBlock};
+use super::block::{Block, Ends, Traits, TraitsBlock};
 use crate::lanes::LANES;
 
 /// One contact with all that its list keeps of it.
@@ -39,6 +39,7 @@ pub enum ListTraits {
 /// Contacts in key order: by owner, then by other side. Lanes of the last block beyond the end hold anything.
 #[derive(Debug, Clone)]
 pub struct ContactList {
+    ends: Vec<Ends>,
     blocks: Vec<Block>,
     traits: ListTraits,
     len: usize,
@@ -46,7 +47,7 @@ pub struct ContactList {
 
 impl Default for ContactList {
     fn default() -> Self {
-        Self { blocks: Vec::new(), traits: ListTraits::Same(Traits::default()), len: 0 }
+        Self { ends: Vec::new(), blocks: Vec::new(), traits: ListTraits::Same(Traits::default()), len: 0 }
     }
 }
 
@@ -61,10 +62,10 @@ impl ContactList {
         self.len == 0
     }
 
-    /// The blocks, the number of contacts in them, and their traits.
+    /// Who is at the contacts, what they remember, and their traits.
     #[inline]
-    pub fn parts_mut(&mut self) -> (&mut [Block], usize, &ListTraits) {
-        (&mut self.blocks, self.len, &self.traits)
+    pub fn parts_mut(&mut self) -> (&[Ends], &mut [Block], &ListTraits) {
+        (&self.ends, &mut self.blocks, &self.traits)
     }
 
     /// One contact.
@@ -74,7 +75,8 @@ impl ContactList {
             ListTraits::Same(traits) => *traits,
             ListTraits::Each(blocks) => blocks[block].traits(lane),
         };
-        Entry { contact: self.blocks[block].contact(lane), traits }
+        let (particle, other) = self.key(index);
+        Entry { contact: Contact { particle, other, history: self.blocks[block].of(lane) }, traits }
     }
 
     /// All contacts, in key order.
@@ -91,12 +93,13 @@ impl ContactList {
     /// The key of contact `index`.
     #[inline]
     pub fn key(&self, index: usize) -> (u32, u32) {
-        self.blocks[index / LANES].key(index % LANES)
+        self.ends[index / LANES].key(index % LANES)
     }
 
     fn put(&mut self, index: usize, entry: &Entry) {
         let (block, lane) = (index / LANES, index % LANES);
-        self.blocks[block].put(lane, &entry.contact);
+        self.ends[block].put(lane, (entry.contact.particle, entry.contact.other));
+        self.blocks[block].put(lane, &entry.contact.history);
         match &mut self.traits {
             ListTraits::Same(traits) if *traits == entry.traits => {}
             ListTraits::Same(traits) => {
@@ -111,8 +114,9 @@ impl ContactList {
     /// Copies contact `from` to place `to`.
     #[inline]
     fn shift(&mut self, from: usize, to: usize) {
-        let contact = self.blocks[from / LANES].contact(from % LANES);
-        self.blocks[to / LANES].put(to % LANES, &contact);
+        let (key, history) = (self.key(from), self.blocks[from / LANES].of(from % LANES));
+        self.ends[to / LANES].put(to % LANES, key);
+        self.blocks[to / LANES].put(to % LANES, &history);
         if let ListTraits::Each(blocks) = &mut self.traits {
             let traits = blocks[from / LANES].traits(from % LANES);
             blocks[to / LANES].put(to % LANES, &traits);
@@ -125,6 +129,7 @@ impl ContactList {
             self.traits = ListTraits::Same(entry.traits);
         }
         if self.len == LANES * self.blocks.len() {
+            self.ends.push(Ends::default());
             self.blocks.push(Block::default());
             if let ListTraits::Each(blocks) = &mut self.traits {
                 blocks.push(TraitsBlock::default());
@@ -183,6 +188,7 @@ impl ContactList {
             kept += 1;
         }
         self.len = kept;
+        self.ends.truncate(kept.div_ceil(LANES));
         self.blocks.truncate(kept.div_ceil(LANES));
         if let ListTraits::Each(blocks) = &mut self.traits {
             blocks.truncate(kept.div_ceil(LANES));

@@ -3,7 +3,7 @@
 use super::bodies::{FlowLanes, Meeting, Pairs, settle};
 use super::post::Sink;
 use super::{Scene, in_use};
-use crate::contact::block::{Block, Traits, TraitsLanes};
+use crate::contact::block::{Block, Ends, Traits, TraitsLanes};
 use crate::contact::linear::LinearLanes;
 use crate::contact::list::ListTraits;
 use crate::contact::table::{Candidates, Slots};
@@ -39,14 +39,15 @@ const IN_FRONT: [[u32; LANES]; 1 << LANES] = {
 pub fn evaluate(scene: Scene, slots: &mut Slots, sink: &mut Sink) -> StepFlows {
     open_contacts(scene, slots);
     let laws = scene.laws.pairs();
-    let (blocks, len, traits) = slots.contacts.parts_mut();
+    let len = slots.contacts.len();
+    let (ends, blocks, traits) = slots.contacts.parts_mut();
     let (flows, all_touch) = match traits {
         // In a load of equal bundles law and traits are read once.
         ListTraits::Same(same) => {
             let (law, traits) = (LinearLanes::splat(&laws[same.law.law as usize]), TraitsLanes::splat(same));
-            work_through(scene, (blocks, len), sink, |_| (law, traits))
+            work_through(scene, (ends, blocks, len), sink, |_| (law, traits))
         }
-        ListTraits::Each(each) => work_through(scene, (blocks, len), sink, |block| {
+        ListTraits::Each(each) => work_through(scene, (ends, blocks, len), sink, |block| {
             let own = &each[block];
             (LinearLanes::new(|lane| &laws[own.laws()[lane] as usize]), own.lanes())
         }),
@@ -61,7 +62,7 @@ pub fn evaluate(scene: Scene, slots: &mut Slots, sink: &mut Sink) -> StepFlows {
 #[inline(always)]
 fn work_through(
     scene: Scene,
-    (blocks, len): (&mut [Block], usize),
+    (ends, blocks, len): (&[Ends], &mut [Block], usize),
     sink: &mut Sink,
     traits_of: impl Fn(usize) -> (LinearLanes, TraitsLanes),
 ) -> (FlowLanes, bool) {
@@ -69,26 +70,26 @@ fn work_through(
     let mut all_touch = true;
     let mut met = [Met::none(); GROUP];
     let (full, rest) = blocks.split_at_mut(len / LANES);
-    for (group_index, group) in full.chunks_mut(GROUP).enumerate() {
-        let first = GROUP * group_index;
-        for (index, (block, met)) in group.iter().zip(&mut met).enumerate() {
-            *met = meet(scene, block, &traits_of(first + index).1);
+    for (group, (blocks, ends)) in full.chunks_mut(GROUP).zip(ends.chunks(GROUP)).enumerate() {
+        let first = GROUP * group;
+        for (index, (ends, met)) in ends.iter().zip(&mut met).enumerate().take(blocks.len()) {
+            *met = meet(scene, ends, &traits_of(first + index).1);
         }
-        for (index, (block, met)) in group.iter_mut().zip(&mut met).enumerate() {
+        for (index, (block, met)) in blocks.iter_mut().zip(&mut met).enumerate() {
             let (law, traits) = traits_of(first + index);
             let law = (&law, traits.damping, scene.step_rate);
             all_touch &= work_out((block, LANES), met, law, &mut flows);
         }
-        for (block, met) in group.iter().zip(&met) {
-            load((block, LANES), &met.loads, sink);
+        for (ends, met) in ends.iter().zip(&met).take(blocks.len()) {
+            load((ends, LANES), &met.loads, sink);
         }
     }
-    if let Some(block) = rest.first_mut() {
+    if let (Some(block), Some(ends)) = (rest.first_mut(), ends.last()) {
         let (law, traits) = traits_of(len / LANES);
-        let mut met = meet(scene, block, &traits);
+        let mut met = meet(scene, ends, &traits);
         let law = (&law, traits.damping, scene.step_rate);
         all_touch &= work_out((block, len % LANES), &mut met, law, &mut flows);
-        load((block, len % LANES), &met.loads, sink);
+        load((ends, len % LANES), &met.loads, sink);
     }
     (flows, all_touch)
 }
@@ -185,9 +186,9 @@ impl Met {
 
 /// Gathers the bodies of a block.
 #[inline(always)]
-fn meet(scene: Scene, block: &Block, traits: &TraitsLanes) -> Met {
+fn meet(scene: Scene, ends: &Ends, traits: &TraitsLanes) -> Met {
     let motion = |id: u32| &scene.motions[id as usize];
-    let (bodies, meeting) = Pairs::meet(block.owner.map(motion), block.other.map(motion), traits.radii);
+    let (bodies, meeting) = Pairs::meet(ends.owner.map(motion), ends.other.map(motion), traits.radii);
     Met { bodies, meeting, loads: [Lanes::ZERO; LANES] }
 }
 
@@ -211,10 +212,10 @@ fn work_out(
 
 /// Brings the loads of the first `count` contacts of a block to their particles, in key order.
 #[inline(always)]
-fn load((block, count): (&Block, usize), loads: &[Lanes; LANES], sink: &mut Sink) {
+fn load((ends, count): (&Ends, usize), loads: &[Lanes; LANES], sink: &mut Sink) {
     for (lane, row) in transpose(*loads).into_iter().enumerate().take(count) {
-        sink.add(block.owner[lane], row);
+        sink.add(ends.owner[lane], row);
         let [x, y, own_moment, other_moment] = row.to_array();
-        sink.take_off(block.other[lane], Lanes::new([x, y, other_moment, own_moment]));
+        sink.take_off(ends.other[lane], Lanes::new([x, y, other_moment, own_moment]));
     }
 }

@@ -3,7 +3,7 @@
 use super::bodies::{FlowLanes, Meeting, Walls, settle};
 use super::post::Sink;
 use super::{Scene, in_use};
-use crate::contact::block::{Block, Traits, TraitsLanes};
+use crate::contact::block::{Block, Ends, Traits, TraitsLanes};
 use crate::contact::linear::LinearLanes;
 use crate::contact::list::ListTraits;
 use crate::contact::table::Slots;
@@ -22,8 +22,9 @@ pub fn evaluate(scene: Scene, slots: &mut Slots, surfaces: &mut [SurfaceLoad], s
     let mut flows = FlowLanes::zero();
     let mut all_touch = true;
     let laws = scene.laws.walls();
-    let (blocks, len, list_traits) = slots.contacts.parts_mut();
-    for (index, block) in blocks.iter_mut().enumerate() {
+    let len = slots.contacts.len();
+    let (ends, blocks, list_traits) = slots.contacts.parts_mut();
+    for (index, (block, ends)) in blocks.iter_mut().zip(ends).enumerate() {
         let count = (len - LANES * index).min(LANES);
         let (law, traits) = match list_traits {
             ListTraits::Same(same) => {
@@ -34,7 +35,7 @@ pub fn evaluate(scene: Scene, slots: &mut Slots, surfaces: &mut [SurfaceLoad], s
             }
         };
         all_touch &=
-            work_out(scene, (block, count), (&law, &traits), &mut flows, &mut (&mut *surfaces, sink));
+            work_out(scene, (ends, block, count), (&law, &traits), &mut flows, &mut (&mut *surfaces, sink));
     }
     if !all_touch {
         slots.close_ended();
@@ -100,14 +101,14 @@ fn meet(scene: Scene, own: &Motion, feature: FeatureId) -> Option<Spot> {
 /// Works out the first `count` contacts of a block; returns whether all of them still touch.
 fn work_out(
     scene: Scene,
-    (block, count): (&mut Block, usize),
+    (ends, block, count): (&Ends, &mut Block, usize),
     (law, traits): (&LinearLanes, &TraitsLanes),
     flows: &mut FlowLanes,
     (surfaces, sink): &mut (&mut [SurfaceLoad], &mut Sink),
 ) -> bool {
-    let own = block.owner.map(|id| &scene.motions[id as usize]);
+    let own = ends.owner.map(|id| &scene.motions[id as usize]);
     let walls = Walls::new(own, traits.radii[0], scene.turn, scene.angular_velocity);
-    let meeting = meetings(scene, block, &walls);
+    let meeting = meetings(scene, ends, &walls);
     let history = block.history();
     let used = in_use(count);
     let now = settle(&walls, (meeting, &history), (law, traits.damping, scene.step_rate), used, flows);
@@ -118,8 +119,8 @@ fn work_out(
     let rows = transpose([force.x, force.y, moment, moment]);
     let (forces, points) = (force.to_array(), walls.point(now.overlap, now.normal).to_array());
     for lane in 0..count {
-        sink.add(block.owner[lane], rows[lane]);
-        let surface = &mut surfaces[scene.drum.surface_of(block.other[lane])];
+        sink.add(ends.owner[lane], rows[lane]);
+        let surface = &mut surfaces[scene.drum.surface_of(ends.other[lane])];
         surface.force += forces[lane];
         surface.moment += cross(points[lane], forces[lane]);
     }
@@ -129,10 +130,10 @@ fn work_out(
 /// Where the particles of a block meet their features. A contact that ends because another feature answers has an
 /// overlap of zero, so that its last work is charged.
 #[inline(always)]
-fn meetings(scene: Scene, block: &Block, walls: &Walls) -> Meeting {
+fn meetings(scene: Scene, ends: &Ends, walls: &Walls) -> Meeting {
     let rim = scene.drum.radius().map(|radius| walls.meet_rim(radius));
     if let Some(meeting) = rim
-        && block.other == [RIM; LANES]
+        && ends.other == [RIM; LANES]
     {
         return meeting;
     }
@@ -142,9 +143,9 @@ fn meetings(scene: Scene, block: &Block, walls: &Walls) -> Meeting {
         spots = std::array::from_fn(|lane| Spot { overlap: overlaps[lane], normal: normals[lane] });
     }
     for (lane, spot) in spots.iter_mut().enumerate() {
-        if block.other[lane] != RIM {
-            let own = &scene.motions[block.owner[lane] as usize];
-            *spot = meet(scene, own, block.other[lane]).unwrap_or_default();
+        if ends.other[lane] != RIM {
+            let own = &scene.motions[ends.owner[lane] as usize];
+            *spot = meet(scene, own, ends.other[lane]).unwrap_or_default();
         }
     }
     Meeting { overlap: lanes(|lane| spots[lane].overlap), normal: Vec2Lanes::new(|lane| spots[lane].normal) }

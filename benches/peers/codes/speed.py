@@ -18,9 +18,9 @@ from codes.ours import Drumrs
 from codes.program import Code, Timing
 
 # No fewer steps than lists live for, so that making them has its share.
-_FEWEST_STEPS = 400
+_FEWEST_STEPS = 200
 # Steps before the clock runs: contacts must open, lists be made.
-_SETTLE, _FEWEST_SETTLED = 0.2, 200
+_SETTLE, _FEWEST_SETTLED = 0.2, 100
 # Bare drums whose cost is known at many numbers of contacts.
 _BARE = (60, 80, 100, 125, 150, 175, 200, 250, 300)
 _WITH_BAFFLES = (100, 150, 200, 250)

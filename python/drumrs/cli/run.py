@@ -56,8 +56,8 @@ def run(
     limit
         Simulated time [s] at which to give that up; ten times the duration unless given.
     softer
-        Lower both stiffnesses by this factor, over all layers, and lengthen the time step by its square root: 100 is
-        ten times faster, with overlaps ten times larger or more. docs/accuracy.md has what it does to the results.
+        Lower both stiffnesses by this factor, over all layers, and lengthen the time step by its square root: 100 makes
+        a run some six times faster and overlaps ten times larger. docs/accuracy.md has what it does to the results.
     """
     if resume is not None:
         if case is not None or set_ or seed is not None or out is not None or softer is not None:

@@ -22,7 +22,7 @@ _FRICTION = 0.15
 _CLOSING = 0.05
 _STEP = TIME_STEP / 4.0
 _GAP = 1e-7
-_LONG = 2.0 * math.pi / WALL_FREQUENCY + _GAP / _CLOSING
+_LONG = 1.5 * math.pi / WALL_FREQUENCY + _GAP / _CLOSING
 _SOURCE = "Chung & Ooi, Granular Matter 13 (2011) 643, test {}, for discs"
 _IMPULSE = "J = min(⅔ m* s, 2 μ m* w)"
 
@@ -32,24 +32,31 @@ def _allowed(frequency: float, step: float = _STEP, radius: float = RADIUS) -> f
     return (frequency * step) ** 2 + _CLOSING / frequency / radius
 
 
-def _half_sine(run: Simulation, frequency: float) -> tuple[list[Check], Panel]:
-    """Hold overlap against time, one sample a step, against a half sine of the springs."""
+def _half_sine(run: Simulation, frequency: float, mass: float) -> tuple[list[Check], Panel]:
+    """Hold overlap and stored energy, at every fourth step, against a half sine of the springs."""
     series = run.series
     times = series["time"].to_numpy() - _GAP / _CLOSING
     overlaps = series["max_overlap_ratio"].to_numpy() * RADIUS * frequency / _CLOSING
+    energies = series["elastic_normal"].to_numpy() / (mass / 2.0 * _CLOSING**2)
+    times, overlaps, energies = times[::4], overlaps[::4], energies[::4]
     inside = (times > 0.0) & (times < math.pi / frequency)
     expected = np.where(inside, np.sin(frequency * times), 0.0)
-    found = checks("overlap ω₀ δ/v at sample {}", "1", expected, overlaps, _allowed(frequency))
-    fine = np.linspace(0.0, math.pi, 200)
-    trace = Trace("", (frequency * times)[::8], overlaps[::8], (fine, np.sin(fine)))
-    return found, Panel("ω₀ t since first touch", "overlap ω₀ δ/v", (trace,))
+    allowed = _allowed(frequency)
+    found = checks("overlap ω₀ δ/v at sample {}", "1", expected, overlaps, allowed)
+    found += checks("stored / ½ m* v² at sample {}", "1", expected**2, energies, 2.0 * allowed)
+    fine = np.linspace(0.0, math.pi, 100)
+    traces = (
+        Trace("overlap ω₀ δ/v", frequency * times, overlaps, (fine, np.sin(fine))),
+        Trace("stored / ½ m* v²", frequency * times, energies, (fine, np.sin(fine) ** 2)),
+    )
+    return found, Panel("ω₀ t since first touch", "overlap, energy", traces)
 
 
 @case("two-bodies-head-on", source=_SOURCE.format(1), formula="δ = (v/ω₀) sin ω₀ t, speeds change places")
 def two_bodies_head_on() -> Evidence:
-    """Elastic normal impact of two bodies: overlap over time, and speeds after it.
+    """Elastic normal impact of two bodies: overlap and stored energy over time, and speeds after it.
 
-    θ² + δ/r of the overlap's amplitude and of the speeds.
+    θ² + δ/r of the overlap's amplitude and of the speeds, twice that of the energy.
     """
     state = State(
         positions=[[-RADIUS - _GAP / 2.0, 0.0], [RADIUS + _GAP / 2.0, 0.0]],
@@ -57,7 +64,7 @@ def two_bodies_head_on() -> Evidence:
     )
     config = scenes.free_space({"run.time_step": _STEP, **scenes.elastic(_FRICTION)})
     run = scenes.after(config, state, _LONG, samples=math.ceil(_LONG / _STEP))
-    found, panel = _half_sine(run, PAIR_FREQUENCY)
+    found, panel = _half_sine(run, PAIR_FREQUENCY, MASS / 2.0)
     speeds = run.velocities[:, 0] / _CLOSING
     found += checks(
         "speed of body {} after / closing speed", "1", [-0.1, 0.9], speeds, _allowed(PAIR_FREQUENCY)
@@ -67,14 +74,14 @@ def two_bodies_head_on() -> Evidence:
 
 @case("wall-head-on", source=_SOURCE.format(2), formula="δ = (v/ω₀) sin ω₀ t, the speed turns round")
 def wall_head_on() -> Evidence:
-    """Elastic normal impact of a body on a wall: overlap over time, and the speed after it.
+    """Elastic normal impact of a body on a wall: overlap and stored energy over time, and the speed after it.
 
-    θ² + δ/r of the overlap's amplitude and of the speed.
+    θ² + δ/r of the overlap's amplitude and of the speed, twice that of the energy.
     """
     config = scenes.floor({"run.time_step": _STEP, **scenes.elastic(_FRICTION)})
     state = scenes.on_the_floor([0.0, -_CLOSING], _GAP)
     run = scenes.after(config, state, _LONG, samples=math.ceil(_LONG / _STEP))
-    found, panel = _half_sine(run, WALL_FREQUENCY)
+    found, panel = _half_sine(run, WALL_FREQUENCY, MASS)
     speed = run.velocities[:, 1] / _CLOSING
     found += checks("speed after / before", "1", 1.0, speed, _allowed(WALL_FREQUENCY))
     return Evidence(tuple(found), panel)

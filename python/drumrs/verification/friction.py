@@ -8,7 +8,7 @@ the one step in which a change of regime falls.
 import math
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from drumrs.state import State
 from drumrs.verification import scenes, theory
@@ -27,6 +27,13 @@ def _resting(weight: float) -> float:
     return -weight / scenes.WALL_STIFFNESS
 
 
+def _at_rest(height: ArrayLike, stiffness: ArrayLike, damping: ArrayLike, step: float) -> Array:
+    """Return the force by which a contact at a height may be wrong at rest [N/m], see `stack`."""
+    return np.asarray(
+        theory.EPSILON * np.asarray(height) * (np.asarray(stiffness) + np.asarray(damping) / step)
+    )
+
+
 @case(
     "slip-to-roll",
     source="derived; a disc's 2/3, not a sphere's 5/7",
@@ -36,7 +43,9 @@ def slip_to_roll() -> Evidence:
     """A disc that slides on a floor until it rolls.
 
     Speed: μ g/ωₜ, the swing of the spring that holds μ m g when sliding ends, and μ g Δt. Loss: the work of μ m g over
-    one step at u₀, and the energy of that swing.
+    one step at u₀, and the energy of that swing. While it slides the tangential spring stores (μ m g)²/2 kₛ, to what
+    round-off leaves of the weight: that of a disc at rest, see `stack`, and the dashpot's part of the speed along
+    a floor of half length L, since a point on it, and so the normal, is known to ε L/r.
     """
     speed, friction = 0.5, 0.5
     to_roll = speed / (3.0 * friction * GRAVITY)
@@ -59,10 +68,21 @@ def slip_to_roll() -> Evidence:
     tolerance = force * speed * _STEP + force**2 / 2.0 / scenes.WALL_STIFFNESS
     loss = scenes.last(run, "dissipated_sliding")
     found.append(Check("loss to sliding", "J/m", MASS * speed**2 / 6.0, loss, tolerance))
+    stored = (
+        series["elastic_tangential"].to_numpy()[1 : samples // 3] * 2.0 * scenes.WALL_STIFFNESS / force**2
+    )
+    found += checks("stored / ((μ m g)²/2 kₛ) at sample {}", "1", 1.0, stored, 2.0 * _of_the_weight(speed))
     fine = np.linspace(0.0, 2.0, 200)
     curve = (fine, np.maximum(1.0 - fine / 3.0, 2.0 / 3.0))
     trace = Trace("", times / to_roll, speeds / speed, curve)
     return Evidence(tuple(found), Panel("t / (u₀/3 μ g)", "u / u₀", (trace,)))
+
+
+def _of_the_weight(speed: float) -> float:
+    """Return the part of its weight by which the floor's force on a sliding disc may be wrong, for round-off."""
+    damping = 2.0 * theory.damping_ratio(0.1) * math.sqrt(scenes.WALL_STIFFNESS * MASS)
+    tilted = damping * speed * theory.EPSILON * scenes.FLOOR / RADIUS
+    return (float(_at_rest(RADIUS, scenes.WALL_STIFFNESS, damping, _STEP)) + tilted) / (MASS * GRAVITY)
 
 
 @case("incline", source="derived", formula="a = ⅔ g sin α where μ ≥ ⅓ tan α, else g (sin α − μ cos α)")
@@ -106,8 +126,8 @@ def _acceleration(slope: float, friction: float, time: float) -> float:
 def stack() -> Evidence:
     """A stack of eight discs at rest: overlap at each level.
 
-    At rest the scheme errs by the round-off of positions alone. Each disc finds rest with forces right to the last
-    place of its own height, ε y k; at each level the errors of all above add up.
+    At rest the scheme errs by the round-off of positions alone. A height y is right to its last place, ε y, which makes
+    a force of ε y k; and a speed below ½ ε y/Δt moves nothing, so that the dashpot may hold ν ε y/Δt for good.
     """
     count = 8
     config = scenes.floor({"run.time_step": TIME_STEP, "gravity": (0.0, -GRAVITY)})
@@ -118,7 +138,9 @@ def stack() -> Evidence:
     overlaps = np.concatenate([[RADIUS - places[0]], 2.0 * RADIUS - np.diff(places)])
     stiffness = np.where(np.arange(count) == 0, scenes.WALL_STIFFNESS, scenes.PAIR_STIFFNESS)
     carried = (count - np.arange(count)) * MASS * GRAVITY
-    allowed = np.cumsum((theory.EPSILON * places * stiffness)[::-1])[::-1]
+    masses = np.where(np.arange(count) == 0, MASS, MASS / 2.0)
+    damping = 2.0 * theory.damping_ratio(0.1) * np.sqrt(stiffness * masses)
+    allowed = _at_rest(places, stiffness, damping, TIME_STEP)
     levels = [f"k δ/m g at level {k}" for k in range(1, count + 1)]
     weight = MASS * GRAVITY
     found = checks_at(levels, carried / weight, overlaps * stiffness / weight, allowed / weight)

@@ -21,6 +21,8 @@ PAIR_STIFFNESS, WALL_STIFFNESS = 9.25e7, 9.70e7
 # ω₀ of a bundle against the drum and of two equal bundles [1/s].
 WALL_FREQUENCY = float(np.sqrt(WALL_STIFFNESS / MASS))
 PAIR_FREQUENCY = float(np.sqrt(2.0 * PAIR_STIFFNESS / MASS))
+# Half the length of the floor [m].
+FLOOR = 50.0
 # Between bodies that must not meet others [m].
 _APART = 0.1
 # Longer than any run here [s].
@@ -41,7 +43,7 @@ def free_space(changes: Mapping[str, Any] | None = None) -> Config:
 
 def floor(changes: Mapping[str, Any] | None = None) -> Config:
     """Return a straight floor along the x axis, without gravity unless given."""
-    return free_space({"drum.walls": [[[-1000.0, 0.0], [1000.0, 0.0]]], **(changes or {})})
+    return free_space({"drum.walls": [[[-FLOOR, 0.0], [FLOOR, 0.0]]], **(changes or {})})
 
 
 def both(key: str, value: Any) -> dict[str, Any]:
