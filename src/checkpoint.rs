@@ -25,6 +25,8 @@ use crate::state::{State, TouchingContacts};
 const MAGIC: &[u8; 8] = b"DRUMRS\r\n";
 /// Version of the layout below; a checkpoint of another one is refused.
 pub const FORMAT_VERSION: u32 = 3;
+/// Beyond this, step × time step is no longer exact to a step.
+const MOST_STEPS: u64 = 1 << 53;
 const HEADER: usize = MAGIC.len() + 4 + 32;
 
 #[derive(Serialize, Deserialize)]
@@ -154,6 +156,9 @@ fn read(bytes: &[u8]) -> Result<Snapshot, Error> {
 fn check(state: &State, contacts: &TouchingContacts, config: &SimulationConfig) -> Result<(), Error> {
     let drum = Drum::new(&config.drum).map_err(|error| refuse(error.to_string()))?;
     state.particles.validate().map_err(|error| refuse(error.to_string()))?;
+    if state.particles.is_empty() || state.step > MOST_STEPS {
+        return Err(refuse("it holds no bundle, or more steps than a run can have"));
+    }
     let count = state.particles.len() as u32;
     let width = columns(drum.baffle_count(), drum.wall_count()).len();
     if state.ledger.surfaces.len() != drum.surface_count() || !state.series.has_width(width) {

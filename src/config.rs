@@ -131,6 +131,10 @@ impl RunParameters {
     fn validate(&self) -> Result<(), Error> {
         if let Some(time_step) = self.time_step {
             require_positive("run.time_step", time_step)?;
+            if !time_step.is_normal() {
+                let limit = format!("at least {:e}", f64::MIN_POSITIVE);
+                return Err(Error::config("run.time_step", format!("{time_step:e}"), limit));
+            }
         }
         require_positive("run.sample_every", self.sample_every)?;
         require_positive("run.frame_every", self.frame_every)?;

@@ -120,6 +120,17 @@ impl Particles {
         })
     }
 
+    /// The first particle whose accelerations, mass or moment of inertia none can have.
+    fn first_impossible(&self) -> Option<usize> {
+        (0..self.len()).find(|&i| {
+            let accelerations =
+                [self.accelerations[i].x, self.accelerations[i].y, self.angular_accelerations[i]];
+            let (mass, inertia) = (self.masses[i], self.inertias[i]);
+            accelerations.iter().any(|number| !number.is_finite())
+                || !(mass.is_finite() && mass > 0.0 && inertia.is_finite() && inertia >= 0.0)
+        })
+    }
+
     /// Kinetic energies (of translation, of rotation) [J/m] in the form ½ m v₋·v₊ over the velocities half a step
     /// before and after: with it, the work of a leapfrog step is exactly the trapezoid of the forces. The half-step
     /// velocities are v ∓ a h with h half the time step, so v₋·v₊ = v² − (a h)².
@@ -173,9 +184,21 @@ impl Particles {
         if let Some(i) = self.first_non_finite() {
             return Err(Error::config(format!("state of bundle {i}"), "not finite", "finite"));
         }
-        match self.radii.iter().position(|&radius| !(radius.is_finite() && radius > 0.0)) {
+        if let Some(i) = self.radii.iter().position(|&radius| !(radius.is_finite() && radius > 0.0)) {
+            return Err(Error::config(
+                format!("state.radii[{i}]"),
+                self.radii[i],
+                "a positive finite number",
+            ));
+        }
+        match self.first_impossible() {
             Some(i) => {
-                Err(Error::config(format!("state.radii[{i}]"), self.radii[i], "a positive finite number"))
+                let found = format!("{:e} kg/m", self.masses[i]);
+                Err(Error::config(
+                    format!("the mass of bundle {i}"),
+                    found,
+                    "positive, finite and accelerable",
+                ))
             }
             None => Ok(()),
         }

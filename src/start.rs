@@ -101,7 +101,12 @@ pub fn time_step(config: &SimulationConfig, laws: &Laws, particles: &Particles) 
     let (bundle, drum) = collision_times(laws, particles);
     let shortest = bundle.min(drum);
     match config.run.time_step {
-        None => Ok(shortest / 50.0),
+        None if (shortest / 50.0).is_normal() => Ok(shortest / 50.0),
+        None => Err(Error::config(
+            "the shortest collision time",
+            format!("{shortest:e} s"),
+            "a positive finite number: change load.density, load.diameter or the stiffness",
+        )),
         Some(time_step) if time_step <= shortest / 10.0 => Ok(time_step),
         Some(time_step) => Err(Error::config(
             "run.time_step",

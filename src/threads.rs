@@ -24,9 +24,34 @@ pub trait Chunked: Sized + Send {
 }
 
 /// The threads that one simulation may use.
+///
+/// A forked process has none of them. There the simulation goes on with the one thread that there is, with the same bits.
 #[derive(Debug, Clone)]
 pub struct Threads {
-    pool: Option<Arc<rayon::ThreadPool>>,
+    pool: Option<Arc<Pool>>,
+}
+
+/// A thread pool, and the process that has its threads.
+#[derive(Debug)]
+struct Pool {
+    /// None only while it is dropped.
+    threads: Option<rayon::ThreadPool>,
+    home: u32,
+}
+
+impl Pool {
+    fn is_at_home(&self) -> bool {
+        std::process::id() == self.home
+    }
+}
+
+impl Drop for Pool {
+    fn drop(&mut self) {
+        if !self.is_at_home() {
+            // Ending threads that are not there could wait for a lock that one of them held.
+            std::mem::forget(self.threads.take());
+        }
+    }
 }
 
 impl Threads {
@@ -41,6 +66,7 @@ impl Threads {
             _ => rayon::ThreadPoolBuilder::new()
                 .num_threads(count)
                 .build()
+                .map(|pool| Pool { threads: Some(pool), home: std::process::id() })
                 .map(|pool| Self { pool: Some(Arc::new(pool)) })
                 .map_err(|error| Error::System {
                     action: format!("starting {count} threads"),
@@ -51,30 +77,35 @@ impl Threads {
 
     /// Number of threads.
     pub fn count(&self) -> usize {
-        self.pool.as_ref().map_or(1, |pool| pool.current_num_threads())
+        let threads = self.pool.as_ref().and_then(|pool| pool.threads.as_ref());
+        threads.map_or(1, rayon::ThreadPool::current_num_threads)
     }
 
     /// Whether work on `count` particles is worth handing over to other threads.
     pub fn serve(&self, count: usize) -> bool {
-        self.pool.is_some() && count >= PARALLEL_THRESHOLD
+        self.pool_for(count).is_some()
+    }
+
+    /// The pool where it is here and pays for `count` particles.
+    fn pool_for(&self, count: usize) -> Option<&rayon::ThreadPool> {
+        let pool = self.pool.as_ref().filter(|pool| count >= PARALLEL_THRESHOLD && pool.is_at_home());
+        pool.and_then(|pool| pool.threads.as_ref())
     }
 
     /// Runs `work` on one of the pool's threads where that pays for `count` particles: a run of many steps enters the pool
     /// once, since each entrance wakes a thread that has gone to sleep.
     pub fn enter<R: Send>(&self, count: usize, work: impl FnOnce() -> R + Send) -> R {
-        match &self.pool {
-            Some(pool) if self.serve(count) => pool.install(work),
-            _ => work(),
+        match self.pool_for(count) {
+            Some(pool) => pool.install(work),
+            None => work(),
         }
     }
 
     /// Runs `kernel` on each chunk of `work`, on several threads where that pays for `count` particles.
     pub fn for_each_chunk<W: Chunked>(&self, count: usize, work: W, kernel: &(impl Fn(W) + Sync)) {
-        match &self.pool {
-            Some(pool) if self.serve(count) => {
-                pool.install(|| share(work, kernel, pool.current_num_threads()));
-            }
-            _ => in_turn(work, kernel),
+        match self.pool_for(count) {
+            Some(pool) => pool.install(|| share(work, kernel, pool.current_num_threads())),
+            None => in_turn(work, kernel),
         }
     }
 }

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from drumrs.config import Config
 from drumrs.errors import CheckpointError
-from drumrs.files import write_whole
+from drumrs.files import read_plain, write_whole
 
 _NAME = b"drumrs checkpoint "
 _VERSION = b"1"
@@ -39,7 +39,7 @@ def read_checkpoint(path: str | Path) -> tuple[Config, bytes]:
         Where the file cannot be read, is no checkpoint, of another version, truncated or damaged.
     """
     try:
-        data = Path(path).read_bytes()
+        data = read_plain(Path(path))
     except OSError as error:
         raise CheckpointError(f"cannot read the checkpoint {str(path)!r}: {error.strerror}") from None
     body, digest = data[:-_DIGEST_SIZE], data[-_DIGEST_SIZE:]
@@ -57,4 +57,10 @@ def read_checkpoint(path: str | Path) -> tuple[Config, bytes]:
             f"the checkpoint {str(path)!r} is truncated or damaged: its digest does not match"
         )
     head, _, core = rest.partition(b"\n")
-    return Config.model_validate(json.loads(head)), core
+    try:
+        return Config.model_validate(json.loads(head)), core
+    except (ValueError, RecursionError):
+        # A digest that matches is not yet one that drumrs made.
+        raise CheckpointError(
+            f"the checkpoint {str(path)!r} holds no configuration, but must be a file that drumrs wrote"
+        ) from None

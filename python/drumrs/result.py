@@ -1,5 +1,6 @@
 """`Result`: what a finished run leaves, in memory and in a folder."""
 
+import io
 import json
 import math
 from dataclasses import asdict, dataclass, fields
@@ -8,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from drumrs.config import Config
 from drumrs.errors import ConfigError
-from drumrs.files import write_whole
+from drumrs.files import read_object, read_plain, write_whole
 from drumrs.frames import Frames, write_table
 
 if TYPE_CHECKING:
@@ -229,10 +230,19 @@ def load(folder: str | Path) -> Result:
     folder = Path(folder)
     if not (folder / "summary.json").is_file():
         raise ConfigError(f"{str(folder)!r} holds no summary.json, but must be the folder of a finished run")
-    return Result(
-        config=Config.read(folder / "config.toml"),
-        summary=Summary.from_mapping(json.loads((folder / "summary.json").read_text(encoding="utf-8"))),
-        series=pl.read_parquet(folder / "series.parquet"),
-        frames=Frames.load(folder / "frames.parquet"),
-        units=json.loads(pl.read_parquet_metadata(folder / "series.parquet")["units"]),
-    )
+    try:
+        series = io.BytesIO(read_plain(folder / "series.parquet"))
+        return Result(
+            config=Config.read(folder / "config.toml"),
+            summary=Summary.from_mapping(read_object(folder / "summary.json") or {}),
+            series=pl.read_parquet(series),
+            frames=Frames.load(io.BytesIO(read_plain(folder / "frames.parquet"))),
+            units=json.loads(pl.read_parquet_metadata(series)["units"]),
+        )
+    except ConfigError:
+        raise
+    # Whatever a damaged table makes of itself; polars may even panic, which is no `Exception`.
+    except (Exception, pl.exceptions.PanicException) as error:  # noqa: BLE001
+        raise ConfigError(
+            f"{str(folder)!r} is damaged, but must be the folder of a finished run: {error!r:.200}"
+        ) from None

@@ -1,7 +1,8 @@
 """`Simulation`: one drum, step by step; the only module that talks to the compiled core."""
 
+import json
 import math
-import re
+import os
 import threading
 import time
 from collections.abc import Callable, Mapping
@@ -16,8 +17,16 @@ from numpy.typing import NDArray
 from drumrs import _core
 from drumrs.checkpoint import read_checkpoint, write_checkpoint
 from drumrs.config import Config
-from drumrs.errors import CheckpointError, ConfigError
+from drumrs.errors import CheckpointError, ConfigError, DrumrsError
 from drumrs.frames import Frames
+from drumrs.limits import (
+    check_steps,
+    check_threads,
+    in_terms_of_fill,
+    require_memory,
+    require_samples,
+    step_count,
+)
 from drumrs.result import Result, Summary
 from drumrs.state import State
 
@@ -25,10 +34,6 @@ if TYPE_CHECKING:
     import polars as pl
 
 Array = NDArray[np.float64]
-
-_MOST_THREADS = 1024
-# Beyond this, step × time step is no longer exact to a step.
-_MOST_STEPS = 2**53
 
 
 class Simulation:
@@ -62,7 +67,7 @@ class Simulation:
     def __init__(
         self, config: Config, seed: int | None = None, threads: int = 1, state: State | None = None
     ) -> None:
-        _check_threads(threads)
+        check_threads(threads)
         config = config if seed is None else config.replace({"run.seed": seed})
         if state is None and not config.drum.rim:
             raise ConfigError("drum.rim is false, but must be true where no initial state is given")
@@ -70,31 +75,22 @@ class Simulation:
         try:
             core = _core.Simulation(config.to_core_json(), config.run.seed, threads, arrays)
         except ConfigError as error:
-            raise _in_terms_of_fill(config, error) from None
+            raise in_terms_of_fill(config, error) from None
         self._start(config, core)
-        self._require_samples()
+        require_samples(config, self.time_step)
+        require_memory(config, self.count, self.time_step)
 
     def _start(self, config: Config, core: _core.Simulation) -> None:
         self._config = config
         self._core = core
         self._stop = threading.Event()
+        self._running = threading.Lock()
         self._wall_time = 0.0
         self._steps_timed = 0
 
     def __repr__(self) -> str:
         """Say how large and how far the simulation is."""
         return f"<Simulation of {self.count} bundles at step {self.step}, t = {self.time:.6g} s>"
-
-    def _require_samples(self) -> None:
-        """Refuse a window in which the averages would lack samples: now, not at the end of a long run."""
-        run, (start, end) = self._config.run, self._config.run.averaging_window
-        interval = self.time_step * max(1, round(run.sample_every / self.time_step))
-        last = math.floor(self.last_step * self.time_step / interval)
-        if math.floor(start / interval + 0.5) >= min(math.floor(end / interval + 0.5), last):
-            raise ConfigError(
-                f"run.sample_every is {run.sample_every}, but must be at most {(end - start) / 2.0:.4g}, "
-                f"half the length of the window [{start:.4g}, {end:.4g}]"
-            )
 
     def run(
         self,
@@ -120,14 +116,16 @@ class Simulation:
         ------
         UnstableError
             Where the state stops meaning anything; the sentence names step and bundle.
+        DrumrsError
+            Where another thread is running this simulation.
         """
         if duration is not None and steps is not None:
             raise ConfigError("duration and steps are both given, but only one of them may be")
         if duration is not None:
             if not 0.0 <= duration < math.inf:
                 raise ConfigError(f"duration is {duration}, but must be a finite number of at least 0")
-            steps = _step_count("duration", duration, self.time_step)
-        end = self.last_step if steps is None else self.step + _check_steps(steps)
+            steps = step_count("duration", duration, self.time_step)
+        end = self.last_step if steps is None else self.step + check_steps(steps)
         self.run_until(end, progress=progress)
 
     def run_until(
@@ -149,6 +147,11 @@ class Simulation:
         bool
             False where `stop` ended the call.
         """
+        if not self._running.acquire(blocking=False):
+            raise DrumrsError(
+                "this simulation is being run already, by another thread or around this call; it can be read, "
+                "saved and stopped meanwhile, but not run"
+            )
         first, began = self.step, time.perf_counter()
 
         def after_slice(now: int) -> None:
@@ -165,6 +168,7 @@ class Simulation:
             self._steps_timed += self.step - first
             stopped = self._stop.is_set()
             self._stop.clear()
+            self._running.release()
         return not stopped
 
     def stop(self) -> None:
@@ -214,7 +218,7 @@ class Simulation:
     @property
     def last_step(self) -> int:
         """Step number at which the configuration's duration is reached."""
-        return _step_count("run.duration", self._config.run.duration, self.time_step)
+        return step_count("run.duration", self._config.run.duration, self.time_step)
 
     @property
     def time(self) -> float:
@@ -365,46 +369,36 @@ class Simulation:
         CheckpointError
             Where the file is truncated, damaged or of another version.
         """
-        _check_threads(threads)
+        check_threads(threads)
         config, data = read_checkpoint(path)
         try:
             core = _core.Simulation.from_checkpoint(data, threads)
         except CheckpointError as error:
             raise CheckpointError(f"{path}: {error}") from None
+        if json.loads(core.config) != json.loads(config.to_core_json()) or core.seed != config.run.seed:
+            raise CheckpointError(f"{path}: its configuration is not that of its state")
+        return cls._around(config, core)
+
+    @classmethod
+    def _around(cls, config: Config, core: _core.Simulation) -> "Simulation":
         simulation = cls.__new__(cls)
         simulation._start(config, core)  # noqa: SLF001 - a second constructor
         return simulation
 
-
-def _check_threads(threads: int) -> None:
-    if isinstance(threads, bool) or not isinstance(threads, int) or not 1 <= threads <= _MOST_THREADS:
-        raise ConfigError(f"threads is {threads!r}, but must be a whole number from 1 to {_MOST_THREADS}")
-
-
-def _check_steps(steps: int) -> int:
-    if isinstance(steps, bool) or not isinstance(steps, int) or not 0 <= steps <= _MOST_STEPS:
-        raise ConfigError(f"steps is {steps!r}, but must be a whole number from 0 to {_MOST_STEPS}")
-    return steps
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickle and copy by a checkpoint: what comes of it goes on bit for bit, on its own."""
+        return _restored, (self._config, self._core.checkpoint(), self.threads)
 
 
-def _step_count(name: str, duration: float, time_step: float) -> int:
-    """Return the number of steps that a time takes, rounded up."""
-    if not duration / time_step <= _MOST_STEPS:
-        greatest = f"{_MOST_STEPS * time_step:.4g}, {_MOST_STEPS} time steps of {time_step:.4g} s"
-        raise ConfigError(f"{name} is {duration}, but must be at most {greatest}")
-    return math.ceil(duration / time_step)
+def _restored(config: Config, data: bytes, threads: int) -> Simulation:
+    """Make a simulation of what `Simulation.__reduce__` tells."""
+    return Simulation._around(config, _core.Simulation.from_checkpoint(data, threads))  # noqa: SLF001
 
 
-def _in_terms_of_fill(config: Config, error: ConfigError) -> ConfigError:
-    """Name the fill, which the user wrote, where the core refuses the count that follows from it."""
-    refused = re.fullmatch(r"load\.count is (\d+), but must be at most (\d+): (.*)", str(error))
-    if config.load.fill is None or refused is None:
-        return error
-    count, most, why = refused.groups()
-    greatest = int(most) * (config.load.diameter / config.drum.diameter) ** 2
-    return ConfigError(
-        f"load.fill is {config.load.fill} ({count} bundles), but must be at most {greatest:.4g} "
-        f"({most} bundles): {why}"
+# A fork keeps none of this process's other threads: it has to wait until none of them is inside a simulation.
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(
+        before=_core.close_gate, after_in_parent=_core.open_gate, after_in_child=_core.open_gate_alone
     )
 
 

@@ -42,6 +42,15 @@ pub enum BaffleShape {
 }
 
 impl BaffleParameters {
+    /// Number of corners of one baffle.
+    pub(super) fn corner_count(&self) -> usize {
+        match self.shape {
+            BaffleShape::Triangle => 3,
+            BaffleShape::Trapezoid => 4,
+            BaffleShape::Polygon => self.points.as_ref().map_or(0, Vec::len),
+        }
+    }
+
     /// The outlines of all baffles in the body frame, each counter-clockwise, for a rim of this radius [m].
     pub(super) fn outlines(&self, radius: f64) -> Vec<Vec<Vec2>> {
         let profile = self.profile(radius);

@@ -53,9 +53,35 @@ impl DrumParameters {
             require_positive("drum.diameter", 2.0 * radius)?;
         }
         self.baffles.validate(self.radius)?;
+        self.validate_size()?;
         self.walls.iter().enumerate().try_for_each(|(index, wall)| validate_wall(index + 1, wall))
     }
+
+    /// Refuses outlines of so many corners that they would take memory and time without bound.
+    fn validate_size(&self) -> Result<(), Error> {
+        let (each, all) = MOST_CORNERS;
+        let corners = self.baffles.corner_count();
+        let longest = self.walls.iter().map(Vec::len).max().unwrap_or(0);
+        let of_walls = self.walls.iter().map(Vec::len).sum::<usize>();
+        let refuse = |key: &str, found: usize, limit: usize, of: &str| {
+            Err(Error::config(key, format!("of {found} corners{of}"), format!("of at most {limit}")))
+        };
+        if corners > each {
+            refuse("drum.baffles.points", corners, each, "")
+        } else if longest > each {
+            refuse("drum.walls", longest, each, " in one wall")
+        } else if of_walls + self.baffles.count.saturating_mul(corners) > all {
+            let found = of_walls + self.baffles.count.saturating_mul(corners);
+            refuse("drum", found, all, " in baffles and walls together")
+        } else {
+            Ok(())
+        }
+    }
 }
+
+/// The most corners that one outline may have, and all together: a corner may be hidden by every side of its outline, so
+/// that time and memory to find out grow with the square of the one and with the product of both.
+const MOST_CORNERS: (usize, usize) = (1000, 20_000);
 
 /// Checks the wall that a user counts as `number`.
 fn validate_wall(number: usize, wall: &[[f64; 2]]) -> Result<(), Error> {
@@ -203,6 +229,14 @@ impl Drum {
     pub fn clearance(&self, point: Vec2) -> f64 {
         let rim = self.radius.map_or(f64::INFINITY, |radius| radius - length(point));
         self.outlines.iter().map(|outline| outline.signed_distance(point)).fold(rim, f64::min)
+    }
+
+    /// Whether the clearance of `point` is at least `distance` [m]; outlines far away cost next to nothing.
+    pub fn is_clear(&self, point: Vec2, distance: f64) -> bool {
+        self.radius.is_none_or(|radius| radius - length(point) >= distance)
+            && self.outlines.iter().all(|outline| {
+                outline.is_beyond(point, distance) || outline.signed_distance(point) >= distance
+            })
     }
 
     /// The index of the outline that a feature is part of; none for the rim.

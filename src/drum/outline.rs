@@ -87,10 +87,20 @@ impl Outline {
         if inside { -squared.sqrt() } else { squared.sqrt() }
     }
 
+    /// Whether the bounding box tells that every point of the outline is farther than `distance` [m], round-off included.
+    pub(super) fn is_beyond(&self, point: Vec2, distance: f64) -> bool {
+        self.is_outside(point, distance * (1.0 + 1e-9))
+    }
+
+    /// Whether `center` is more than `reach` [m] beside the bounding box.
+    fn is_outside(&self, center: Vec2, reach: f64) -> bool {
+        let outside = |value: f64, low: f64, high: f64| value < low - reach || value > high + reach;
+        outside(center.x, self.low.x, self.high.x) || outside(center.y, self.low.y, self.high.y)
+    }
+
     /// Appends `first` + index of every feature at most `reach` [m] away from `center`, in ascending order.
     pub(super) fn features_near(&self, center: Vec2, reach: f64, first: u32, found: &mut Vec<u32>) {
-        let outside = |value: f64, low: f64, high: f64| value < low - reach || value > high + reach;
-        if outside(center.x, self.low.x, self.high.x) || outside(center.y, self.low.y, self.high.y) {
+        if self.is_outside(center, reach) {
             return;
         }
         let within = |offset: Vec2| dot(offset, offset) <= reach * reach;

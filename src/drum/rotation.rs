@@ -28,6 +28,9 @@ pub struct Pose {
     pub rotation: Rotation,
 }
 
+/// Beyond this a sum of two speeds or times may be infinite.
+const GREATEST: f64 = 1e300;
+
 impl RotationSchedule {
     /// The same angular velocity [rad/s] at all times.
     pub fn constant(angular_velocity: f64) -> Self {
@@ -39,6 +42,9 @@ impl RotationSchedule {
         let refuse = |value: String, limit: &str| Err(Error::config("rotation.program", value, limit));
         for value in self.knots.iter().flatten() {
             require_finite("rotation.program", *value)?;
+            if value.abs() > GREATEST {
+                return refuse(format!("{value:e}"), "a list of numbers within ±1e300");
+            }
         }
         match self.knots.first() {
             None => return refuse("empty".into(), "a list of at least one time and speed"),

@@ -31,6 +31,11 @@ pub trait FreeSpace {
 
     /// Radius [m] of the circle round the axis that contains the free space, `None` if it is unbounded.
     fn bounding_radius(&self) -> Option<f64>;
+
+    /// Whether the nearest solid is at least `distance` [m] from a point.
+    fn is_clear(&self, point: Vec2, distance: f64) -> bool {
+        self.clearance(point) >= distance
+    }
 }
 
 impl FreeSpace for Drum {
@@ -40,6 +45,10 @@ impl FreeSpace for Drum {
 
     fn bounding_radius(&self) -> Option<f64> {
         self.radius()
+    }
+
+    fn is_clear(&self, point: Vec2, distance: f64) -> bool {
+        Self::is_clear(self, point, distance)
     }
 }
 
@@ -97,6 +106,6 @@ impl<'a, S: FreeSpace> Room<'a, S> {
 
     /// Whether a disc centered here is clear of every solid.
     fn admits(&self, center: Vec2) -> bool {
-        self.bounds(center) && self.space.clearance(center) >= self.radius
+        self.bounds(center) && self.space.is_clear(center, self.radius)
     }
 }

@@ -16,6 +16,10 @@ const ROW: f64 = 0.866_025_403_784_438_6;
 const SITE_TESTS: f64 = 1e6;
 const PLACEMENTS: (f64, f64) = (4.0, 2000.0);
 
+/// Sites that any search may go through, and those beyond which none does.
+const WIDE: f64 = 1e6;
+const MOST_SITES: f64 = 1e9;
+
 /// Rings are tried up to about this many spacings from axis to rim; in larger drums a lattice is denser.
 const RINGS_UP_TO: f64 = 5.0;
 
@@ -33,9 +37,32 @@ pub(super) enum Pattern {
 
 /// The pattern of the closest spacing that has at least `count` sites, or the number of sites that the best one has.
 ///
-/// It does not depend on any seed: what fits has to be one number.
+/// It does not depend on any seed: what fits has to be one number. In a room of far more sites than bundles a wider
+/// pattern is enough: going through sites by the billion, of which a baffle may cover any number, could take for ever.
 pub(super) fn densest<S: FreeSpace>(room: &Room<S>, count: usize) -> Result<Pattern, usize> {
-    search(room, room.spacing, count, SITE_TESTS, &mut Pcg64::seed_from_u64(0))
+    let mut most = 0;
+    for spacing in spacings(room, count) {
+        match search(room, spacing, count, SITE_TESTS, &mut Pcg64::seed_from_u64(0)) {
+            Ok(pattern) => return Ok(pattern),
+            Err(found) => most = most.max(found),
+        }
+    }
+    Err(most)
+}
+
+/// The spacings to be tried: the discs' own, after wider ones where it makes more sites than `WIDE` or than suit `count`.
+fn spacings<S>(room: &Room<S>, count: usize) -> Vec<f64> {
+    let spacing_of = |sites: f64| room.reach * (PI / (ROW * sites)).sqrt();
+    let mut spacing = spacing_of(WIDE.max(64.0 * count as f64));
+    let mut spacings = Vec::new();
+    while spacing > 2.0 * room.spacing && spacing > spacing_of(MOST_SITES) {
+        spacings.push(spacing);
+        spacing *= 0.5;
+    }
+    if room.spacing > 0.5 * spacing_of(MOST_SITES) {
+        spacings.push(room.spacing);
+    }
+    spacings
 }
 
 /// The sites of a pattern that has `count` of them at a spacing about as wide as can be; `densest` if no other has.
@@ -53,7 +80,7 @@ pub(super) fn sparsest<S: FreeSpace>(
     for step in 0..SPACINGS {
         let stretch = widest - (widest - 1.0) * f64::from(step) / f64::from(SPACINGS);
         let tests = SITE_TESTS / f64::from(SPACINGS);
-        if let Ok(pattern) = search(room, room.spacing * stretch, count, tests, random) {
+        if let Ok(pattern) = search(room, densest.spacing() * stretch, count, tests, random) {
             return pattern.sites(room, usize::MAX);
         }
     }
@@ -88,6 +115,13 @@ fn search<S: FreeSpace>(
 }
 
 impl Pattern {
+    /// Distance of neighboring sites [m].
+    fn spacing(self) -> f64 {
+        match self {
+            Self::Lattice { spacing, .. } | Self::Rings { spacing, .. } => spacing,
+        }
+    }
+
     /// The sites that the room admits, up to `limit` of them.
     fn sites<S: FreeSpace>(self, room: &Room<S>, limit: usize) -> Vec<Vec2> {
         match self {

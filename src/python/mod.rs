@@ -2,6 +2,7 @@
 
 mod arrays;
 mod error;
+mod gate;
 mod simulation;
 
 /// The compiled core of drumrs. Use the package `drumrs` instead.
@@ -24,6 +25,24 @@ mod _core {
         info.set_item("cpu_features", super::cpu_features())?;
         info.set_item("cpu_count", std::thread::available_parallelism().map_or(1, usize::from))?;
         Ok(info)
+    }
+
+    /// Before a fork: waits until no thread is inside a simulation, and keeps them out.
+    #[pyfunction]
+    fn close_gate(py: Python<'_>) {
+        py.detach(super::gate::close);
+    }
+
+    /// After a fork, in the parent.
+    #[pyfunction]
+    fn open_gate() {
+        super::gate::open();
+    }
+
+    /// After a fork, in the child.
+    #[pyfunction]
+    fn open_gate_alone() {
+        super::gate::open_alone();
     }
 }
 

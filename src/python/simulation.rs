@@ -15,6 +15,7 @@ use pyo3::types::{PyBytes, PyDict};
 
 use super::arrays;
 use super::error::to_python;
+use super::gate::Inside;
 use crate::config::SimulationConfig;
 use crate::error::Error;
 use crate::particles::Particles;
@@ -45,7 +46,10 @@ impl Simulation {
 
     /// Runs `look` on the core with the interpreter released.
     fn with<T: Send>(&self, py: Python<'_>, look: impl FnOnce(&mut Core) -> T + Send) -> T {
-        py.detach(|| look(&mut self.lock()))
+        py.detach(|| {
+            let _inside = Inside::enter();
+            look(&mut self.lock())
+        })
     }
 
     /// One of the particles' vectors in id order.

@@ -62,6 +62,7 @@ impl Simulation {
         let drum = Drum::new(&config.drum)?;
         let positions = pack(&drum, config.load.count, 0.5 * config.load.diameter, seed)?;
         let particles = start::packed(&config, positions, seed);
+        particles.validate()?;
         Self::start(config, seed, threads, particles)
     }
 
@@ -185,6 +186,10 @@ impl Simulation {
                 self.finish_kick();
                 self.failure = Some(failure);
             }
+        }
+        // A step sees positions alone, and those of the step before; who looks now gets numbers throughout.
+        if let (None, Some(particle)) = (&self.failure, self.state.particles.first_non_finite()) {
+            self.failure = Some(Error::NonFinite { step: self.state.step, particle: self.id_of(particle) });
         }
         self.failure.clone().map_or(Ok(()), Err)
     }

@@ -98,13 +98,14 @@ def read_toml(text: str, source: str = "the configuration") -> dict[str, Any]:
     """
     try:
         return tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
+    except (ValueError, RecursionError) as error:
+        # Besides what is not TOML: integers of thousands of digits, tables nested a thousand deep.
         raise ConfigError(f"{source} is not valid TOML: {error}") from None
 
 
 def _literal(text: str) -> Any:
     try:
         parsed = tomllib.loads(f"value = {text}")
-    except tomllib.TOMLDecodeError:
+    except (ValueError, RecursionError):
         return text
     return parsed["value"] if len(parsed) == 1 else text

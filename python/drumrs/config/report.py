@@ -34,7 +34,11 @@ def relation(text: str) -> PydanticCustomError:
 
 def show(value: object) -> str:
     """Show a value on one line, shortened where it is long."""
-    text = repr(list(value) if isinstance(value, tuple) else value).replace("\n", " ")
+    try:
+        text = repr(list(value) if isinstance(value, tuple) else value).replace("\n", " ")
+    except (RecursionError, ValueError):
+        # Nested a thousand deep, or an integer of thousands of digits.
+        return f"a {type(value).__name__} too large to be shown"
     return text if len(text) <= _LONGEST_VALUE else f"{text[: _LONGEST_VALUE - 1]}…"
 
 
@@ -56,18 +60,20 @@ def dotted_keys(model: type[BaseModel], at: str = "") -> Iterator[str]:
 
 def _unknown_key(root: type[BaseModel], path: Sequence[str]) -> str:
     key = ".".join(path)
+    sought = key[:_LONGEST_VALUE]
     table: type[BaseModel] | None = root
     for part in path[:-1]:
         table = part_of(table, part) if table is not None else None
     prefix = "".join(f"{part}." for part in path[:-1])
     siblings = [f"{prefix}{name}" for name in table.model_fields] if table is not None else []
     known = list(dotted_keys(root))
-    close = difflib.get_close_matches(key, siblings, n=1, cutoff=0.8)
+    close = difflib.get_close_matches(sought, siblings, n=1, cutoff=0.8)
     close = close or [name for name in known if name.endswith(f".{path[-1]}")]
-    close = close or difflib.get_close_matches(key, known, n=1, cutoff=0.75)
+    close = close or difflib.get_close_matches(sought, known, n=1, cutoff=0.75)
+    shown = key if key.isprintable() and 0 < len(key) <= _LONGEST_VALUE else show(key)
     if close:
-        return f"{key} is not a key; did you mean {close[0]}?"
-    return f"{key} is not a key; the keys there are {', '.join(siblings)}"
+        return f"{shown} is not a key; did you mean {close[0]}?"
+    return f"{shown} is not a key; the keys there are {', '.join(siblings)}"
 
 
 def _refused_value(root: type[BaseModel], problem: ErrorDetails) -> str:

@@ -154,7 +154,8 @@ class Config(Part):
         """
         try:
             layer = json.loads(text)
-        except json.JSONDecodeError as error:
+        except (ValueError, RecursionError) as error:
+            # Besides what is not JSON: integers of thousands of digits, lists nested a thousand deep.
             raise ConfigError(f"the configuration is not valid JSON: {error}") from None
         if not isinstance(layer, dict):
             raise ConfigError("the configuration is not a JSON object, but must be one of tables")

@@ -160,6 +160,7 @@ def _take_stock(cases: Sequence[Case], store: Store, tally: _Tally, *, retry: bo
     """Enter what is known of the cases, and return those to be run."""
     waiting = []
     for case in cases:
+        store.require_names(case)
         fault = store.fault(case)
         error = None if retry else store.error(case)
         if fault is None:

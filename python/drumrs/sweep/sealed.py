@@ -4,14 +4,15 @@ The file's metadata hold one JSON object under the key "drumrs": format, what th
 the physics, and the digest of all its bytes, itself counted as zeros. No time and no machine: equal data, equal bytes.
 """
 
+import contextlib
 import hashlib
 import io
 import json
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, BinaryIO
 
 from drumrs.errors import ConfigError
-from drumrs.files import write_whole
+from drumrs.files import read_plain, write_whole
 from drumrs.sweep.case import Case, physics_version
 
 if TYPE_CHECKING:
@@ -21,6 +22,9 @@ if TYPE_CHECKING:
 
 FORMAT = 1
 _KEY = "drumrs"
+_MAGIC = b"PAR1"
+# What stands before the digest in the file.
+_DIGEST = b'"sha256": "'
 _BLANK = "0" * hashlib.sha256().digest_size * 2
 
 
@@ -58,17 +62,12 @@ def read_sealed(path: Path, case: Case, content: str) -> io.BytesIO:
     ConfigError
         Where the file is missing, damaged, or holds something else; the sentence names it.
     """
-    import polars as pl
-
-    try:
-        data = path.read_bytes()
-    except OSError as error:
-        raise ConfigError(f"{str(path)!r} cannot be read: {error.strerror}") from None
-    try:
-        # Polars raises what its parser meets, some of it not an `Exception` of a known class.
-        seal = json.loads(pl.read_parquet_metadata(io.BytesIO(data)).get(_KEY, "null"))
-    except Exception:  # noqa: BLE001 - whatever it was, the file is not one that drumrs wrote
-        raise ConfigError(f"{str(path)!r} is damaged or no parquet file") from None
+    data = _read(path)
+    head, digest, tail = _cut(data)
+    # Before the parser sees it: some damage makes it give up in a way of its own.
+    if digest and hashlib.sha256(head + _BLANK.encode() + tail).hexdigest().encode() != digest:
+        raise ConfigError(f"{str(path)!r} is damaged: its digest does not match")
+    seal = _seal(path, data)
     if not isinstance(seal, dict):
         raise ConfigError(f"{str(path)!r} was not written by drumrs")
     for name, wanted in _claims(case, content).items():
@@ -76,10 +75,45 @@ def read_sealed(path: Path, case: Case, content: str) -> io.BytesIO:
             raise ConfigError(
                 f"{str(path)!r} has {name} {seal.get(name)!r}, but must have {wanted!r}: it is another's file"
             )
-    head, digest, tail = data.rpartition(str(seal.get("sha256")).encode())
-    if hashlib.sha256(head + _BLANK.encode() + tail).hexdigest().encode() != digest:
+    if not digest or seal.get("sha256") != digest.decode(errors="replace"):
         raise ConfigError(f"{str(path)!r} is damaged: its digest does not match")
     return io.BytesIO(data)
+
+
+def _cut(data: bytes) -> tuple[bytes, bytes, bytes]:
+    """Cut a file at its digest: what is before, the digest (empty where there is none), what is after."""
+    before, mark, after = data.rpartition(_DIGEST)
+    size = len(_BLANK)
+    return (before + mark, after[:size], after[size:]) if mark else (data, b"", b"")
+
+
+def _read(path: Path) -> bytes:
+    try:
+        # A file that is none of ours may be larger than all memory.
+        with path.open("rb") if path.is_file() else contextlib.nullcontext() as file:
+            if file is not None and (path.stat().st_size < len(_MAGIC) or _ending(file) != _MAGIC):
+                raise ConfigError(f"{str(path)!r} is damaged or no parquet file")
+        return read_plain(path)
+    except OSError as error:
+        raise ConfigError(f"{str(path)!r} cannot be read: {error.strerror}") from None
+
+
+def _ending(file: BinaryIO) -> bytes:
+    file.seek(-len(_MAGIC), io.SEEK_END)
+    return file.read()
+
+
+def _seal(path: Path, data: bytes) -> Any:
+    """Return what the file says of itself."""
+    import polars as pl
+    from polars.exceptions import PanicException
+
+    try:
+        pl.read_parquet_schema(io.BytesIO(data))
+        return json.loads(pl.read_parquet_metadata(io.BytesIO(data)).get(_KEY, "null"))
+    # Polars raises what its parser meets, on some damage a panic, which is no `Exception`.
+    except (Exception, PanicException):  # noqa: BLE001 - whatever it was, the file is not one that drumrs wrote
+        raise ConfigError(f"{str(path)!r} is damaged or no parquet file") from None
 
 
 def _claims(case: Case, content: str) -> dict[str, object]:

@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, Any
 from drumrs.analysis import statistics
 from drumrs.config.report import show
 from drumrs.errors import ConfigError
-from drumrs.files import NO_ROOM, write_whole
+from drumrs.files import NO_ROOM, read_object, write_whole
 from drumrs.frames import Frames
 from drumrs.result import Result, Summary
 from drumrs.sweep.case import Case
@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     import polars as pl
 
 MARK = "drumrs-sweep.json"
+_ENDINGS = ("toml", "series.parquet", "frames.parquet", "facts.json", "parquet", "error.json")
 _HOUR = 3600.0
 
 
@@ -67,13 +68,16 @@ class Store:
         """Refuse a folder that a newer version of drumrs made; one that is not there yet is fine."""
         path = self.folder / MARK
         try:
-            found = json.loads(path.read_text(encoding="utf-8"))["format"]
-        except (FileNotFoundError, NotADirectoryError):
-            return
-        except (OSError, ValueError, TypeError, KeyError):
+            if not path.exists():
+                return
+        except OSError as error:
             raise ConfigError(
-                f"{str(path)!r} is damaged, but must name the format of the folder, {FORMAT}"
+                f"folder is {str(self.folder)!r}, but must be a folder that can be read: {error.strerror}"
             ) from None
+        mark = read_object(path)
+        if mark is None or "format" not in mark:
+            raise ConfigError(f"{str(path)!r} is damaged, but must name the format of the folder, {FORMAT}")
+        found = mark["format"]
         if not isinstance(found, int) or found > FORMAT:
             raise ConfigError(
                 f"folder is {str(self.folder)!r} of format {show(found)}, but must be of format {FORMAT} at most: "
@@ -83,6 +87,19 @@ class Store:
     def is_settled(self, case: Case) -> bool:
         """Tell whether a case has results or an error, without looking into them."""
         return any(self._path(case, ending).exists() for ending in ("parquet", "error.json"))
+
+    def require_names(self, case: Case) -> None:
+        """Refuse a folder in which something that no write can replace has the name of a case's file.
+
+        Raises
+        ------
+        ConfigError
+            Where there is such a thing; the sentence names it.
+        """
+        for ending in _ENDINGS:
+            path = self._path(case, ending)
+            if path.is_dir() and not path.is_symlink():
+                raise ConfigError(f"{str(path)!r} is a folder, but must be a file of results, or not there")
 
     def fault(self, case: Case) -> str | None:
         """Say what keeps the results of a case from being whole; `None` where the case is finished.
@@ -155,11 +172,7 @@ class Store:
 
     def error(self, case: Case) -> dict[str, Any] | None:
         """Return what `write_error` kept, `None` where the case has not failed."""
-        try:
-            told = json.loads(self._path(case, "error.json").read_text(encoding="utf-8"))
-        except (OSError, ValueError):
-            return None
-        return told if isinstance(told, dict) else None
+        return read_object(self._path(case, "error.json"))
 
     def summary_path(self, case: Case) -> Path | None:
         """Return the file of a finished case's row once it has been found whole; `None` where there is none.
@@ -187,11 +200,7 @@ class Store:
 
     def facts(self, case: Case) -> dict[str, Any]:
         """Return time taken and machine."""
-        try:
-            facts = json.loads(self._path(case, "facts.json").read_text(encoding="utf-8"))
-        except (OSError, ValueError):
-            return {}
-        return facts if isinstance(facts, dict) else {}
+        return read_object(self._path(case, "facts.json")) or {}
 
     def _read(self, case: Case, content: str) -> "io.BytesIO":
         return read_sealed(self._parquet(case, content), case, content)

@@ -3,7 +3,7 @@
 import io
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from drumrs.errors import ConfigError
 from drumrs.files import write_whole
@@ -55,11 +55,19 @@ def facts(cases: Sequence[Case], store: Store) -> "pl.DataFrame":
     """Return time taken and machine of the finished cases: what differs from run to run."""
     import polars as pl
 
-    rows = [told for case in cases if (told := store.facts(case))]
+    rows = [found for case in cases if (found := store.facts(case))]
     wanted = {
         "case": pl.String,
         "wall_time": pl.Float64,
         "particle_steps_per_second": pl.Float64,
         "machine": pl.String,
     }
-    return pl.DataFrame([{name: told.get(name) for name in wanted} for told in rows], schema=wanted)
+    told = [{name: _of_kind(row.get(name), kind) for name, kind in wanted.items()} for row in rows]
+    return pl.DataFrame(told, schema=wanted)
+
+
+def _of_kind(value: Any, kind: Any) -> Any:
+    """Return a value that a column can hold; null in place of what somebody else wrote."""
+    import polars as pl
+
+    return value if isinstance(value, str if kind == pl.String else float) else None

@@ -56,7 +56,7 @@ def _frames_file(path: Path) -> Path:
 
 
 def _read_frames(path: Path) -> Frames:
-    from polars.exceptions import PolarsError
+    from polars.exceptions import PanicException, PolarsError
 
     if not path.is_file():
         raise ConfigError(
@@ -64,19 +64,19 @@ def _read_frames(path: Path) -> Frames:
         )
     try:
         return Frames.load(path)
-    except (PolarsError, KeyError, ValueError, TypeError, OSError):
+    except (PolarsError, PanicException, KeyError, ValueError, TypeError, OSError):
         raise ConfigError(f"{str(path)!r} holds no frames, but must be a file that drumrs wrote") from None
 
 
 def _read_series(path: Path) -> "pl.DataFrame | None":
     import polars as pl
-    from polars.exceptions import PolarsError
+    from polars.exceptions import PanicException, PolarsError
 
     if not path.is_file():
         return None
     try:
         return pl.read_parquet(path)
-    except (PolarsError, OSError):
+    except (PolarsError, PanicException, OSError):
         raise ConfigError(f"{str(path)!r} is damaged, but must be the series that drumrs wrote") from None
 
 

@@ -1,0 +1,8 @@
+//! Any bytes as a configuration: see `config` in `tests/hostile/mod.rs`.
+#![no_main]
+
+#[path = "../../tests/hostile/mod.rs"]
+#[allow(dead_code)] // Each target uses its own part.
+mod hostile;
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| hostile::config(bytes));

@@ -1,0 +1,99 @@
+//! Any valid load: drawn at random, run for 2 000 steps, held against the balances. What fails shrinks to a small case.
+//!
+//! `PROPTEST_CASES=100000 cargo test --release --test random_loads` goes on for longer.
+
+mod random;
+
+use drumrs::error::Error;
+use drumrs::simulation::Simulation;
+use drumrs::vector::{Rotation, Vec2};
+use proptest::prelude::*;
+use random::{Drawn, drawn};
+
+const STEPS: u64 = 2000;
+/// Steps a collision from which on a run has to be stable whatever happens.
+const FINE: f64 = 30.0;
+
+proptest! {
+    #![proptest_config(ProptestConfig { max_global_rejects: 1_000_000, ..ProptestConfig::with_cases(CASES) })]
+
+    #[test]
+    fn any_load_keeps_its_balances(drawn in drawn()) {
+        // Baffles that do not fit this drum, or more bundles than it holds.
+        let Ok(mut simulation) = Simulation::new(drawn.config.clone(), drawn.seed, 1) else {
+            return Err(TestCaseError::reject("no such load"));
+        };
+        let start = Motion::of(&simulation);
+        match simulation.run(STEPS) {
+            Ok(()) => {}
+            Err(Error::Overlap { .. }) if drawn.steps_a_collision < FINE => return Ok(()),
+            Err(other) => return Err(TestCaseError::fail(other.to_string())),
+        }
+        require_closed_ledger(&simulation)?;
+        require_inside(&simulation)?;
+        require_momentum(&start, &simulation, &drawn)?;
+    }
+}
+
+/// Some seconds; `PROPTEST_CASES` asks for more.
+const CASES: u32 = 64;
+
+fn require_closed_ledger(simulation: &Simulation) -> Result<(), TestCaseError> {
+    let residual = simulation.state().ledger.relative_residual(&simulation.stored());
+    prop_assert!(residual < 1e-10, "the ledger leaves {residual:e}");
+    let ledger = &simulation.state().ledger;
+    prop_assert!(ledger.dissipated_sliding.value() >= 0.0, "sliding gives energy");
+    Ok(())
+}
+
+/// Every center keeps as far from rim, baffles and walls as the limit of the overlap tells.
+fn require_inside(simulation: &Simulation) -> Result<(), TestCaseError> {
+    let particles = &simulation.state().particles;
+    let rotation = Rotation::new(simulation.drum_angle());
+    let nearest = (1.0 - simulation.config().run.overlap_limit) * (1.0 - 1e-6);
+    for (i, position) in particles.positions.iter().enumerate() {
+        let clearance = simulation.drum().clearance(rotation.apply_inverse(*position));
+        prop_assert!(clearance > nearest * particles.radii[i], "bundle {i} is {clearance} from the drum");
+    }
+    Ok(())
+}
+
+/// Linear momentum, angular momentum, and what they are made of.
+struct Motion {
+    momentum: Vec2,
+    angular_momentum: f64,
+}
+
+impl Motion {
+    fn of(simulation: &Simulation) -> Self {
+        let particles = &simulation.state().particles;
+        let pairs = particles.velocities.iter().zip(&particles.masses);
+        Self {
+            momentum: pairs.fold(Vec2::zeros(), |sum, (velocity, &mass)| sum + velocity * mass),
+            angular_momentum: particles.angular_momentum(),
+        }
+    }
+}
+
+/// Momentum is what gravity and the drum have given; forces between bundles cancel. The leapfrog keeps both balances but
+/// for round-off, which grows with all that has passed back and forth.
+fn require_momentum(start: &Motion, simulation: &Simulation, drawn: &Drawn) -> Result<(), TestCaseError> {
+    let (now, ledger) = (Motion::of(simulation), &simulation.state().ledger);
+    let gravity = Vec2::new(drawn.config.gravity[0], drawn.config.gravity[1]);
+    let given =
+        ledger.surfaces.iter().fold(gravity * simulation.mass() * simulation.time(), |sum, surface| {
+            sum + Vec2::new(surface.impulse[0].value(), surface.impulse[1].value())
+        });
+    let scale = simulation.mass() * drawn.speed;
+    let missing = (now.momentum - start.momentum - given).norm() / scale;
+    prop_assert!(missing < 1e-9, "{missing:e} of the momentum came from nowhere");
+    if drawn.config.rotation.is_constant() && drawn.config.rotation.angular_velocity(0.0) != 0.0 {
+        let speed = drawn.config.rotation.angular_velocity(0.0);
+        let moment = ledger.drum_work() / speed;
+        let held = ledger.balance_work(now.angular_momentum, Some(speed)) / speed;
+        let radius = simulation.drum().radius().unwrap_or(1.0);
+        let missing = (moment - held).abs() / (scale * radius);
+        prop_assert!(missing < 1e-9, "{missing:e} of the angular momentum came from nowhere");
+    }
+    Ok(())
+}
