@@ -41,8 +41,12 @@ const CASES: u32 = 64;
 fn require_closed_ledger(simulation: &Simulation) -> Result<(), TestCaseError> {
     let residual = simulation.state().ledger.relative_residual(&simulation.stored());
     prop_assert!(residual < 1e-10, "the ledger leaves {residual:e}");
+    // Where a bundle's slip turns round within a step, the mean force of the step may point along it: sliding then gives
+    // back some of what the finite step leaves in the numerical column, and no more.
     let ledger = &simulation.state().ledger;
-    prop_assert!(ledger.dissipated_sliding.value() >= 0.0, "sliding gives energy");
+    let numerical = ledger.numerical(&simulation.stored()).abs();
+    let sliding = ledger.dissipated_sliding.value();
+    prop_assert!(sliding >= -numerical, "sliding gives {:e}, numerical {numerical:e}", -sliding);
     Ok(())
 }
 
