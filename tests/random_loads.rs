@@ -40,7 +40,9 @@ const CASES: u32 = 64;
 
 fn require_closed_ledger(simulation: &Simulation) -> Result<(), TestCaseError> {
     let residual = simulation.state().ledger.relative_residual(&simulation.stored());
-    prop_assert!(residual < 1e-10, "the ledger leaves {residual:e}");
+    // What is promised. Where hardly anything flows and the load's center is near the axis, the ledger's scale is small
+    // and the round-off of the bundles' potential energies is seen.
+    prop_assert!(residual < 1e-9, "the ledger leaves {residual:e}");
     // Where a bundle's slip turns round within a step, the mean force of the step may point along it: sliding then gives
     // back some of what the finite step leaves in the numerical column, and no more.
     let ledger = &simulation.state().ledger;
