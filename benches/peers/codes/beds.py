@@ -53,7 +53,8 @@ def grown(count: int, *, baffles: bool = False) -> drumrs.Config:
         return base
     diameter = base.load.diameter * math.sqrt(count / _FILL)
     rpm = (base.rotation.rpm or 0.0) * math.sqrt(base.drum.diameter / diameter)
-    return base.replace({"drum.diameter": diameter, "rotation.rpm": rpm})
+    # A time whose frames fit into memory, however many bundles; it is never run to its end.
+    return base.replace({"drum.diameter": diameter, "rotation.rpm": rpm, "run.duration": 10.0})
 
 
 def _tumbled(config: drumrs.Config) -> tuple[Array, float]:
