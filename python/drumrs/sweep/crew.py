@@ -2,10 +2,11 @@
 
 import multiprocessing
 import os
+import signal
 import sys
 from collections.abc import Iterator
 from concurrent.futures import Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass
 from multiprocessing.synchronize import Event
 
@@ -50,7 +51,8 @@ class Crew:
         arguments = (case.config.model_dump_json(), folder)
         extra = () if self.running is None else (self.running,)
         try:
-            return self.executor.submit(run_case, *arguments, *extra)
+            with _deaf_children() if self.halt is not None else nullcontext():
+                return self.executor.submit(run_case, *arguments, *extra)
         except Exception as error:  # noqa: BLE001 - every executor has a class of its own for it
             raise ConfigError(f"executor is one that takes no work, but must be open: {error}") from None
 
@@ -64,6 +66,19 @@ class Crew:
             self.running.stop()
         if self.halt is not None:
             self.halt.set()
+
+
+@contextmanager
+def _deaf_children() -> Iterator[None]:
+    """Hold Ctrl-C back for a moment: a process started meanwhile never hears it, not even while it imports."""
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def usable_cores() -> int:

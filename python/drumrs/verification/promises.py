@@ -13,6 +13,7 @@ from drumrs.config import Config
 from drumrs.simulation import Simulation
 from drumrs.state import State
 from drumrs.verification import scenes
+from drumrs.verification.advance import advance
 from drumrs.verification.case import case
 from drumrs.verification.evidence import Check, Evidence, Panel, Trace, shared_curve
 from drumrs.verification.scenes import RADIUS
@@ -56,7 +57,7 @@ def _small(baffles: bool, changes: dict[str, Any] | None = None) -> Config:
 
 def _ran(config: Config, steps: int, threads: int = 1, state: State | None = None) -> Simulation:
     run = Simulation(config, seed=7, threads=threads, state=state)
-    run.run(steps=steps)
+    advance(run, steps)
     return run
 
 
@@ -195,7 +196,7 @@ def restart() -> Evidence:
             path = Path(folder) / f"{step}.bin"
             first.save(path)
             resumed = Simulation.load(path, threads=2)
-            resumed.run(steps=12_000 - step)
+            advance(resumed, 12_000 - step)
             differing = _differing(_numbers(straight), _numbers(resumed))
             found.append(Check(f"numbers that differ, restart at step {step}", "1", 0.0, differing, 0.0))
             runs[f"step {step}"] = resumed.positions

@@ -12,6 +12,8 @@ from typing import TYPE_CHECKING, Any
 from drumrs.files import write_whole
 from drumrs.progress import Campaign, board
 from drumrs.sweep.crew import check_jobs, usable_cores
+from drumrs.sweep.worker import Running
+from drumrs.verification.advance import under_way
 from drumrs.verification.case import Case, Trial
 from drumrs.verification.catalog import chosen, family_of
 
@@ -143,6 +145,8 @@ def verify(
     ------
     ConfigError
         Where there is no case of a name.
+    KeyboardInterrupt
+        After Ctrl-C; the simulations under way are stopped.
 
     Examples
     --------
@@ -163,7 +167,9 @@ def _run(cases: Sequence[Case], workers: int, *, progress: bool) -> tuple[Trial,
     """Run the cases, the long ones first, and return them in their order."""
     order = sorted(cases, key=lambda case: -case.cost)
     done, cost, trials = 0, 0.0, {}
-    with board(show=progress) as shown, ThreadPoolExecutor(workers) as pool:
+    running = Running()
+    threads = ThreadPoolExecutor(workers, "drumrs", initializer=under_way.set, initargs=(running,))
+    with board(show=progress) as shown, threads as pool:
         campaign = Campaign(len(cases), sum(case.cost for case in cases), "verification", rated=False)
         report = shown.add_campaign(campaign)
         tasks = [pool.submit(case.run) for case in order]
@@ -174,7 +180,8 @@ def _run(cases: Sequence[Case], workers: int, *, progress: bool) -> tuple[Trial,
                 done, cost = done + 1, cost + trial.case.cost
                 report(done, cost)
         except BaseException:
-            # What has begun comes to its end, in seconds.
+            # Threads cannot be interrupted from outside; the simulations can.
+            running.stop()
             pool.shutdown(wait=False, cancel_futures=True)
             raise
     return tuple(trials[case.name] for case in cases)

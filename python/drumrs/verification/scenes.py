@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 from drumrs.config import Config, baseline
 from drumrs.simulation import Simulation
 from drumrs.state import State
+from drumrs.verification.advance import advance
 
 Array = NDArray[np.float64]
 
@@ -68,7 +69,7 @@ def after(config: Config, state: State | None, seconds: float, *, samples: int =
     length = TIME_STEP if step == "auto" else step
     every = max(1, -(-int(np.ceil(seconds / length)) // samples))
     simulation = Simulation(config.replace({"run.sample_every": every * length}), state=state)
-    simulation.run(steps=every * samples)
+    advance(simulation, every * samples)
     return simulation
 
 

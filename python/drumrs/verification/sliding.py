@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from drumrs.simulation import Simulation
 from drumrs.state import State
 from drumrs.verification import scenes, theory
+from drumrs.verification.advance import advance
 from drumrs.verification.case import case
 from drumrs.verification.evidence import Evidence, Panel, Trace, checks, checks_at, vanishing
 from drumrs.verification.scenes import MASS, RADIUS, TIME_STEP, WALL_FREQUENCY
@@ -163,7 +164,7 @@ def _change_of_momenta(other: float, spins: tuple[float, float], steps: int) -> 
     config = scenes.free_space({"run.time_step": _STEP})
     run = scenes.after(config, state, 0.0, samples=1)
     before, scale = _momenta(run)
-    run.run(steps=steps)
+    advance(run, steps)
     after, _ = _momenta(run)
     return (after - before) / scale
 
