@@ -8,6 +8,7 @@ use drumrs::error::Error;
 use drumrs::simulation::Simulation;
 use drumrs::vector::{Rotation, Vec2};
 use proptest::prelude::*;
+use proptest::test_runner::FileFailurePersistence;
 use random::{Drawn, drawn};
 
 const STEPS: u64 = 2000;
@@ -15,7 +16,7 @@ const STEPS: u64 = 2000;
 const FINE: f64 = 30.0;
 
 proptest! {
-    #![proptest_config(ProptestConfig { max_global_rejects: 1_000_000, ..ProptestConfig::with_cases(CASES) })]
+    #![proptest_config(config())]
 
     #[test]
     fn any_load_keeps_its_balances(drawn in drawn()) {
@@ -35,8 +36,14 @@ proptest! {
     }
 }
 
-/// Some seconds; `PROPTEST_CASES` asks for more.
-const CASES: u32 = 64;
+/// Some seconds of cases; `PROPTEST_CASES` asks for more. What once failed is kept beside this file and run first.
+fn config() -> ProptestConfig {
+    ProptestConfig {
+        max_global_rejects: 1_000_000,
+        failure_persistence: Some(Box::new(FileFailurePersistence::WithSource("proptest-regressions"))),
+        ..ProptestConfig::with_cases(64)
+    }
+}
 
 fn require_closed_ledger(simulation: &Simulation) -> Result<(), TestCaseError> {
     let residual = simulation.state().ledger.relative_residual(&simulation.stored());
