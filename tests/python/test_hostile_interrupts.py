@@ -26,8 +26,9 @@ setattr(module, {name!r}, entered)
 from drumrs.cli import main
 main({words!r})
 """
-# A study of a second.
+# A study of a second. Who interrupts the first import of matplotlib's fonts may see the interpreter abort at its exit.
 TINY = """
+import matplotlib.ft2font
 from dataclasses import replace
 from small_study import SMALL
 from drumrs.study import scales
@@ -99,6 +100,22 @@ def test_ctrl_c_is_heard_soon(call, tmp_path):
             list(runs.glob("*.facts.json"))
         )
         assert not (tmp_path / "out" / "report.html").exists()
+
+
+def test_ctrl_c_within_an_import_is_no_traceback(drum, tmp_path, monkeypatch):
+    """Modules made with pybind11 tell of it so."""
+
+    def torn() -> None:
+        raise ImportError("initialization failed") from KeyboardInterrupt()
+
+    def missing() -> None:
+        raise ImportError("no such module")
+
+    monkeypatch.setattr("drumrs.protocol.board", lambda **_: torn())
+    assert drum("baseline", "--out", tmp_path) == (130, "", "drumrs: interrupted\n")
+    monkeypatch.setattr("drumrs.protocol.board", lambda **_: missing())
+    with pytest.raises(ImportError):
+        drum("baseline", "--out", tmp_path)
 
 
 PROCESSES = """

@@ -65,7 +65,11 @@ def run_command(arguments: Sequence[str] | None = None) -> int:
     except OSError as error:
         full = error.errno in NO_ROOM and error.strerror
         return _complain(f"cannot write: {error.strerror}" if full else str(error), _FAILED)
-    except KeyboardInterrupt as interrupt:
+    except (KeyboardInterrupt, ImportError) as error:
+        # Where Ctrl-C falls into the import of a module in C++, it is the cause of an ImportError.
+        interrupt = error if isinstance(error, KeyboardInterrupt) else error.__cause__
+        if not isinstance(interrupt, KeyboardInterrupt):
+            raise
         return _complain(str(interrupt) or "interrupted", _INTERRUPTED)
     return status if isinstance(status, int) else 0
 
