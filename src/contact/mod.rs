@@ -14,6 +14,7 @@ pub mod block;
 pub mod laws;
 pub mod linear;
 pub mod list;
+mod shift;
 pub mod table;
 
 use serde::{Deserialize, Serialize};

@@ -129,7 +129,7 @@ impl Slots {
     /// Makes candidates again of the contacts that no longer touch.
     pub fn close_ended(&mut self) {
         let candidates = &mut self.candidates;
-        self.contacts.remove_where(|list, index| !list.is_touching(index), |key| candidates.wake(key));
+        self.contacts.drop_separated(|key| candidates.wake(key));
     }
 
     /// Lets contact `index` go on as candidate `heir` of the same particle, with its history.
