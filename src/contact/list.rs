@@ -196,7 +196,8 @@ mod tests {
 
     fn entry(particle: u32, other: u32) -> Entry {
         let overlap = if other.is_multiple_of(3) { 0.0 } else { f64::from(10 * particle + other) };
-        let history = History { overlap, normal_force: f64::from(10 * particle + other), ..History::default() };
+        let history =
+            History { overlap, normal_force: f64::from(10 * particle + other), ..History::default() };
         // Contacts of particle 3 differ from the others.
         let radii = if particle == 3 { [2.0, 1.0] } else { [1.0; 2] };
         Entry { contact: Contact { particle, other, history }, traits: Traits { radii, ..Traits::default() } }

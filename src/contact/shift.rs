@@ -53,7 +53,11 @@ pub fn close_gap<F: Four + Copy>(fours: &mut [F], index: usize) {
     for four in 0..fours.len() {
         let next = fours[(four + 1).min(fours.len() - 1)];
         // Whole blocks, which are nearly all, move by constant lanes.
-        if std::mem::take(&mut lane) == 0 { fours[four].pull(0, &next) } else { fours[four].pull(index % LANES, &next) }
+        if std::mem::take(&mut lane) == 0 {
+            fours[four].pull(0, &next)
+        } else {
+            fours[four].pull(index % LANES, &next)
+        }
     }
 }
 

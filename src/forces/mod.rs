@@ -36,8 +36,10 @@ pub struct Scene<'a> {
     pub angular_velocity: f64,
     /// The angle it turned during the step [rad].
     pub turn: f64,
-    /// How far anyone can have moved since the list was built, as seen from the drum [m].
-    pub way: f64,
+    /// The square of the longest way of the step as seen from the drum [m²], by patch.
+    pub ways: &'a [f64],
+    /// How much farther anyone can have come by the drum's turn [m].
+    pub arc: f64,
     /// Half of 1 / (distance + reach), for the largest distance and reach in the list and slightly less [1/m].
     pub half_gap: f64,
     /// 1 / time step [1/s].
@@ -125,10 +127,10 @@ fn fetch(motions: &[Motion], loads: &[Load]) {
 /// All ones in the first `count` lanes.
 #[inline(always)]
 fn in_use(count: usize) -> Lanes {
-    let ones = f64::from_bits(u64::MAX);
     if count >= LANES {
-        return Lanes::splat(ones);
+        return bodies::all_ones();
     }
+    let ones = f64::from_bits(u64::MAX);
     lanes(|lane| if lane < count { ones } else { 0.0 })
 }
 

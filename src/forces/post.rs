@@ -8,7 +8,7 @@ use crate::integrator::Load;
 use crate::lanes::Lanes;
 use crate::threads::{CHUNK, Chunked, Threads};
 
-/// A reaction on a particle of another chunk: what is to be taken off its force (x, y) and moment.
+/// A reaction on a particle of another chunk: force (x, y) and moment.
 #[derive(Debug, Clone, Copy)]
 struct Post {
     particle: u32,
@@ -66,18 +66,18 @@ pub struct Sink<'a> {
 }
 
 impl Sink<'_> {
-    /// Adds a load to one of the chunk's own particles.
-    #[inline(always)]
-    pub fn add(&mut self, particle: u32, load: Lanes) {
-        let own = &mut self.loads[particle as usize - self.first];
-        own.0 += load;
-    }
-
-    /// Takes a load off any particle.
+    /// Takes a load off one of the chunk's own particles.
     #[inline(always)]
     pub fn take_off(&mut self, particle: u32, load: Lanes) {
+        let own = &mut self.loads[particle as usize - self.first];
+        own.0 -= load;
+    }
+
+    /// Adds a load to any particle.
+    #[inline(always)]
+    pub fn react(&mut self, particle: u32, load: Lanes) {
         if let Some(own) = self.loads.get_mut(particle as usize - self.first) {
-            own.0 -= load;
+            own.0 += load;
         } else {
             let [x, y, moment, _] = load.to_array();
             self.outbox.send(particle, [x, y], moment);
@@ -128,7 +128,7 @@ impl PostOffice {
             for &sender in &self.senders[work.first] {
                 for post in self.outboxes[sender as usize].to(work.first) {
                     let [x, y, moment] = post.reaction;
-                    work.loads[post.particle as usize - first_particle].0 -= Lanes::new([x, y, moment, 0.0]);
+                    work.loads[post.particle as usize - first_particle].0 += Lanes::new([x, y, moment, 0.0]);
                 }
             }
         });

@@ -4,7 +4,7 @@ use super::Motion;
 use super::pull::{Pull, Pulls};
 use super::quad::{four_vectors, put_rest, rest_of, two_by_two};
 use crate::lanes::{LANES, Lanes};
-use crate::threads::{CHUNK, Chunked};
+use crate::threads::{CHUNK, Chunked, PATCH};
 use crate::vector::{Vec2, larger};
 
 /// What a drift changes.
@@ -38,7 +38,10 @@ pub(super) struct Drift<'a, P> {
     pub(super) moved: Moved<'a>,
     pub(super) masses: &'a [f64],
     pub(super) motions: &'a mut [Motion],
-    pub(super) sums: &'a mut [(Vec2, f64)],
+    /// By chunk: Σ m x.
+    pub(super) sums: &'a mut [Vec2],
+    /// By patch: the square of the longest way.
+    pub(super) ways: &'a mut [f64],
 }
 
 impl<P: Pull> Drift<'_, P> {
@@ -49,7 +52,7 @@ impl<P: Pull> Drift<'_, P> {
             self.move_rest(time_step, &mut sums);
         }
         if let Some(chunk) = self.sums.first_mut() {
-            *chunk = sums.total();
+            *chunk = sums.mass_moment();
         }
     }
 
@@ -62,15 +65,19 @@ impl<P: Pull> Drift<'_, P> {
         let spins = &mut self.moved.spins.as_chunks_mut().0[..quads];
         let masses = &self.masses.as_chunks().0[..quads];
         let motions = &mut self.motions.as_chunks_mut().0[..quads];
-        for quad in 0..quads {
-            let pulls = self.pull.of(quad, quads);
-            let mut four = Quad {
-                positions: &mut positions[quad],
-                velocities: &mut velocities[quad],
-                angles: &mut angles[quad],
-                spins: &mut spins[quad],
-            };
-            four.advance::<P>(pulls, time_step, (&masses[quad], sums), &mut motions[quad]);
+        for (patch, way) in self.ways.iter_mut().enumerate() {
+            let first = patch * (PATCH / LANES);
+            for quad in first..quads.min(first + PATCH / LANES) {
+                let pulls = self.pull.of(quad, quads);
+                let mut four = Quad {
+                    positions: &mut positions[quad],
+                    velocities: &mut velocities[quad],
+                    angles: &mut angles[quad],
+                    spins: &mut spins[quad],
+                };
+                four.advance::<P>(pulls, time_step, (&masses[quad], sums), &mut motions[quad]);
+            }
+            *way = sums.take_longest();
         }
     }
 
@@ -94,6 +101,9 @@ impl<P: Pull> Drift<'_, P> {
         put_rest(self.moved.angles, &angles);
         put_rest(self.moved.spins, &spins);
         put_rest(self.motions, &motions);
+        if let Some(way) = self.ways.last_mut() {
+            *way = larger(*way, sums.take_longest());
+        }
     }
 }
 
@@ -184,10 +194,14 @@ impl QuadSums {
         self.mass_moment += positions[1] * Lanes::new([c, c, d, d]);
     }
 
-    fn total(&self) -> (Vec2, f64) {
+    fn mass_moment(&self) -> Vec2 {
         let [x, y, more_x, more_y] = self.mass_moment.to_array();
-        let longest = self.longest_squared.to_array().into_iter().fold(0.0, larger);
-        (Vec2::new(x + more_x, y + more_y), longest)
+        Vec2::new(x + more_x, y + more_y)
+    }
+
+    /// The square of the longest way since it was last taken.
+    fn take_longest(&mut self) -> f64 {
+        std::mem::replace(&mut self.longest_squared, Lanes::ZERO).to_array().into_iter().fold(0.0, larger)
     }
 }
 
@@ -203,14 +217,16 @@ impl<P: Pull> Chunked for Drift<'_, P> {
         let (masses, more_masses) = self.masses.split_at(at);
         let (motions, more_motions) = self.motions.split_at_mut(at);
         let (sums, more_sums) = self.sums.split_at_mut(chunks);
+        let (ways, more_ways) = self.ways.split_at_mut(at / PATCH);
         (
-            Self { pull, moved, masses, motions, sums },
+            Self { pull, moved, masses, motions, sums, ways },
             Self {
                 pull: more_pull,
                 moved: more_moved,
                 masses: more_masses,
                 motions: more_motions,
                 sums: more_sums,
+                ways: more_ways,
             },
         )
     }

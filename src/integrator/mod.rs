@@ -10,7 +10,7 @@ mod quad;
 
 use crate::lanes::Lanes;
 use crate::particles::Particles;
-use crate::threads::{Threads, chunk_count};
+use crate::threads::{PATCH, Threads, chunk_count};
 use crate::vector::Vec2;
 use drift::{Drift, Moved};
 use kick::Kick;
@@ -91,8 +91,10 @@ pub struct Integrator {
     inverse_masses: Vec<f64>,
     /// 1/I, 0 where the spin is locked.
     inverse_inertias: Vec<f64>,
-    /// Per chunk: Σ m x and the square of the longest way.
-    chunks: Vec<(Vec2, f64)>,
+    /// The square of the longest way of the step as seen from the drum [m²], by patch.
+    pub ways: Vec<f64>,
+    /// Σ m x, by chunk.
+    mass_moments: Vec<Vec2>,
     time_step: f64,
     gravity: Vec2,
 }
@@ -112,7 +114,8 @@ impl Integrator {
             motions: (0..particles.len()).map(still).collect(),
             inverse_masses: particles.masses.iter().map(inverse).collect(),
             inverse_inertias: particles.inertias.iter().map(inverse).collect(),
-            chunks: vec![(Vec2::zeros(), 0.0); chunk_count(particles.len())],
+            ways: vec![0.0; particles.len().div_ceil(PATCH)],
+            mass_moments: vec![Vec2::zeros(); chunk_count(particles.len())],
             time_step,
             gravity,
         }
@@ -129,7 +132,8 @@ impl Integrator {
             spins: &mut particles.angular_velocities,
         };
         let (time_step, masses) = (self.time_step, &particles.masses);
-        let work = Drift { pull: known, moved, masses, motions: &mut self.motions, sums: &mut self.chunks };
+        let (motions, sums, ways) = (&mut self.motions[..], &mut self.mass_moments[..], &mut self.ways[..]);
+        let work = Drift { pull: known, moved, masses, motions, sums, ways };
         threads.for_each_chunk(masses.len(), work, &|chunk: Drift<Known>| chunk.run(time_step, turn));
         self.sum()
     }
@@ -156,15 +160,15 @@ impl Integrator {
             spins: &mut particles.angular_velocities,
         };
         let (time_step, masses) = (self.time_step, &particles.masses);
-        let work = Drift { pull: fresh, moved, masses, motions: &mut self.motions, sums: &mut self.chunks };
+        let (motions, sums, ways) = (&mut self.motions[..], &mut self.mass_moments[..], &mut self.ways[..]);
+        let work = Drift { pull: fresh, moved, masses, motions, sums, ways };
         threads.for_each_chunk(masses.len(), work, &|chunk: Drift<Fresh>| chunk.run(time_step, turn));
         self.sum()
     }
 
     fn sum(&self) -> DriftSums {
-        let start = (Vec2::zeros(), 0.0_f64);
-        let (mass_moment, longest_squared) =
-            self.chunks.iter().fold(start, |sum, chunk| (sum.0 + chunk.0, sum.1.max(chunk.1)));
+        let mass_moment = self.mass_moments.iter().fold(Vec2::zeros(), |sum, part| sum + part);
+        let longest_squared = self.ways.iter().copied().fold(0.0, f64::max);
         DriftSums { mass_moment, longest_way: longest_squared.sqrt() }
     }
 

@@ -281,7 +281,8 @@ impl Simulation {
             rotation: instant.rotation,
             angular_velocity: instant.angular_velocity,
             turn: instant.turn,
-            way: self.list.way(),
+            ways: &self.integrator.ways,
+            arc: self.list.arc(instant.turn),
             half_gap: self.half_gap,
             step_rate: 1.0 / self.fixed.time_step,
         };
