@@ -12,20 +12,19 @@ use crate::contact::laws::Laws;
 use crate::contact::table::{ChunkSlots, ContactTable};
 use crate::drum::Drum;
 use crate::energy::{StepFlows, SurfaceLoad};
-use crate::integrator::{Load, Motion};
+use crate::integrator::{Complete, Drift, Load, Motion, Told};
 use crate::lanes::{LANES, Lanes, lanes};
-use crate::particles::Particles;
 use crate::threads::{CHUNK, Chunked, Threads, chunk_count};
 use crate::vector::Rotation;
-use post::{Outbox, PostOffice, Sink};
+use post::{Delivery, Outbox, PostOffice, Sink};
 
 /// All that a contact needs beyond its own history.
 #[derive(Debug, Clone, Copy)]
 pub struct Scene<'a> {
     /// What each particle did in this step.
     pub motions: &'a [Motion],
-    /// What they are: materials and masses.
-    pub particles: &'a Particles,
+    /// What they are.
+    pub matter: Matter<'a>,
     /// The laws.
     pub laws: &'a Laws,
     /// Rim and outlines.
@@ -46,11 +45,24 @@ pub struct Scene<'a> {
     pub step_rate: f64,
 }
 
+/// What particles are made of.
+#[derive(Debug, Clone, Copy)]
+pub struct Matter<'a> {
+    /// Indices of their materials.
+    pub materials: &'a [u16],
+    /// Masses [kg/m].
+    pub masses: &'a [f64],
+    /// Radii [m].
+    pub radii: &'a [f64],
+}
+
 /// Scratch and results of the pass.
 #[derive(Debug, Clone)]
 pub struct ForcePass {
-    /// Force and moment on each particle; empty before a pass.
+    /// Force and moment on each particle; empty before a pass, and after one that moves the particles on.
     pub loads: Vec<Load>,
+    /// Loads of a single chunk, empty between two chunks.
+    chunk_loads: Vec<Load>,
     /// Load on the particles by each of the drum's surfaces.
     pub surfaces: Vec<SurfaceLoad>,
     /// Work of the step.
@@ -66,8 +78,10 @@ impl ForcePass {
         let chunks = chunk_count(count);
         Self {
             loads: vec![Load::default(); count],
+            chunk_loads: vec![Load::default(); CHUNK],
             surfaces: vec![SurfaceLoad::default(); surfaces],
-            flows: StepFlows::default(),
+            // Before the first pass nobody knows how deep overlaps are.
+            flows: StepFlows { overlap_ratio: f64::INFINITY, ..StepFlows::default() },
             chunk_flows: vec![StepFlows::default(); chunks],
             chunk_surfaces: vec![SurfaceLoad::default(); chunks * surfaces],
             post: PostOffice::new(chunks),
@@ -81,6 +95,38 @@ impl ForcePass {
 
     /// Evaluates every contact; the loads must be empty.
     pub fn evaluate(&mut self, scene: Scene, table: &mut ContactTable, threads: &Threads) {
+        self.evaluate_all(scene, table, threads);
+        let post = &self.post;
+        let work = Delivery { first: 0, loads: &mut self.loads };
+        threads.for_each_chunk(work.loads.len(), work, &|work: Delivery| post.collect(work.first, work.loads));
+        self.add_up();
+    }
+
+    /// Evaluates every contact and moves the particles on, which ends this step's kick and begins the next step; the loads
+    /// must be empty. `scene` is told by `told`.
+    pub fn evaluate_and_move(
+        &mut self,
+        scene: Scene,
+        table: &mut ContactTable,
+        (drift, told): (Drift, Told),
+        threads: &Threads,
+    ) {
+        if threads.serve(self.loads.len()) {
+            let (motions, ways) = told.read();
+            self.evaluate_all(Scene { motions, ways, ..scene }, table, threads);
+            let post = &self.post;
+            let work = Complete { drift, told, source: &mut self.loads[..] };
+            threads.for_each_chunk(scene.matter.masses.len(), work, &|chunk: Complete<&mut [Load]>| {
+                post.collect(chunk.drift.chunk(), chunk.source);
+                chunk.drift.kick_and_run(chunk.told, chunk.source);
+            });
+        } else {
+            self.sweep(scene, table, (drift, told));
+        }
+        self.add_up();
+    }
+
+    fn evaluate_all(&mut self, scene: Scene, table: &mut ContactTable, threads: &Threads) {
         let count = self.loads.len();
         let work = Chunks {
             first: 0,
@@ -92,10 +138,39 @@ impl ForcePass {
             surfaces_per_chunk: self.surfaces.len(),
         };
         threads.for_each_chunk(count, work, &|chunk: Chunks| chunk.run(scene));
-        if self.chunk_flows.len() > 1 {
-            self.post.deliver(&mut self.loads, threads);
+    }
+
+    /// Evaluates and moves on chunk by chunk, so that large loads pass through the cache once a step: a chunk's contacts
+    /// are with itself and later ones, so after its turn nobody asks where its particles were, and its post is complete.
+    fn sweep(&mut self, scene: Scene, table: &mut ContactTable, (drift, mut told): (Drift, Told)) {
+        let mut left = Some(drift);
+        let surfaces_per_chunk = self.surfaces.len();
+        for (chunk, slots) in table.chunks.iter_mut().enumerate() {
+            let count = CHUNK.min(self.loads.len() - chunk * CHUNK);
+            let loads = &mut self.chunk_loads[..count];
+            let (motions, ways) = told.read();
+            let work = Chunks {
+                first: chunk,
+                slots: std::slice::from_mut(slots),
+                loads,
+                outboxes: &mut self.post.outboxes_mut()[chunk..=chunk],
+                flows: &mut self.chunk_flows[chunk..=chunk],
+                surfaces: &mut self.chunk_surfaces[chunk * surfaces_per_chunk..][..surfaces_per_chunk],
+                surfaces_per_chunk,
+            };
+            work.run(Scene { motions, ways, ..scene });
+            self.post.collect(chunk, &mut self.chunk_loads[..count]);
+            if let Some(drift) = left.take() {
+                let (own, rest) = if drift.chunks() > 1 {
+                    let (own, rest) = drift.split(1);
+                    (own, Some(rest))
+                } else {
+                    (drift, None)
+                };
+                left = rest;
+                own.kick_and_run(told.chunk(chunk), &mut self.chunk_loads[..count]);
+            }
         }
-        self.add_up();
     }
 
     /// Adds the chunks in their order.

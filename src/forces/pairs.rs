@@ -189,10 +189,10 @@ fn look_at(scene: Scene, slots: &mut Slots, due: &[u32; LANES], way: Lanes) {
 fn open(scene: Scene, slots: &mut Slots, candidate: usize) {
     let (owner, other) = slots.candidates.key(candidate);
     let (i, j) = (owner as usize, other as usize);
-    let particles = scene.particles;
-    let body = |id: usize| (particles.materials[id], particles.masses[id]);
+    let matter = scene.matter;
+    let body = |id: usize| (matter.materials[id], matter.masses[id]);
     let law = scene.laws.pair_slot(body(i), body(j));
-    slots.open(candidate, Traits { law, radii: [particles.radii[i], particles.radii[j]] });
+    slots.open(candidate, Traits { law, radii: [matter.radii[i], matter.radii[j]] });
 }
 
 /// Gathers the bodies of a block.

@@ -120,18 +120,14 @@ impl PostOffice {
         }
     }
 
-    /// Adds all post to the particles that it goes to: by chunk in the order of its senders.
-    pub fn deliver(&self, loads: &mut [Load], threads: &Threads) {
-        let count = loads.len();
-        threads.for_each_chunk(count, Delivery { first: 0, loads }, &|work: Delivery| {
-            let first_particle = work.first * CHUNK;
-            for &sender in &self.senders[work.first] {
-                for post in self.outboxes[sender as usize].to(work.first) {
-                    let [x, y, moment] = post.reaction;
-                    work.loads[post.particle as usize - first_particle].0 += Lanes::new([x, y, moment, 0.0]);
-                }
+    /// Adds the post for chunk `chunk` to the loads of its particles, in the order of its senders.
+    pub fn collect(&self, chunk: usize, loads: &mut [Load]) {
+        for &sender in &self.senders[chunk] {
+            for post in self.outboxes[sender as usize].to(chunk) {
+                let [x, y, moment] = post.reaction;
+                loads[post.particle as usize - chunk * CHUNK].0 += Lanes::new([x, y, moment, 0.0]);
             }
-        });
+        }
     }
 }
 
@@ -154,11 +150,11 @@ impl Chunked for Addressing<'_> {
 }
 
 /// Chunks that collect their post.
-struct Delivery<'a> {
+pub struct Delivery<'a> {
     /// The first of the chunks.
-    first: usize,
+    pub first: usize,
     /// Loads of whole chunks.
-    loads: &'a mut [Load],
+    pub loads: &'a mut [Load],
 }
 
 impl Chunked for Delivery<'_> {

@@ -72,9 +72,9 @@ fn open_contacts(scene: Scene, slots: &mut Slots) {
 #[cold]
 fn open(scene: Scene, slots: &mut Slots, candidate: usize) {
     let id = slots.candidates.key(candidate).0 as usize;
-    let particles = scene.particles;
-    let law = scene.laws.wall_slot((particles.materials[id], particles.masses[id]));
-    slots.open(candidate, Traits { law, radii: [particles.radii[id], 0.0] });
+    let matter = scene.matter;
+    let law = scene.laws.wall_slot((matter.materials[id], matter.masses[id]));
+    slots.open(candidate, Traits { law, radii: [matter.radii[id], 0.0] });
 }
 
 /// The gap between a particle and a feature of the drum, below zero where they overlap, or slightly less than the gap;

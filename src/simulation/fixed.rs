@@ -16,6 +16,7 @@ pub(super) struct Fixed {
     pub(super) time_step: f64,
     pub(super) gravity: Vec2,
     pub(super) mass: f64,
+    pub(super) least_radius: f64,
     pub(super) sample_steps: u64,
     pub(super) frame_steps: u64,
     /// The drum's speed where it is constant.
@@ -33,6 +34,7 @@ impl Fixed {
             time_step,
             gravity: Vec2::new(config.gravity[0], config.gravity[1]),
             mass: particles.total_mass(),
+            least_radius: particles.radii.iter().copied().fold(f64::INFINITY, f64::min),
             sample_steps: every(config.run.sample_every),
             frame_steps: every(config.run.frame_every),
             steady_speed: config.rotation.is_constant().then(|| config.rotation.angular_velocity(0.0)),
