@@ -20,19 +20,13 @@ pub struct Candidate {
     pub other: u32,
 }
 
-/// The way that rows of wakes are compared with: those that are rounded to below `way` come to below it, too. Never
-/// infinite, nor not a number, however far somebody has gone.
-pub fn waking(way: f64) -> f32 {
-    ((way * (1.0 + 1e-6)) as f32).min(f32::MAX)
-}
-
 /// Pairs of bodies near each other, in key order, and until when they may sleep; patch by patch of their owners.
 #[derive(Debug, Clone, Default)]
 pub struct Candidates {
     /// A patch begins with a whole row; those of the one before are filled up with its last candidate.
     bodies: Vec<Candidate>,
     /// Filled up with numbers that never come.
-    wake: Vec<[f32; ROW]>,
+    wake: Vec<f32>,
     patches: Vec<Patch>,
     /// The patches whose particles are at the candidates, their owners' own in front.
     watched: Vec<u32>,
@@ -69,9 +63,9 @@ impl Candidates {
     /// Goes on to the particles of patch `patch`.
     pub fn begin(&mut self, patch: u32) {
         if let Some(&last) = self.bodies.last() {
-            self.bodies.resize(ROW * self.wake.len(), last);
+            self.bodies.resize(self.wake.len(), last);
         }
-        let (first_row, first_watched) = (self.wake.len() as u32, self.watched.len() as u32);
+        let (first_row, first_watched) = ((self.wake.len() / ROW) as u32, self.watched.len() as u32);
         self.patches.push(Patch { first_row, first_watched, way: 0.0 });
         self.watched.push(patch);
     }
@@ -79,7 +73,7 @@ impl Candidates {
     /// Appends a candidate, awake.
     pub fn push(&mut self, candidate: Candidate) {
         if self.len().is_multiple_of(ROW) {
-            self.wake.push([f32::INFINITY; ROW]);
+            self.wake.resize(self.len() + ROW, f32::INFINITY);
         }
         self.bodies.push(candidate);
         self.sleep(self.len() - 1, 0.0);
@@ -111,16 +105,23 @@ impl Candidates {
         }
     }
 
-    /// How far anyone at a patch's candidates can have moved since the list was built [m].
+    /// How far anyone at the candidates of particle `owner` can have moved since the list was built [m].
     #[inline(always)]
-    pub fn way(&self, patch: usize) -> f64 {
-        self.patches[patch].way
+    pub fn way_of(&self, owner: u32) -> f64 {
+        self.patches[owner as usize % CHUNK / PATCH].way
+    }
+
+    /// The way that rows of wakes are compared with: those that are rounded to below a patch's way come to below it, too.
+    /// Never infinite, nor not a number, however far somebody has gone.
+    #[inline(always)]
+    pub fn waking(&self, patch: usize) -> f32 {
+        ((self.patches[patch].way * (1.0 + 1e-6)) as f32).min(f32::MAX)
     }
 
     /// The rows of a patch.
     #[inline(always)]
     pub fn rows(&self, patch: usize) -> std::ops::Range<usize> {
-        let end = self.patches.get(patch + 1).map_or(self.wake.len(), |next| next.first_row as usize);
+        let end = self.patches.get(patch + 1).map_or(self.wake.len() / ROW, |next| next.first_row as usize);
         self.patches[patch].first_row as usize..end
     }
 
@@ -155,19 +156,25 @@ impl Candidates {
     /// formed. Infinite for contacts. Scratch that saves work and changes no result.
     #[inline(always)]
     pub fn wakes(&self, row: usize) -> [f32; ROW] {
-        self.wake[row]
+        self.wake.as_chunks().0[row]
+    }
+
+    /// Whether a candidate has woken.
+    #[inline]
+    pub fn is_due(&self, candidate: usize, waking: f32) -> bool {
+        self.wake[candidate] <= waking
     }
 
     /// Whether a candidate can be a contact's again.
     #[inline]
     pub fn is_free(&self, candidate: usize) -> bool {
-        self.wake[candidate / ROW][candidate % ROW] < f32::INFINITY
+        self.wake[candidate] < f32::INFINITY
     }
 
     /// Lets a candidate sleep until the given way [m].
     #[inline]
     pub fn sleep(&mut self, candidate: usize, until: f64) {
-        self.wake[candidate / ROW][candidate % ROW] = until as f32;
+        self.wake[candidate] = until as f32;
     }
 
     /// Wakes the candidate of a contact that has ended, if the list still holds it.

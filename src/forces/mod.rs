@@ -54,6 +54,8 @@ pub struct Matter<'a> {
     pub masses: &'a [f64],
     /// Radii [m].
     pub radii: &'a [f64],
+    /// The radius [m] where all have the same.
+    pub radius: Option<f64>,
 }
 
 /// Scratch and results of the pass.

@@ -1,12 +1,14 @@
 //! Contacts between particles: candidates that are awake are looked at, contacts are worked out four at a time.
 
+use std::array;
+
 use super::bodies::{FlowLanes, Met, Pairs, settle};
 use super::post::Sink;
 use super::{Scene, in_use};
 use crate::contact::block::{Block, Ends, Traits, TraitsLanes};
 use crate::contact::linear::LinearLanes;
 use crate::contact::list::ListTraits;
-use crate::contact::table::{Slots, waking};
+use crate::contact::table::Slots;
 use crate::energy::StepFlows;
 use crate::lanes::{LANES, Lanes, ROW, Row, lanes, transpose};
 
@@ -88,12 +90,11 @@ fn work_through(
 /// Makes contacts of the candidates that touch; puts the others to sleep until the particles could have closed the gap.
 fn open_contacts(scene: Scene, slots: &mut Slots) {
     slots.candidates.advance(scene.ways, scene.arc);
-    let mut due = Due::none();
+    let mut due = Due { count: 0, candidates: [0; BLOCK + 2 * ROW] };
     for patch in 0..slots.candidates.patches() {
-        let way = slots.candidates.way(patch);
-        let waking = waking(way);
+        let waking = Row::splat(slots.candidates.waking(patch));
         for row in slots.candidates.rows(patch) {
-            due.find(row, slots.candidates.wakes(row), (way, waking));
+            due.find(row, slots.candidates.wakes(row), waking);
             if due.count >= BLOCK {
                 look_at_all(scene, slots, &mut due);
             }
@@ -102,28 +103,21 @@ fn open_contacts(scene: Scene, slots: &mut Slots) {
     look_at_all(scene, slots, &mut due);
 }
 
-/// Candidates that are due, and the ways of their patches.
+/// Candidates that are due.
 struct Due {
     count: usize,
     candidates: [u32; BLOCK + 2 * ROW],
-    ways: [f64; BLOCK + 2 * ROW],
 }
 
 impl Due {
-    fn none() -> Self {
-        Self { count: 0, candidates: [0; BLOCK + 2 * ROW], ways: [0.0; BLOCK + 2 * ROW] }
-    }
-
     /// Takes those of a row that are due, without a branch that a CPU could not foretell.
     #[inline(always)]
-    fn find(&mut self, row: usize, wakes: [f32; ROW], (way, waking): (f64, f32)) {
-        let set = Row::new(wakes).simd_le(Row::splat(waking)).to_bitmask() as usize;
+    fn find(&mut self, row: usize, wakes: [f32; ROW], waking: Row) {
+        let set = Row::new(wakes).simd_le(waking).to_bitmask() as usize & (IN_FRONT.len() - 1);
         // The whole row is written, those that are due in front; the next row overwrites the others.
         let (first, place) = ((ROW * row) as u32, self.count.min(BLOCK - 1));
-        let in_front = IN_FRONT[set & (IN_FRONT.len() - 1)];
-        let candidates = in_front.map(|lane| first + u32::from(lane));
+        let candidates = IN_FRONT[set].map(|lane| first + u32::from(lane));
         self.candidates[place..place + ROW].copy_from_slice(&candidates);
-        self.ways[place..place + ROW].copy_from_slice(&[way; ROW]);
         self.count += set.count_ones() as usize;
     }
 }
@@ -149,26 +143,27 @@ const IN_FRONT: [[u8; ROW]; 1 << ROW] = {
 /// Looks at the candidates that are due, four at a time; the last four are filled up with the last one.
 fn look_at_all(scene: Scene, slots: &mut Slots, due: &mut Due) {
     let count = std::mem::take(&mut due.count);
-    let last = count.saturating_sub(1);
-    let (candidate, way) = (due.candidates[last], due.ways[last]);
-    due.candidates[count..count + LANES].fill(candidate);
-    due.ways[count..count + LANES].fill(way);
-    let fours = due.candidates.as_chunks().0.iter().zip(due.ways.as_chunks().0);
-    for (candidates, ways) in fours.take(count.div_ceil(LANES)) {
-        look_at(scene, slots, candidates, Lanes::new(*ways));
+    let last = due.candidates[count.saturating_sub(1)];
+    due.candidates[count..count + LANES].fill(last);
+    for four in &due.candidates.as_chunks().0[..count.div_ceil(LANES)] {
+        look_at(scene, slots, four);
     }
 }
 
 /// Looks at four candidates.
-fn look_at(scene: Scene, slots: &mut Slots, due: &[u32; LANES], way: Lanes) {
+fn look_at(scene: Scene, slots: &mut Slots, due: &[u32; LANES]) {
     let candidates = &mut slots.candidates;
     let bodies = due.map(|candidate| candidates.bodies(candidate as usize));
     let own = bodies.map(|pair| &scene.motions[pair.owner as usize]);
     let other = bodies.map(|pair| &scene.motions[pair.other as usize]);
-    let [gap_x, gap_y, ..] = transpose(std::array::from_fn(|lane| other[lane].place - own[lane].place));
+    let [gap_x, gap_y, ..] = transpose(array::from_fn(|lane| other[lane].place - own[lane].place));
     // Each of the two has to go half of the gap, which is (distance² − reach²) / (distance + reach).
-    let reach = lanes(|lane| own[lane].radius() + other[lane].radius());
+    let reach = match scene.matter.radius {
+        Some(radius) => Lanes::splat(radius + radius),
+        None => lanes(|lane| own[lane].radius() + other[lane].radius()),
+    };
     let excess = gap_x * gap_x + gap_y * gap_y - reach * reach;
+    let way = lanes(|lane| candidates.way_of(bodies[lane].owner));
     let sleep = way + excess.fast_max(Lanes::ZERO) * scene.half_gap;
     for (&candidate, until) in due.iter().zip(sleep.to_array()) {
         candidates.sleep(candidate as usize, until);

@@ -6,7 +6,7 @@ use super::{Scene, in_use};
 use crate::contact::block::{Block, Ends, Traits, TraitsLanes};
 use crate::contact::linear::LinearLanes;
 use crate::contact::list::ListTraits;
-use crate::contact::table::{Slots, waking};
+use crate::contact::table::Slots;
 use crate::drum::{FeatureId, RIM};
 use crate::energy::{StepFlows, SurfaceLoad};
 use crate::integrator::Motion;
@@ -52,16 +52,18 @@ struct Spot {
 fn open_contacts(scene: Scene, slots: &mut Slots) {
     slots.candidates.advance(scene.ways, scene.arc);
     for patch in 0..slots.candidates.patches() {
-        let way = slots.candidates.way(patch);
-        let (waking, rows) = (waking(way), slots.candidates.rows(patch));
+        let (waking, rows) = (slots.candidates.waking(patch), slots.candidates.rows(patch));
         for candidate in ROW * rows.start..ROW * rows.end {
-            if slots.candidates.wakes(candidate / ROW)[candidate % ROW] > waking {
+            if !slots.candidates.is_due(candidate, waking) {
                 continue;
             }
             let (id, feature) = slots.candidates.key(candidate);
             // Only the particle moves, as seen from the drum. Slightly less than the gap covers round-off.
             match gap(scene, &scene.motions[id as usize], feature) {
-                Some(gap) if gap >= 0.0 => slots.candidates.sleep(candidate, way + (1.0 - 1e-6) * gap),
+                Some(gap) if gap >= 0.0 => {
+                    let way = slots.candidates.way_of(id);
+                    slots.candidates.sleep(candidate, way + (1.0 - 1e-6) * gap);
+                }
                 Some(_) => open(scene, slots, candidate),
                 None => {}
             }

@@ -38,8 +38,8 @@ pub struct Simulation {
     integrator: Integrator,
     forces: ForcePass,
     threads: Threads,
-    /// The drift of the next step, where it is done; never between two runs.
-    ahead: Option<DriftSums>,
+    /// Where the drift of the next step is done, the drum's turn in it [rad] and its sums; never between two runs.
+    ahead: Option<(f64, DriftSums)>,
     failure: Option<Error>,
 }
 
@@ -200,14 +200,7 @@ impl Simulation {
         if self.is_sort_due() {
             self.sort();
         }
-        let (from, to) = (self.time(), self.time_at(self.state.step + 1));
-        let schedule = &self.config.rotation;
-        let (angle, angular_velocity) = (schedule.angle(to), schedule.angular_velocity(to));
-        let turn = schedule.angle_increment(from, to);
-        let sums = match self.ahead.take() {
-            Some(sums) => sums,
-            None => self.start_drift(turn),
-        };
+        let (turn, sums) = self.ahead.take().unwrap_or_else(|| self.start_drift());
         self.state.step += 1;
         if !(sums.mass_moment.x + sums.mass_moment.y).is_finite() {
             self.integrator.place(&mut self.state.particles.positions);
@@ -215,14 +208,16 @@ impl Simulation {
             return Err(Error::NonFinite { step: self.state.step, particle });
         }
         let look = self.list.advance(sums.longest_way, turn);
-        let rotation = if look || self.has_outlines() { Rotation::new(angle) } else { Rotation::IDENTITY };
+        let (time, schedule) = (self.time(), &self.config.rotation);
+        let sees_angle = look || self.has_outlines();
+        let rotation = if sees_angle { Rotation::new(schedule.angle(time)) } else { Rotation::IDENTITY };
+        let instant = Instant { rotation, angular_velocity: schedule.angular_velocity(time), turn };
         if look {
             self.integrator.place(&mut self.state.particles.positions);
             if !self.list.still_holds(&self.state.particles.positions, rotation) {
                 self.rebuild(rotation);
             }
         }
-        let instant = Instant { rotation, angular_velocity, turn };
         if last || self.is_to_be_seen(sums.longest_way) {
             self.evaluate(instant);
             self.integrator.finish(&mut self.state.particles, &self.forces.loads, &self.threads);
@@ -261,9 +256,15 @@ impl Simulation {
         self.list.forget();
     }
 
-    fn start_drift(&mut self, turn: f64) -> DriftSums {
+    fn start_drift(&mut self) -> (f64, DriftSums) {
+        let turn = self.next_turn();
         self.forces.loads.fill(Load::default());
-        self.integrator.start(&mut self.state.particles, turn, &self.threads)
+        (turn, self.integrator.start(&mut self.state.particles, turn, &self.threads))
+    }
+
+    /// The angle by which the drum turns in the step after the last [rad].
+    fn next_turn(&self) -> f64 {
+        self.config.rotation.angle_increment(self.time(), self.time_at(self.state.step + 1))
     }
 
     fn is_record_due(&self) -> bool {
@@ -283,9 +284,8 @@ impl Simulation {
     }
 
     fn evaluate(&mut self, instant: Instant) {
-        let particles = &self.state.particles;
-        let matter =
-            Matter { materials: &particles.materials, masses: &particles.masses, radii: &particles.radii };
+        let Particles { materials, masses, radii, .. } = &self.state.particles;
+        let matter = Matter { materials, masses, radii, radius: self.fixed.radius };
         let (motions, ways) = (&self.integrator.motions[..], &self.integrator.ways[..]);
         let scene = Scene { motions, ways, ..scene(&self.fixed, &self.list, self.half_gap, matter, instant) };
         self.forces.evaluate(scene, &mut self.table, &self.threads);
@@ -293,20 +293,15 @@ impl Simulation {
 
     /// The forces of this step and the drift of the next.
     fn evaluate_and_move(&mut self, instant: Instant) {
-        let (from, to) = (self.time(), self.time_at(self.state.step + 1));
-        let turn = self.config.rotation.angle_increment(from, to);
-        let particles = &mut self.state.particles;
-        let matter =
-            Matter { materials: &particles.materials, masses: &particles.masses, radii: &particles.radii };
-        let moved = Moved {
-            velocities: &mut particles.velocities,
-            angles: &mut particles.angles,
-            spins: &mut particles.angular_velocities,
-        };
+        let turn = self.next_turn();
+        let Particles { materials, masses, radii, velocities, angles, angular_velocities: spins, .. } =
+            &mut self.state.particles;
+        let matter = Matter { materials, masses, radii, radius: self.fixed.radius };
+        let moved = Moved { velocities, angles, spins };
         let scene = scene(&self.fixed, &self.list, self.half_gap, matter, instant);
         let drift = self.integrator.drift(moved, turn);
         self.forces.evaluate_and_move(scene, &mut self.table, drift, &self.threads);
-        self.ahead = Some(self.integrator.sums());
+        self.ahead = Some((turn, self.integrator.sums()));
     }
 
     fn charge(&mut self, mass_moment: Vec2, turn: f64) {
