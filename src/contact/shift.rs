@@ -48,16 +48,17 @@ by_columns!(TraitsBlock: damping, own_radius, other_radius, law);
 
 /// Moves all entries after entry `index` up by one; the last one is then anything.
 pub fn close_gap<F: Four + Copy>(fours: &mut [F], index: usize) {
-    let mut lane = index % LANES;
     let fours = &mut fours[index / LANES..];
+    let mut lane = index % LANES;
     for four in 0..fours.len() {
         let next = fours[(four + 1).min(fours.len() - 1)];
-        // Whole blocks, which are nearly all, move by constant lanes.
-        if std::mem::take(&mut lane) == 0 {
-            fours[four].pull(0, &next)
+        if lane > 0 {
+            fours[four].pull(lane, &next);
         } else {
-            fours[four].pull(index % LANES, &next)
+            // Nearly all are moved whole, by constant lanes.
+            fours[four].pull(0, &next);
         }
+        lane = 0;
     }
 }
 

@@ -100,7 +100,8 @@ impl ForcePass {
         self.evaluate_all(scene, table, threads);
         let post = &self.post;
         let work = Delivery { first: 0, loads: &mut self.loads };
-        threads.for_each_chunk(work.loads.len(), work, &|work: Delivery| post.collect(work.first, work.loads));
+        threads
+            .for_each_chunk(work.loads.len(), work, &|work: Delivery| post.collect(work.first, work.loads));
         self.add_up();
     }
 
@@ -191,14 +192,13 @@ impl ForcePass {
     }
 }
 
-/// Reads what the contacts of a chunk are about to read in their own order, in the order in which it lies in memory:
-/// where that has left the cache, many reads are then under way at once.
+/// Reads what the contacts of a chunk are about to read in their own order: the particles of the chunk that `motions`
+/// begins with, then those `abroad`. Where that has left the cache, many reads are then under way at once.
 #[inline(always)]
-fn fetch(motions: &[Motion], loads: &[Load]) {
-    let places = motions.iter().take(CHUNK).fold(Lanes::ZERO, |seen, motion| seen | motion.place);
-    // Two loads to a cache line.
-    let loads = loads.iter().take(CHUNK).step_by(2).fold(Lanes::ZERO, |seen, load| seen | load.0);
-    std::hint::black_box(places | loads);
+fn fetch(motions: &[Motion], first: usize, abroad: &[u32]) {
+    let own = motions[first..].iter().take(CHUNK).fold(Lanes::ZERO, |seen, motion| seen | motion.place);
+    let places = abroad.iter().fold(own, |seen, &particle| seen | motions[particle as usize].place);
+    std::hint::black_box(places);
 }
 
 /// All ones in the first `count` lanes.
@@ -229,7 +229,7 @@ impl Chunks<'_> {
     fn run(self, scene: Scene) {
         let (Some(slots), Some(outbox)) = (self.slots.first_mut(), self.outboxes.first_mut()) else { return };
         outbox.clear();
-        fetch(&scene.motions[self.first * CHUNK..], self.loads);
+        fetch(scene.motions, self.first * CHUNK, outbox.abroad());
         let mut sink = Sink { first: self.first * CHUNK, loads: self.loads, outbox };
         self.surfaces.fill(SurfaceLoad::default());
         let mut flows = pairs::evaluate(scene, &mut slots.pairs, &mut sink);

@@ -18,7 +18,9 @@ struct Post {
 /// What one chunk has posted in this step, by the chunk that it goes to.
 #[derive(Debug, Clone, Default)]
 pub struct Outbox {
-    /// Ascending.
+    /// The particles of other chunks that the chunk has candidates or contacts with; ascending.
+    abroad: Vec<u32>,
+    /// Their chunks; ascending.
     targets: Vec<u32>,
     posts: Vec<Vec<Post>>,
 }
@@ -29,11 +31,19 @@ impl Outbox {
         let pairs = &table.chunks[own].pairs;
         let contacts = pairs.contacts.iter().map(|entry| entry.contact.other);
         let others = pairs.candidates.iter().map(|candidate| candidate.other).chain(contacts);
+        self.abroad.clear();
+        self.abroad.extend(others.filter(|&other| other as usize / CHUNK != own));
+        self.abroad.sort_unstable();
+        self.abroad.dedup();
         self.targets.clear();
-        self.targets.extend(others.map(|other| other / CHUNK as u32).filter(|&chunk| chunk as usize != own));
-        self.targets.sort_unstable();
+        self.targets.extend(self.abroad.iter().map(|&other| other / CHUNK as u32));
         self.targets.dedup();
         self.posts.resize(self.targets.len(), Vec::new());
+    }
+
+    /// The particles of other chunks that contacts may be with.
+    pub fn abroad(&self) -> &[u32] {
+        &self.abroad
     }
 
     /// Throws the last step's post away.

@@ -14,8 +14,8 @@ use crate::particles::Particles;
 use crate::threads::{CHUNK, PATCH, Threads, chunk_count};
 use crate::vector::Vec2;
 use constants::Constants;
-pub use drift::{Complete, Drift, Moved, Told};
 use drift::Setting;
+pub use drift::{Complete, Drift, Moved, Told};
 use kick::Kick;
 
 /// What contacts need of a particle in one step, as two rows that load at once; one cache line.

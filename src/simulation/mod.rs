@@ -207,17 +207,9 @@ impl Simulation {
             let particle = self.id_of(self.state.particles.first_non_finite().unwrap_or(0));
             return Err(Error::NonFinite { step: self.state.step, particle });
         }
-        let look = self.list.advance(sums.longest_way, turn);
-        let (time, schedule) = (self.time(), &self.config.rotation);
-        let sees_angle = look || self.has_outlines();
-        let rotation = if sees_angle { Rotation::new(schedule.angle(time)) } else { Rotation::IDENTITY };
-        let instant = Instant { rotation, angular_velocity: schedule.angular_velocity(time), turn };
-        if look {
-            self.integrator.place(&mut self.state.particles.positions);
-            if !self.list.still_holds(&self.state.particles.positions, rotation) {
-                self.rebuild(rotation);
-            }
-        }
+        let rotation = self.keep_list(sums.longest_way, turn);
+        let angular_velocity = self.config.rotation.angular_velocity(self.time());
+        let instant = Instant { rotation, angular_velocity, turn };
         if last || self.is_to_be_seen(sums.longest_way) {
             self.evaluate(instant);
             self.integrator.finish(&mut self.state.particles, &self.forces.loads, &self.threads);
@@ -228,6 +220,23 @@ impl Simulation {
         self.guard()?;
         self.record();
         Ok(())
+    }
+
+    /// Follows a step with the neighbor list, and builds it anew where it no longer holds. Returns the drum's rotation,
+    /// which without outlines only the list may see.
+    fn keep_list(&mut self, longest_way: f64, turn: f64) -> Rotation {
+        let look = self.list.advance(longest_way, turn);
+        if !look && !self.has_outlines() {
+            return Rotation::IDENTITY;
+        }
+        let rotation = Rotation::new(self.config.rotation.angle(self.time()));
+        if look {
+            self.integrator.place(&mut self.state.particles.positions);
+            if !self.list.still_holds(&self.state.particles.positions, rotation) {
+                self.rebuild(rotation);
+            }
+        }
+        rotation
     }
 
     /// Whether the particles have to be up to date at the end of this step, in which nobody moved farther than
