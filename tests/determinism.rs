@@ -100,6 +100,8 @@ fn threads_do_not_show_in_a_mixed_load() {
     let one = run(1);
     assert!(touching(&one).0 > 50, "the run must hold contacts: {:?}", touching(&one));
     assert_eq!(bits(&one), bits(&run(3)));
+    let residual = one.state().ledger.relative_residual(&one.stored());
+    assert!(residual < 1e-11, "each bundle moves by its own mass: {residual:e}");
 }
 
 #[test]

@@ -355,6 +355,24 @@ mod tests {
     }
 
     #[test]
+    fn a_patch_follows_those_that_its_candidates_are_with() {
+        let patch = PATCH as u32;
+        let mut candidates = Candidates::default();
+        candidates.begin(0);
+        candidates.push_pair(Candidate { owner: 0, other: 1 });
+        candidates.push_pair(Candidate { owner: 2, other: 2 * patch });
+        candidates.begin(1);
+        candidates.push_pair(Candidate { owner: patch, other: patch + 1 });
+        // Squares of ways: patch 2 has moved by 4, which concerns patch 0 only.
+        candidates.advance(&[1.0, 4.0, 16.0], 0.5);
+        candidates.advance(&[1.0, 4.0, 0.0], 0.0);
+        assert_eq!((candidates.way_of(2), candidates.way_of(patch)), (4.5 + 1.0, 2.5 + 2.0));
+        // The first patch is filled up, so that the second begins with a row of its own.
+        assert_eq!((candidates.rows(0), candidates.rows(1)), (0..1, 1..2));
+        assert_eq!((candidates.of(2), candidates.key(ROW)), (1..2, (patch, patch + 1)));
+    }
+
+    #[test]
     fn candidates_are_found_by_their_particle() {
         let candidates = slots(&[(0, 1), (2, 3), (2, 5), (6, 7)]).candidates;
         assert_eq!(
