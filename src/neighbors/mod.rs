@@ -149,12 +149,17 @@ impl Chunked for Search<'_> {
 fn find_pairs(i: usize, particles: &Particles, grid: &CellGrid, skin: f64, found: &mut Vec<u32>) {
     let position = particles.positions[i];
     let own_reach = particles.radii[i] + skin;
-    grid.for_each_near(position, |members| {
-        let higher = members.iter().filter(|&&j| j as usize > i);
-        found.extend(higher.filter(|&&j| {
+    grid.for_each_near(position, |members, places| {
+        // Every member is written, and overwritten unless it is near: no CPU could foretell a branch here.
+        let mut count = found.len();
+        found.resize(count + members.len(), 0);
+        for (&j, &place) in members.iter().zip(places) {
             let reach = own_reach + particles.radii[j as usize];
-            (particles.positions[j as usize] - position).norm_squared() < reach * reach
-        }));
+            let is_near = (place - position).norm_squared() < reach * reach;
+            found[count] = j;
+            count += usize::from((j as usize > i) & is_near);
+        }
+        found.truncate(count);
     });
     found.sort_unstable();
 }
