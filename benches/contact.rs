@@ -17,9 +17,9 @@ fn wave(first: usize, pace: usize) -> Lanes {
 fn encounters(law: &LinearLaw, count: usize) -> Vec<(Encounter, HistoryLanes)> {
     let none = History::default();
     let encounter = |first: usize| {
-        let displacement = Displacement { approach: wave(first, 3) * 1e-7, slip: wave(first, 7) * 1e-7 };
+        let displacement = Displacement { parting: wave(first, 3) * 1e-7, slip: wave(first, 7) * 1e-7 };
         let overlap = (wave(first, 5) * 1.1 + 1.0) * 1e-6;
-        let past = (overlap - displacement.approach).fast_max(Lanes::ZERO);
+        let past = (overlap + displacement.parting).fast_max(Lanes::ZERO);
         let history = HistoryLanes {
             overlap: past,
             tangential_displacement: past * wave(first, 11) * 0.5,
@@ -27,9 +27,9 @@ fn encounters(law: &LinearLaw, count: usize) -> Vec<(Encounter, HistoryLanes)> {
             ..HistoryLanes::new(|_| &none)
         };
         let step_rate = 1.0 / scenes::common::TIME_STEP;
-        let closing_speed = displacement.approach * step_rate;
+        let parting_speed = displacement.parting * step_rate;
         let damping = Lanes::splat(5.35e3);
-        (Encounter { overlap, displacement, closing_speed, damping, step_rate }, history)
+        (Encounter { overlap, displacement, parting_speed, damping, step_rate }, history)
     };
     (0..count).step_by(LANES).map(encounter).collect()
 }

@@ -5,7 +5,7 @@
 
 use std::ops::{Add, Mul, Neg, Sub};
 
-use wide::f64x4;
+use wide::{f32x8, f64x4};
 
 use crate::vector::Vec2;
 
@@ -14,6 +14,12 @@ pub type Lanes = f64x4;
 
 /// Numbers per `Lanes`.
 pub const LANES: usize = 4;
+
+/// Eight numbers of half the size, where that is precise enough.
+pub type Row = f32x8;
+
+/// Numbers per `Row`.
+pub const ROW: usize = 8;
 
 /// A number for each index.
 #[inline(always)]
@@ -24,8 +30,7 @@ pub fn lanes(number: impl Fn(usize) -> f64) -> Lanes {
 /// Rows to columns: entry `k` of row `l` becomes entry `l` of row `k`.
 #[inline(always)]
 pub fn transpose(rows: [Lanes; LANES]) -> [Lanes; LANES] {
-    let rows = rows.map(Lanes::to_array);
-    std::array::from_fn(|column| lanes(|row| rows[row][column]))
+    Lanes::transpose(rows)
 }
 
 /// Four vectors.

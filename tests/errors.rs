@@ -53,6 +53,13 @@ fn failures_carry_step_and_bundle() {
     };
     let deep = at_speed(300.0);
     assert!(matches!(deep, Error::Overlap { particle: 0, ratio, .. } if ratio > 0.5), "{deep}");
+    // The particles stay where they were when it happened, as if somebody had looked at every step.
+    let thrown = || start(&baseline(1, 0), single([0.2, 0.0], [300.0, 0.0], 0.0));
+    let (mut at_once, mut in_steps) = (thrown(), thrown());
+    at_once.run(1000).unwrap_err();
+    while in_steps.run(1).is_ok() {}
+    assert_eq!(at_once.state().step, in_steps.state().step);
+    assert_eq!(at_once.state().particles, in_steps.state().particles);
     let through = at_speed(3e4);
     assert!(matches!(through, Error::Escaped { step: 1, particle: 0 }), "{through}");
 }

@@ -58,12 +58,12 @@ impl Ends {
 #[derive(Debug, Clone, Copy, Default)]
 #[repr(C, align(64))]
 pub struct Block {
-    overlap: [f64; LANES],
-    tangential_displacement: [f64; LANES],
-    normal_force: [f64; LANES],
-    tangential_force: [f64; LANES],
-    normal_x: [f64; LANES],
-    normal_y: [f64; LANES],
+    pub(super) overlap: [f64; LANES],
+    pub(super) tangential_displacement: [f64; LANES],
+    pub(super) normal_force: [f64; LANES],
+    pub(super) tangential_force: [f64; LANES],
+    pub(super) normal_x: [f64; LANES],
+    pub(super) normal_y: [f64; LANES],
 }
 
 impl Block {
@@ -90,10 +90,10 @@ impl Block {
         self.normal_y = history.normal.y.to_array();
     }
 
-    /// Whether a contact touched at the last force evaluation.
-    #[inline]
-    pub(super) fn is_touching(&self, lane: usize) -> bool {
-        self.overlap[lane] > 0.0
+    /// The contacts that did not touch at the last force evaluation, as bits.
+    #[inline(always)]
+    pub(super) fn separated(&self) -> u32 {
+        Lanes::new(self.overlap).simd_le(Lanes::ZERO).to_bitmask()
     }
 
     #[inline]
@@ -121,10 +121,10 @@ impl Block {
 #[derive(Debug, Clone, Copy, Default)]
 #[repr(C, align(32))]
 pub struct TraitsBlock {
-    damping: [f64; LANES],
-    own_radius: [f64; LANES],
-    other_radius: [f64; LANES],
-    law: [u32; LANES],
+    pub(super) damping: [f64; LANES],
+    pub(super) own_radius: [f64; LANES],
+    pub(super) other_radius: [f64; LANES],
+    pub(super) law: [u32; LANES],
 }
 
 impl TraitsBlock {

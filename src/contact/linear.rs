@@ -231,17 +231,20 @@ impl LinearLanes {
     pub fn respond(&self, encounter: &Encounter, history: &HistoryLanes) -> Response {
         let zero = Lanes::ZERO;
         let overlap = encounter.overlap.fast_max(zero);
-        let touching = overlap.simd_gt(zero);
+        let touching = encounter.overlap.simd_gt(zero);
         let touched = history.overlap.simd_gt(zero);
         // The step's whole change of overlap, and the part of it that fell within the contact.
-        let approach =
-            touched.bitselect(encounter.overlap - history.overlap, encounter.displacement.approach);
-        let travel = overlap - history.overlap;
+        let (mut approach, travel) = (encounter.overlap - history.overlap, overlap - history.overlap);
+        let mut share = touching & Lanes::ONE;
+        if !touched.all() {
+            approach = touched.select(approach, -encounter.displacement.parting);
+            share = touched.select(share, touching & share_since_touch(travel, approach));
+        }
         let dissipated_normal =
             self.dashpot_loss(encounter, (overlap + history.overlap) * 0.5, approach, travel);
 
-        let normal_force = touching.bitselect(self.normal_force(encounter), zero);
-        let slip = encounter.displacement.slip * share_in_contact(touching, touched, travel, approach);
+        let normal_force = touching & self.normal_force(encounter);
+        let slip = encounter.displacement.slip * share;
         let before = history.tangential_displacement;
         let trial = before + slip;
         let limit = self.slip_compliance * normal_force.abs();
@@ -258,7 +261,7 @@ impl LinearLanes {
     /// Fₙ = kₙ δ + νₙ δ̇, or the least that is allowed.
     #[inline(always)]
     fn normal_force(&self, encounter: &Encounter) -> Lanes {
-        let force = self.normal_stiffness * encounter.overlap + encounter.damping * encounter.closing_speed;
+        let force = self.normal_stiffness * encounter.overlap - encounter.damping * encounter.parting_speed;
         force.fast_max(self.least_normal_force)
     }
 
@@ -283,23 +286,15 @@ impl LinearLanes {
     #[inline(always)]
     fn sliding_loss(&self, before: Lanes, after: Lanes, slid: Lanes) -> Lanes {
         let turned = (before * after).simd_lt(Lanes::ZERO);
-        let mean = turned.bitselect(after, (before + after) * 0.5);
+        let mean = turned.select(after, (before + after) * 0.5);
         self.tangential_stiffness * mean * slid
     }
 }
 
-/// The part of a step's slip that stretches the spring: all of it, but only what comes after first touch, and nothing
-/// once the contact has opened.
+/// The part of a step's slip that stretches the spring of a contact that has just formed: what comes after first touch.
 #[inline(always)]
-fn share_in_contact(touching: Lanes, touched: Lanes, travel: Lanes, approach: Lanes) -> Lanes {
-    let one = Lanes::ONE;
-    let throughout = touching.bitselect(one, Lanes::ZERO);
-    if touched.all() {
-        return throughout;
-    }
-    let closes = approach.simd_gt(travel);
-    let share = closes.bitselect(travel / approach, one);
-    touched.bitselect(throughout, touching.bitselect(share, Lanes::ZERO))
+fn share_since_touch(travel: Lanes, approach: Lanes) -> Lanes {
+    approach.simd_gt(travel).select(travel / approach, Lanes::ONE)
 }
 
 #[cfg(test)]
@@ -352,8 +347,8 @@ mod tests {
                 };
                 let encounter = Encounter {
                     overlap: lanes(|_| wave(7)),
-                    displacement: Displacement { approach: lanes(|_| wave(11)), slip: lanes(|_| wave(13)) },
-                    closing_speed: lanes(|_| wave(2) * 1e5),
+                    displacement: Displacement { parting: lanes(|_| wave(11)), slip: lanes(|_| wave(13)) },
+                    parting_speed: lanes(|_| wave(2) * 1e5),
                     damping: lanes(|_| 5e3),
                     step_rate: 1.0 / 3.7e-6,
                 };

@@ -2,6 +2,7 @@
 
 use super::Contact;
 use super::block::{Block, Ends, Traits, TraitsBlock};
+use super::shift::{close_gap, open_gap};
 use crate::lanes::LANES;
 
 /// One contact with all that its list keeps of it.
@@ -84,12 +85,6 @@ impl ContactList {
         (0..self.len).map(|index| self.entry(index))
     }
 
-    /// Whether contact `index` touched at the last force evaluation.
-    #[inline]
-    pub fn is_touching(&self, index: usize) -> bool {
-        self.blocks[index / LANES].is_touching(index % LANES)
-    }
-
     /// The key of contact `index`.
     #[inline]
     pub fn key(&self, index: usize) -> (u32, u32) {
@@ -108,18 +103,6 @@ impl ContactList {
                 self.traits = ListTraits::Each(blocks);
             }
             ListTraits::Each(blocks) => blocks[block].put(lane, &entry.traits),
-        }
-    }
-
-    /// Copies contact `from` to place `to`.
-    #[inline]
-    fn shift(&mut self, from: usize, to: usize) {
-        let (key, history) = (self.key(from), self.blocks[from / LANES].of(from % LANES));
-        self.ends[to / LANES].put(to % LANES, key);
-        self.blocks[to / LANES].put(to % LANES, &history);
-        if let ListTraits::Each(blocks) = &mut self.traits {
-            let traits = blocks[from / LANES].traits(from % LANES);
-            blocks[to / LANES].put(to % LANES, &traits);
         }
     }
 
@@ -161,8 +144,10 @@ impl ContactList {
             }
         }
         self.append(&entry);
-        for index in (low + 1..self.len).rev() {
-            self.shift(index - 1, index);
+        open_gap(&mut self.ends, low);
+        open_gap(&mut self.blocks, low);
+        if let ListTraits::Each(blocks) = &mut self.traits {
+            open_gap(blocks, low);
         }
         self.put(low, &entry);
     }
@@ -170,28 +155,36 @@ impl ContactList {
     /// Takes contact `index` out.
     pub fn remove(&mut self, index: usize) -> Entry {
         let entry = self.entry(index);
-        self.remove_where(|_, other| other == index, |_| {});
+        self.drop(index);
         entry
     }
 
-    /// Takes every contact out that `ended` names, and shows its key to `take`.
-    pub fn remove_where(&mut self, ended: impl Fn(&Self, usize) -> bool, mut take: impl FnMut((u32, u32))) {
-        let mut kept = 0;
-        for index in 0..self.len {
-            if ended(self, index) {
-                take(self.key(index));
+    fn drop(&mut self, index: usize) {
+        self.len -= 1;
+        let blocks = self.len.div_ceil(LANES);
+        close_gap(&mut self.ends, index);
+        close_gap(&mut self.blocks, index);
+        self.ends.truncate(blocks);
+        self.blocks.truncate(blocks);
+        if let ListTraits::Each(each) = &mut self.traits {
+            close_gap(each, index);
+            each.truncate(blocks);
+        }
+    }
+
+    /// Takes the contacts out that did not touch at the last force evaluation, and shows their keys to `take`.
+    pub fn drop_separated(&mut self, mut take: impl FnMut((u32, u32))) {
+        for block in (0..self.blocks.len()).rev() {
+            let separated = self.blocks[block].separated();
+            if separated == 0 {
                 continue;
             }
-            if kept < index {
-                self.shift(index, kept);
+            for index in (LANES * block..self.len.min(LANES * (block + 1))).rev() {
+                if separated >> (index % LANES) & 1 == 1 {
+                    take(self.key(index));
+                    self.drop(index);
+                }
             }
-            kept += 1;
-        }
-        self.len = kept;
-        self.ends.truncate(kept.div_ceil(LANES));
-        self.blocks.truncate(kept.div_ceil(LANES));
-        if let ListTraits::Each(blocks) = &mut self.traits {
-            blocks.truncate(kept.div_ceil(LANES));
         }
     }
 }
@@ -202,7 +195,9 @@ mod tests {
     use super::*;
 
     fn entry(particle: u32, other: u32) -> Entry {
-        let history = History { overlap: f64::from(10 * particle + other), ..History::default() };
+        let overlap = if other.is_multiple_of(3) { 0.0 } else { f64::from(10 * particle + other) };
+        let history =
+            History { overlap, normal_force: f64::from(10 * particle + other), ..History::default() };
         // Contacts of particle 3 differ from the others.
         let radii = if particle == 3 { [2.0, 1.0] } else { [1.0; 2] };
         Entry { contact: Contact { particle, other, history }, traits: Traits { radii, ..Traits::default() } }
@@ -222,13 +217,13 @@ mod tests {
         }
         assert_eq!(keys(&list), (0..90).map(|key| (key / 10, key % 10)).collect::<Vec<_>>());
         let mut taken = Vec::new();
-        list.remove_where(|list, index| list.key(index).1 % 3 == 0, |key| taken.push(key.1));
+        list.drop_separated(|key| taken.push(key.1));
         assert_eq!(taken.len(), 36);
         assert!(taken.iter().all(|other| other % 3 == 0));
         assert_eq!(list.len(), 54);
         assert!(keys(&list).is_sorted());
         let own = |entry: &Entry| f64::from(10 * entry.contact.particle + entry.contact.other);
-        assert!(list.iter().all(|entry| entry.contact.history.overlap == own(&entry)));
+        assert!(list.iter().all(|entry| entry.contact.history.normal_force == own(&entry)));
         assert!(list.iter().all(|found| found == entry(found.contact.particle, found.contact.other)));
     }
 }

@@ -8,12 +8,13 @@
 //! > F = −Fₙ n + Fₜ t,
 //!
 //! on `j` the opposite. With the spring's stretch ξ growing as `j` moves along `t` relative to `i` (spin included),
-//! Fₜ = kₛ ξ. Approach (growing overlap) and slip (growing ξ) are positive.
+//! Fₜ = kₛ ξ. Slip is positive where ξ grows; displacements along the normal are positive where bodies part.
 
 pub mod block;
 pub mod laws;
 pub mod linear;
 pub mod list;
+mod shift;
 pub mod table;
 
 use serde::{Deserialize, Serialize};
@@ -91,18 +92,19 @@ impl HistoryLanes {
         }
     }
 
-    /// The forces on the owners.
+    /// The forces on the other sides; those on the owners are the opposite.
     #[inline(always)]
-    pub fn force(&self) -> Vec2Lanes {
-        self.normal.perpendicular() * self.tangential_force - self.normal * self.normal_force
+    pub fn reaction(&self) -> Vec2Lanes {
+        let (normal, push, pull) = (self.normal, self.normal_force, self.tangential_force);
+        Vec2Lanes { x: normal.x * push + normal.y * pull, y: normal.y * push - normal.x * pull }
     }
 }
 
 /// The relative motion of two bodies at their contact, resolved along one normal and its tangent; four contacts.
 #[derive(Debug, Clone, Copy)]
 pub struct Displacement {
-    /// Along the normal [m], positive when the bodies approach.
-    pub approach: Lanes,
+    /// Along the normal [m], positive when the bodies part.
+    pub parting: Lanes,
     /// Along the tangent, spin included [m].
     pub slip: Lanes,
 }
@@ -114,9 +116,9 @@ pub struct Encounter {
     pub overlap: Lanes,
     /// The displacement that happened during the step; spring and work use it.
     pub displacement: Displacement,
-    /// Rate of approach at the time of the force [m/s], which is half a step later than the displacement's mean; the
+    /// Rate of parting at the time of the force [m/s], which is half a step later than the displacement's mean; the
     /// dashpot uses it.
-    pub closing_speed: Lanes,
+    pub parting_speed: Lanes,
     /// Damping coefficient νₙ of each pair of bodies [N s/m].
     pub damping: Lanes,
     /// 1 / time step [1/s].

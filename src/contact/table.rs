@@ -7,8 +7,9 @@
 use super::Contact;
 use super::block::Traits;
 use super::list::{ContactList, Entry};
-use crate::lanes::LANES;
-use crate::threads::{CHUNK, chunk_count};
+use crate::lanes::ROW;
+use crate::threads::{CHUNK, PATCH, chunk_count};
+use crate::vector::larger;
 
 /// Two bodies near each other.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -19,16 +20,29 @@ pub struct Candidate {
     pub other: u32,
 }
 
-/// Pairs of bodies near each other, in key order, and until when they may sleep.
+/// Pairs of bodies near each other, in key order, and until when they may sleep; patch by patch of their owners.
 #[derive(Debug, Clone, Default)]
 pub struct Candidates {
+    /// A patch begins with a whole row; those of the one before are filled up with its last candidate.
     bodies: Vec<Candidate>,
-    /// Filled up to whole fours with numbers that never come.
-    wake: Vec<[f64; LANES]>,
+    /// Filled up with numbers that never come.
+    wake: Vec<f32>,
+    patches: Vec<Patch>,
+    /// The patches whose particles are at the candidates, their owners' own in front.
+    watched: Vec<u32>,
+}
+
+/// The candidates of one patch's particles.
+#[derive(Debug, Clone, Copy)]
+struct Patch {
+    first_row: u32,
+    first_watched: u32,
+    /// How far anyone in the patches watched can have moved since the list was built [m].
+    way: f64,
 }
 
 impl Candidates {
-    /// Number of candidates.
+    /// Number of candidates, those that fill up included.
     pub fn len(&self) -> usize {
         self.bodies.len()
     }
@@ -42,15 +56,73 @@ impl Candidates {
     pub fn clear(&mut self) {
         self.bodies.clear();
         self.wake.clear();
+        self.patches.clear();
+        self.watched.clear();
+    }
+
+    /// Goes on to the particles of patch `patch`.
+    pub fn begin(&mut self, patch: u32) {
+        if let Some(&last) = self.bodies.last() {
+            self.bodies.resize(self.wake.len(), last);
+        }
+        let (first_row, first_watched) = ((self.wake.len() / ROW) as u32, self.watched.len() as u32);
+        self.patches.push(Patch { first_row, first_watched, way: 0.0 });
+        self.watched.push(patch);
     }
 
     /// Appends a candidate, awake.
     pub fn push(&mut self, candidate: Candidate) {
-        if self.len().is_multiple_of(LANES) {
-            self.wake.push([f64::INFINITY; LANES]);
+        if self.len().is_multiple_of(ROW) {
+            self.wake.resize(self.len() + ROW, f32::INFINITY);
         }
         self.bodies.push(candidate);
         self.sleep(self.len() - 1, 0.0);
+    }
+
+    /// Appends a candidate whose other side is a particle, awake.
+    pub fn push_pair(&mut self, candidate: Candidate) {
+        self.push(candidate);
+        let (patch, first) =
+            (candidate.other / PATCH as u32, self.patches.last().map_or(0, |p| p.first_watched));
+        if !self.watched[first as usize..].contains(&patch) {
+            self.watched.push(patch);
+        }
+    }
+
+    /// Number of patches.
+    pub fn patches(&self) -> usize {
+        self.patches.len()
+    }
+
+    /// Follows a step in which nobody of a patch moved farther than the root of its entry in `ways`, and `arc` more.
+    pub fn advance(&mut self, ways: &[f64], arc: f64) {
+        let mut end = self.watched.len();
+        for patch in self.patches.iter_mut().rev() {
+            let watched = &self.watched[patch.first_watched as usize..end];
+            let longest = watched.iter().fold(0.0, |most, &patch| larger(most, ways[patch as usize]));
+            patch.way += longest.sqrt() + arc;
+            end = patch.first_watched as usize;
+        }
+    }
+
+    /// How far anyone at the candidates of particle `owner` can have moved since the list was built [m].
+    #[inline(always)]
+    pub fn way_of(&self, owner: u32) -> f64 {
+        self.patches[owner as usize % CHUNK / PATCH].way
+    }
+
+    /// The way that rows of wakes are compared with: those that are rounded to below a patch's way come to below it, too.
+    /// Never infinite, nor not a number, however far somebody has gone.
+    #[inline(always)]
+    pub fn waking(&self, patch: usize) -> f32 {
+        ((self.patches[patch].way * (1.0 + 1e-6)) as f32).min(f32::MAX)
+    }
+
+    /// The rows of a patch.
+    #[inline(always)]
+    pub fn rows(&self, patch: usize) -> std::ops::Range<usize> {
+        let end = self.patches.get(patch + 1).map_or(self.wake.len() / ROW, |next| next.first_row as usize);
+        self.patches[patch].first_row as usize..end
     }
 
     /// A candidate's bodies.
@@ -68,7 +140,11 @@ impl Candidates {
     /// The candidates of one particle.
     pub fn of(&self, particle: u32) -> std::ops::Range<usize> {
         let start = self.bodies.partition_point(|bodies| bodies.owner < particle);
-        start..start + self.bodies[start..].partition_point(|bodies| bodies.owner == particle)
+        let mut end = start + self.bodies[start..].partition_point(|bodies| bodies.owner == particle);
+        while end > start + 1 && self.bodies[end - 1] == self.bodies[end - 2] {
+            end -= 1;
+        }
+        start..end
     }
 
     /// All candidates.
@@ -76,28 +152,29 @@ impl Candidates {
         self.bodies.iter()
     }
 
-    /// Number of fours, the last of which may be filled up.
-    pub fn fours(&self) -> usize {
-        self.wake.len()
-    }
-
-    /// The ways at which four candidates wake [m]: before the neighbor list has counted so far, no contact can have
+    /// The ways at which a row of candidates wakes [m]: before their patch's way has come so far, no contact can have
     /// formed. Infinite for contacts. Scratch that saves work and changes no result.
     #[inline(always)]
-    pub fn wakes(&self, four: usize) -> [f64; LANES] {
-        self.wake[four]
+    pub fn wakes(&self, row: usize) -> [f32; ROW] {
+        self.wake.as_chunks().0[row]
     }
 
-    /// The way at which a candidate wakes [m].
+    /// Whether a candidate has woken.
     #[inline]
-    pub fn wake_of(&self, candidate: usize) -> f64 {
-        self.wake[candidate / LANES][candidate % LANES]
+    pub fn is_due(&self, candidate: usize, waking: f32) -> bool {
+        self.wake[candidate] <= waking
+    }
+
+    /// Whether a candidate can be a contact's again.
+    #[inline]
+    pub fn is_free(&self, candidate: usize) -> bool {
+        self.wake[candidate] < f32::INFINITY
     }
 
     /// Lets a candidate sleep until the given way [m].
     #[inline]
     pub fn sleep(&mut self, candidate: usize, until: f64) {
-        self.wake[candidate / LANES][candidate % LANES] = until;
+        self.wake[candidate] = until as f32;
     }
 
     /// Wakes the candidate of a contact that has ended, if the list still holds it.
@@ -129,7 +206,7 @@ impl Slots {
     /// Makes candidates again of the contacts that no longer touch.
     pub fn close_ended(&mut self) {
         let candidates = &mut self.candidates;
-        self.contacts.remove_where(|list, index| !list.is_touching(index), |key| candidates.wake(key));
+        self.contacts.drop_separated(|key| candidates.wake(key));
     }
 
     /// Lets contact `index` go on as candidate `heir` of the same particle, with its history.
@@ -245,6 +322,10 @@ mod tests {
         slots
     }
 
+    fn free(slots: &Slots) -> Vec<usize> {
+        (0..ROW).filter(|&candidate| slots.candidates.is_free(candidate)).collect()
+    }
+
     fn touching(particle: u32, other: u32) -> Entry {
         let history = History { overlap: 1e-6, ..History::default() };
         let contact = Contact { particle, other, history };
@@ -258,7 +339,7 @@ mod tests {
             slots.contacts.insert(touching(particle, other));
         }
         slots.link();
-        assert_eq!(slots.candidates.wakes(0), [f64::INFINITY, 0.0, 0.0, f64::INFINITY]);
+        assert_eq!(free(&slots), [1, 2]);
         slots.close_ended();
         assert_eq!(slots.contacts.len(), 3, "all of them still touch");
     }
@@ -267,10 +348,28 @@ mod tests {
     fn a_contact_without_overlap_becomes_a_candidate_again() {
         let mut slots = slots(&[(2, 3), (2, 5)]);
         slots.open(1, Traits::default());
-        assert_eq!(slots.candidates.wakes(0), [0.0, f64::INFINITY, f64::INFINITY, f64::INFINITY]);
+        assert_eq!(free(&slots), [0]);
         slots.close_ended();
         assert!(slots.contacts.is_empty());
-        assert_eq!(slots.candidates.wakes(0), [0.0, 0.0, f64::INFINITY, f64::INFINITY]);
+        assert_eq!(free(&slots), [0, 1]);
+    }
+
+    #[test]
+    fn a_patch_follows_those_that_its_candidates_are_with() {
+        let patch = PATCH as u32;
+        let mut candidates = Candidates::default();
+        candidates.begin(0);
+        candidates.push_pair(Candidate { owner: 0, other: 1 });
+        candidates.push_pair(Candidate { owner: 2, other: 2 * patch });
+        candidates.begin(1);
+        candidates.push_pair(Candidate { owner: patch, other: patch + 1 });
+        // Squares of ways: patch 2 has moved by 4, which concerns patch 0 only.
+        candidates.advance(&[1.0, 4.0, 16.0], 0.5);
+        candidates.advance(&[1.0, 4.0, 0.0], 0.0);
+        assert_eq!((candidates.way_of(2), candidates.way_of(patch)), (4.5 + 1.0, 2.5 + 2.0));
+        // The first patch is filled up, so that the second begins with a row of its own.
+        assert_eq!((candidates.rows(0), candidates.rows(1)), (0..1, 1..2));
+        assert_eq!((candidates.of(2), candidates.key(ROW)), (1..2, (patch, patch + 1)));
     }
 
     #[test]

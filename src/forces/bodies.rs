@@ -20,46 +20,37 @@ pub trait Bodies {
     /// The step's relative displacement, resolved along `normal` with the lever arms of `overlap`. `then` tells whether
     /// that frame is the one before the step.
     fn displacement(&self, overlap: Lanes, normal: Vec2Lanes, then: bool) -> Displacement;
-    /// Rate of approach at the time of the force [m/s].
-    fn closing_speed(&self, meeting: Meeting) -> Lanes;
-    /// Radius against which an overlap is judged [m].
-    fn radius(&self) -> Lanes;
+    /// Rate of parting at the time of the force [m/s].
+    fn parting_speed(&self, meeting: Meeting) -> Lanes;
 }
 
-/// Particles in pairs; they touch halfway into the overlap.
+/// Particles in pairs and where they meet.
 #[derive(Debug, Clone, Copy)]
-pub struct Pairs {
+pub struct Met {
+    meeting: Meeting,
     /// Relative displacement of the step [m].
     apart: Vec2Lanes,
-    /// Rate of approach at the time of the force [m/s].
-    closing_speed: Lanes,
+    /// Rate of parting at the time of the force [m/s].
+    parting_speed: Lanes,
     own_turn: Lanes,
     other_turn: Lanes,
-    own_radius: Lanes,
-    other_radius: Lanes,
 }
 
-impl Pairs {
+impl Met {
     /// Nobody.
     pub fn none() -> Self {
         let (zero, none) = (Lanes::ZERO, Vec2Lanes { x: Lanes::ZERO, y: Lanes::ZERO });
-        Self {
-            apart: none,
-            closing_speed: zero,
-            own_turn: zero,
-            other_turn: zero,
-            own_radius: zero,
-            other_radius: zero,
-        }
+        let meeting = Meeting { overlap: zero, normal: none };
+        Self { meeting, apart: none, parting_speed: zero, own_turn: zero, other_turn: zero }
     }
 
-    /// Owners, others, the radii of both, and where they meet.
+    /// Owners, others, and the radii of both.
     #[inline(always)]
-    pub fn meet(
+    pub fn new(
         own: [&Motion; LANES],
         other: [&Motion; LANES],
         [own_radius, other_radius]: [Lanes; 2],
-    ) -> (Self, Meeting) {
+    ) -> Self {
         // From the owners' centers to the others', and the displacement that changed it.
         let [gap_x, gap_y, apart_x, apart_y] =
             transpose(std::array::from_fn(|lane| other[lane].place - own[lane].place));
@@ -69,48 +60,56 @@ impl Pairs {
         let normal = gap * (Lanes::ONE / distance);
         let [velocity_x, velocity_y, ..] =
             transpose(std::array::from_fn(|lane| other[lane].pace - own[lane].pace));
-        let bodies = Self {
+        Self {
+            meeting: Meeting { overlap, normal },
             apart: Vec2Lanes { x: apart_x, y: apart_y },
-            closing_speed: -Vec2Lanes { x: velocity_x, y: velocity_y }.dot(normal),
+            parting_speed: Vec2Lanes { x: velocity_x, y: velocity_y }.dot(normal),
             own_turn: lanes(|lane| own[lane].turn()),
             other_turn: lanes(|lane| other[lane].turn()),
-            own_radius,
-            other_radius,
-        };
-        (bodies, Meeting { overlap, normal })
+        }
+    }
+}
+
+/// Particles in pairs; they touch halfway into the overlap.
+#[derive(Debug, Clone, Copy)]
+pub struct Pairs<'a> {
+    /// How they met.
+    pub met: &'a Met,
+    /// Radii of the owners and of the others [m].
+    pub radii: [Lanes; 2],
+}
+
+impl Pairs<'_> {
+    /// Where they meet.
+    #[inline(always)]
+    pub fn meeting(&self) -> Meeting {
+        self.met.meeting
     }
 
     /// From the owners' centers to the points of contact [m].
     #[inline(always)]
     pub fn own_arm(&self, overlap: Lanes) -> Lanes {
-        self.own_radius - overlap * 0.5
+        self.radii[0] - overlap * 0.5
     }
 
     /// From the others' centers to the points of contact [m].
     #[inline(always)]
     pub fn other_arm(&self, overlap: Lanes) -> Lanes {
-        self.other_radius - overlap * 0.5
+        self.radii[1] - overlap * 0.5
     }
 }
 
-impl Bodies for Pairs {
+impl Bodies for Pairs<'_> {
     #[inline(always)]
     fn displacement(&self, overlap: Lanes, normal: Vec2Lanes, _then: bool) -> Displacement {
-        let spin = self.own_arm(overlap) * self.own_turn + self.other_arm(overlap) * self.other_turn;
-        Displacement {
-            approach: -self.apart.dot(normal),
-            slip: self.apart.dot(normal.perpendicular()) - spin,
-        }
+        let Met { apart, own_turn, other_turn, .. } = *self.met;
+        let spin = self.own_arm(overlap) * own_turn + self.other_arm(overlap) * other_turn;
+        Displacement { parting: apart.dot(normal), slip: apart.dot(normal.perpendicular()) - spin }
     }
 
     #[inline(always)]
-    fn closing_speed(&self, _meeting: Meeting) -> Lanes {
-        self.closing_speed
-    }
-
-    #[inline(always)]
-    fn radius(&self) -> Lanes {
-        self.own_radius.fast_min(self.other_radius)
+    fn parting_speed(&self, _meeting: Meeting) -> Lanes {
+        self.met.parting_speed
     }
 }
 
@@ -173,29 +172,27 @@ impl Bodies for Walls {
         let point = center + normal * self.arm(overlap);
         let apart = point.perpendicular() * Lanes::splat(self.drum_turn) - self.displacement;
         let spin = self.arm(overlap) * self.turn;
-        Displacement { approach: -apart.dot(normal), slip: apart.dot(normal.perpendicular()) - spin }
+        Displacement { parting: apart.dot(normal), slip: apart.dot(normal.perpendicular()) - spin }
     }
 
     #[inline(always)]
-    fn closing_speed(&self, meeting: Meeting) -> Lanes {
+    fn parting_speed(&self, meeting: Meeting) -> Lanes {
         let surface = self.point(meeting.overlap, meeting.normal).perpendicular();
-        (self.velocity - surface * Lanes::splat(self.angular_velocity)).dot(meeting.normal)
-    }
-
-    #[inline(always)]
-    fn radius(&self) -> Lanes {
-        self.radius
+        (surface * Lanes::splat(self.angular_velocity) - self.velocity).dot(meeting.normal)
     }
 }
 
-/// Sums of the flows, lane by lane.
+/// Sums over contacts, lane by lane.
 #[derive(Debug, Clone, Copy)]
 pub struct FlowLanes {
     work_normal: Lanes,
     work_tangential: Lanes,
     dissipated_normal: Lanes,
     dissipated_sliding: Lanes,
-    overlap_ratio: Lanes,
+    /// Greatest depth, as `settle` is told it.
+    depth: Lanes,
+    /// All ones where all still touch.
+    touching: Lanes,
 }
 
 impl FlowLanes {
@@ -208,57 +205,67 @@ impl FlowLanes {
             work_tangential: zero,
             dissipated_normal: zero,
             dissipated_sliding: zero,
-            overlap_ratio: zero,
+            depth: zero,
+            touching: all_ones(),
         }
     }
 
-    /// The sums over the lanes, in their order.
-    pub fn total(&self) -> StepFlows {
+    /// Whether all contacts still touch.
+    pub fn all_touch(&self) -> bool {
+        self.touching.all()
+    }
+
+    /// The sums over the lanes, in their order. Depths are in units of `unit`.
+    pub fn total(&self, unit: f64) -> StepFlows {
         let sum = |lanes: Lanes| lanes.to_array().into_iter().fold(0.0, |sum, value| sum + value);
         StepFlows {
             work_normal: 0.5 * sum(self.work_normal),
             work_tangential: 0.5 * sum(self.work_tangential),
             dissipated_normal: sum(self.dissipated_normal),
             dissipated_sliding: sum(self.dissipated_sliding),
-            overlap_ratio: self.overlap_ratio.to_array().into_iter().fold(0.0, f64::max),
+            overlap_ratio: self.depth.to_array().into_iter().fold(0.0, f64::max) / unit,
         }
     }
 }
 
-/// One step of four contacts: encounter, law, work, new history. `in_use` is all ones where a lane counts.
+/// All ones in every lane.
+#[inline(always)]
+pub fn all_ones() -> Lanes {
+    Lanes::splat(f64::from_bits(u64::MAX))
+}
+
+/// One step of four contacts: encounter, law, work, new history. `in_use` is all ones where a lane counts, `depth` what
+/// their overlaps are judged by.
 #[inline(always)]
 pub fn settle(
     bodies: &impl Bodies,
     (meeting, history): (Meeting, &HistoryLanes),
     (law, damping, step_rate): (&LinearLanes, Lanes, f64),
-    in_use: Lanes,
+    (in_use, depth): (Lanes, Lanes),
     flows: &mut FlowLanes,
 ) -> HistoryLanes {
     let Meeting { overlap, normal } = meeting;
     let displacement = bodies.displacement(overlap, normal, false);
-    let closing_speed = bodies.closing_speed(meeting);
-    let encounter = Encounter { overlap, displacement, closing_speed, damping, step_rate };
+    let parting_speed = bodies.parting_speed(meeting);
+    let encounter = Encounter { overlap, displacement, parting_speed, damping, step_rate };
     let response = law.respond(&encounter, history);
     // Each force is charged half of the displacement resolved in its own frame; a contact without past had no force.
     let before = bodies.displacement(history.overlap, history.normal, true);
-    let work_normal = response.normal_force * displacement.approach + history.normal_force * before.approach;
+    let work_normal = response.normal_force * displacement.parting + history.normal_force * before.parting;
     let work_tangential =
         response.tangential_force * displacement.slip + history.tangential_force * before.slip;
-    flows.work_normal += in_use & work_normal;
+    flows.work_normal -= in_use & work_normal;
     flows.work_tangential += in_use & work_tangential;
     flows.dissipated_normal += in_use & response.dissipated_normal;
     flows.dissipated_sliding += in_use & response.dissipated_sliding;
+    flows.depth = (in_use & depth).fast_max(flows.depth);
     let touching = overlap.simd_gt(Lanes::ZERO);
-    // The division waits for an overlap deeper than any before.
-    let deepest = flows.overlap_ratio * bodies.radius();
-    if (in_use & overlap.simd_gt(deepest)).any() {
-        flows.overlap_ratio = flows.overlap_ratio.fast_max(in_use & (overlap / bodies.radius()));
-    }
+    flows.touching &= touching | !in_use;
     HistoryLanes {
         overlap: touching & overlap,
         tangential_displacement: response.tangential_displacement,
         normal_force: response.normal_force,
         tangential_force: response.tangential_force,
-        normal: Vec2Lanes { x: touching & normal.x, y: touching & normal.y },
+        normal,
     }
 }

@@ -12,20 +12,19 @@ use crate::contact::laws::Laws;
 use crate::contact::table::{ChunkSlots, ContactTable};
 use crate::drum::Drum;
 use crate::energy::{StepFlows, SurfaceLoad};
-use crate::integrator::{Load, Motion};
+use crate::integrator::{Complete, Drift, Load, Motion, Told};
 use crate::lanes::{LANES, Lanes, lanes};
-use crate::particles::Particles;
 use crate::threads::{CHUNK, Chunked, Threads, chunk_count};
 use crate::vector::Rotation;
-use post::{Outbox, PostOffice, Sink};
+use post::{Delivery, Outbox, PostOffice, Sink};
 
 /// All that a contact needs beyond its own history.
 #[derive(Debug, Clone, Copy)]
 pub struct Scene<'a> {
     /// What each particle did in this step.
     pub motions: &'a [Motion],
-    /// What they are: materials and masses.
-    pub particles: &'a Particles,
+    /// What they are.
+    pub matter: Matter<'a>,
     /// The laws.
     pub laws: &'a Laws,
     /// Rim and outlines.
@@ -36,19 +35,36 @@ pub struct Scene<'a> {
     pub angular_velocity: f64,
     /// The angle it turned during the step [rad].
     pub turn: f64,
-    /// How far anyone can have moved since the list was built, as seen from the drum [m].
-    pub way: f64,
+    /// The square of the longest way of the step as seen from the drum [m²], by patch.
+    pub ways: &'a [f64],
+    /// How much farther anyone can have come by the drum's turn [m].
+    pub arc: f64,
     /// Half of 1 / (distance + reach), for the largest distance and reach in the list and slightly less [1/m].
     pub half_gap: f64,
     /// 1 / time step [1/s].
     pub step_rate: f64,
 }
 
+/// What particles are made of.
+#[derive(Debug, Clone, Copy)]
+pub struct Matter<'a> {
+    /// Indices of their materials.
+    pub materials: &'a [u16],
+    /// Masses [kg/m].
+    pub masses: &'a [f64],
+    /// Radii [m].
+    pub radii: &'a [f64],
+    /// The radius [m] where all have the same.
+    pub radius: Option<f64>,
+}
+
 /// Scratch and results of the pass.
 #[derive(Debug, Clone)]
 pub struct ForcePass {
-    /// Force and moment on each particle; empty before a pass.
+    /// Force and moment on each particle; empty before a pass, and after one that moves the particles on.
     pub loads: Vec<Load>,
+    /// Loads of a single chunk, empty between two chunks.
+    chunk_loads: Vec<Load>,
     /// Load on the particles by each of the drum's surfaces.
     pub surfaces: Vec<SurfaceLoad>,
     /// Work of the step.
@@ -64,8 +80,10 @@ impl ForcePass {
         let chunks = chunk_count(count);
         Self {
             loads: vec![Load::default(); count],
+            chunk_loads: vec![Load::default(); CHUNK],
             surfaces: vec![SurfaceLoad::default(); surfaces],
-            flows: StepFlows::default(),
+            // Before the first pass nobody knows how deep overlaps are.
+            flows: StepFlows { overlap_ratio: f64::INFINITY, ..StepFlows::default() },
             chunk_flows: vec![StepFlows::default(); chunks],
             chunk_surfaces: vec![SurfaceLoad::default(); chunks * surfaces],
             post: PostOffice::new(chunks),
@@ -79,6 +97,39 @@ impl ForcePass {
 
     /// Evaluates every contact; the loads must be empty.
     pub fn evaluate(&mut self, scene: Scene, table: &mut ContactTable, threads: &Threads) {
+        self.evaluate_all(scene, table, threads);
+        let post = &self.post;
+        let work = Delivery { first: 0, loads: &mut self.loads };
+        threads
+            .for_each_chunk(work.loads.len(), work, &|work: Delivery| post.collect(work.first, work.loads));
+        self.add_up();
+    }
+
+    /// Evaluates every contact and moves the particles on, which ends this step's kick and begins the next step; the loads
+    /// must be empty. `scene` is told by `told`.
+    pub fn evaluate_and_move(
+        &mut self,
+        scene: Scene,
+        table: &mut ContactTable,
+        (drift, told): (Drift, Told),
+        threads: &Threads,
+    ) {
+        if threads.serve(self.loads.len()) {
+            let (motions, ways) = told.read();
+            self.evaluate_all(Scene { motions, ways, ..scene }, table, threads);
+            let post = &self.post;
+            let work = Complete { drift, told, source: &mut self.loads[..] };
+            threads.for_each_chunk(scene.matter.masses.len(), work, &|chunk: Complete<&mut [Load]>| {
+                post.collect(chunk.drift.chunk(), chunk.source);
+                chunk.drift.kick_and_run(chunk.told, chunk.source);
+            });
+        } else {
+            self.sweep(scene, table, (drift, told));
+        }
+        self.add_up();
+    }
+
+    fn evaluate_all(&mut self, scene: Scene, table: &mut ContactTable, threads: &Threads) {
         let count = self.loads.len();
         let work = Chunks {
             first: 0,
@@ -90,10 +141,39 @@ impl ForcePass {
             surfaces_per_chunk: self.surfaces.len(),
         };
         threads.for_each_chunk(count, work, &|chunk: Chunks| chunk.run(scene));
-        if self.chunk_flows.len() > 1 {
-            self.post.deliver(&mut self.loads, threads);
+    }
+
+    /// Evaluates and moves on chunk by chunk, so that large loads pass through the cache once a step: a chunk's contacts
+    /// are with itself and later ones, so after its turn nobody asks where its particles were, and its post is complete.
+    fn sweep(&mut self, scene: Scene, table: &mut ContactTable, (drift, mut told): (Drift, Told)) {
+        let mut left = Some(drift);
+        let surfaces_per_chunk = self.surfaces.len();
+        for (chunk, slots) in table.chunks.iter_mut().enumerate() {
+            let count = CHUNK.min(self.loads.len() - chunk * CHUNK);
+            let loads = &mut self.chunk_loads[..count];
+            let (motions, ways) = told.read();
+            let work = Chunks {
+                first: chunk,
+                slots: std::slice::from_mut(slots),
+                loads,
+                outboxes: &mut self.post.outboxes_mut()[chunk..=chunk],
+                flows: &mut self.chunk_flows[chunk..=chunk],
+                surfaces: &mut self.chunk_surfaces[chunk * surfaces_per_chunk..][..surfaces_per_chunk],
+                surfaces_per_chunk,
+            };
+            work.run(Scene { motions, ways, ..scene });
+            self.post.collect(chunk, &mut self.chunk_loads[..count]);
+            if let Some(drift) = left.take() {
+                let (own, rest) = if drift.chunks() > 1 {
+                    let (own, rest) = drift.split(1);
+                    (own, Some(rest))
+                } else {
+                    (drift, None)
+                };
+                left = rest;
+                own.kick_and_run(told.chunk(chunk), &mut self.chunk_loads[..count]);
+            }
         }
-        self.add_up();
     }
 
     /// Adds the chunks in their order.
@@ -112,23 +192,22 @@ impl ForcePass {
     }
 }
 
-/// Reads what the contacts of a chunk are about to read in their own order, in the order in which it lies in memory:
-/// where that has left the cache, many reads are then under way at once.
+/// Reads what the contacts of a chunk are about to read in their own order: the particles of the chunk that `motions`
+/// begins with, then those `abroad`. Where that has left the cache, many reads are then under way at once.
 #[inline(always)]
-fn fetch(motions: &[Motion], loads: &[Load]) {
-    let places = motions.iter().take(CHUNK).fold(Lanes::ZERO, |seen, motion| seen | motion.place);
-    // Two loads to a cache line.
-    let loads = loads.iter().take(CHUNK).step_by(2).fold(Lanes::ZERO, |seen, load| seen | load.0);
-    std::hint::black_box(places | loads);
+fn fetch(motions: &[Motion], first: usize, abroad: &[u32]) {
+    let own = motions[first..].iter().take(CHUNK).fold(Lanes::ZERO, |seen, motion| seen | motion.place);
+    let places = abroad.iter().fold(own, |seen, &particle| seen | motions[particle as usize].place);
+    std::hint::black_box(places);
 }
 
 /// All ones in the first `count` lanes.
 #[inline(always)]
 fn in_use(count: usize) -> Lanes {
-    let ones = f64::from_bits(u64::MAX);
     if count >= LANES {
-        return Lanes::splat(ones);
+        return bodies::all_ones();
     }
+    let ones = f64::from_bits(u64::MAX);
     lanes(|lane| if lane < count { ones } else { 0.0 })
 }
 
@@ -150,7 +229,7 @@ impl Chunks<'_> {
     fn run(self, scene: Scene) {
         let (Some(slots), Some(outbox)) = (self.slots.first_mut(), self.outboxes.first_mut()) else { return };
         outbox.clear();
-        fetch(&scene.motions[self.first * CHUNK..], self.loads);
+        fetch(scene.motions, self.first * CHUNK, outbox.abroad());
         let mut sink = Sink { first: self.first * CHUNK, loads: self.loads, outbox };
         self.surfaces.fill(SurfaceLoad::default());
         let mut flows = pairs::evaluate(scene, &mut slots.pairs, &mut sink);

@@ -8,7 +8,7 @@ use crate::integrator::Load;
 use crate::lanes::Lanes;
 use crate::threads::{CHUNK, Chunked, Threads};
 
-/// A reaction on a particle of another chunk: what is to be taken off its force (x, y) and moment.
+/// A reaction on a particle of another chunk: force (x, y) and moment.
 #[derive(Debug, Clone, Copy)]
 struct Post {
     particle: u32,
@@ -18,7 +18,9 @@ struct Post {
 /// What one chunk has posted in this step, by the chunk that it goes to.
 #[derive(Debug, Clone, Default)]
 pub struct Outbox {
-    /// Ascending.
+    /// The particles of other chunks that the chunk has candidates or contacts with; ascending.
+    abroad: Vec<u32>,
+    /// Their chunks; ascending.
     targets: Vec<u32>,
     posts: Vec<Vec<Post>>,
 }
@@ -29,11 +31,19 @@ impl Outbox {
         let pairs = &table.chunks[own].pairs;
         let contacts = pairs.contacts.iter().map(|entry| entry.contact.other);
         let others = pairs.candidates.iter().map(|candidate| candidate.other).chain(contacts);
+        self.abroad.clear();
+        self.abroad.extend(others.filter(|&other| other as usize / CHUNK != own));
+        self.abroad.sort_unstable();
+        self.abroad.dedup();
         self.targets.clear();
-        self.targets.extend(others.map(|other| other / CHUNK as u32).filter(|&chunk| chunk as usize != own));
-        self.targets.sort_unstable();
+        self.targets.extend(self.abroad.iter().map(|&other| other / CHUNK as u32));
         self.targets.dedup();
         self.posts.resize(self.targets.len(), Vec::new());
+    }
+
+    /// The particles of other chunks that contacts may be with.
+    pub fn abroad(&self) -> &[u32] {
+        &self.abroad
     }
 
     /// Throws the last step's post away.
@@ -66,18 +76,18 @@ pub struct Sink<'a> {
 }
 
 impl Sink<'_> {
-    /// Adds a load to one of the chunk's own particles.
-    #[inline(always)]
-    pub fn add(&mut self, particle: u32, load: Lanes) {
-        let own = &mut self.loads[particle as usize - self.first];
-        own.0 += load;
-    }
-
-    /// Takes a load off any particle.
+    /// Takes a load off one of the chunk's own particles.
     #[inline(always)]
     pub fn take_off(&mut self, particle: u32, load: Lanes) {
+        let own = &mut self.loads[particle as usize - self.first];
+        own.0 -= load;
+    }
+
+    /// Adds a load to any particle.
+    #[inline(always)]
+    pub fn react(&mut self, particle: u32, load: Lanes) {
         if let Some(own) = self.loads.get_mut(particle as usize - self.first) {
-            own.0 -= load;
+            own.0 += load;
         } else {
             let [x, y, moment, _] = load.to_array();
             self.outbox.send(particle, [x, y], moment);
@@ -120,18 +130,14 @@ impl PostOffice {
         }
     }
 
-    /// Adds all post to the particles that it goes to: by chunk in the order of its senders.
-    pub fn deliver(&self, loads: &mut [Load], threads: &Threads) {
-        let count = loads.len();
-        threads.for_each_chunk(count, Delivery { first: 0, loads }, &|work: Delivery| {
-            let first_particle = work.first * CHUNK;
-            for &sender in &self.senders[work.first] {
-                for post in self.outboxes[sender as usize].to(work.first) {
-                    let [x, y, moment] = post.reaction;
-                    work.loads[post.particle as usize - first_particle].0 -= Lanes::new([x, y, moment, 0.0]);
-                }
+    /// Adds the post for chunk `chunk` to the loads of its particles, in the order of its senders.
+    pub fn collect(&self, chunk: usize, loads: &mut [Load]) {
+        for &sender in &self.senders[chunk] {
+            for post in self.outboxes[sender as usize].to(chunk) {
+                let [x, y, moment] = post.reaction;
+                loads[post.particle as usize - chunk * CHUNK].0 += Lanes::new([x, y, moment, 0.0]);
             }
-        });
+        }
     }
 }
 
@@ -154,11 +160,11 @@ impl Chunked for Addressing<'_> {
 }
 
 /// Chunks that collect their post.
-struct Delivery<'a> {
+pub struct Delivery<'a> {
     /// The first of the chunks.
-    first: usize,
+    pub first: usize,
     /// Loads of whole chunks.
-    loads: &'a mut [Load],
+    pub loads: &'a mut [Load],
 }
 
 impl Chunked for Delivery<'_> {

@@ -10,7 +10,7 @@ use crate::contact::table::Slots;
 use crate::drum::{FeatureId, RIM};
 use crate::energy::{StepFlows, SurfaceLoad};
 use crate::integrator::Motion;
-use crate::lanes::{LANES, Lanes, Vec2Lanes, lanes, transpose};
+use crate::lanes::{LANES, ROW, Vec2Lanes, lanes, transpose};
 use crate::vector::{Vec2, cross, dot};
 
 /// Evaluates the contacts of one chunk with the drum in key order and adds the loads by surface.
@@ -20,7 +20,6 @@ pub fn evaluate(scene: Scene, slots: &mut Slots, surfaces: &mut [SurfaceLoad], s
     }
     open_contacts(scene, slots);
     let mut flows = FlowLanes::zero();
-    let mut all_touch = true;
     let laws = scene.laws.walls();
     let len = slots.contacts.len();
     let (ends, blocks, list_traits) = slots.contacts.parts_mut();
@@ -34,13 +33,12 @@ pub fn evaluate(scene: Scene, slots: &mut Slots, surfaces: &mut [SurfaceLoad], s
                 (LinearLanes::new(|lane| &laws[each[index].laws()[lane] as usize]), each[index].lanes())
             }
         };
-        all_touch &=
-            work_out(scene, (ends, block, count), (&law, &traits), &mut flows, &mut (&mut *surfaces, sink));
+        work_out(scene, (ends, block, count), (&law, &traits), &mut flows, &mut (&mut *surfaces, sink));
     }
-    if !all_touch {
+    if !flows.all_touch() {
         slots.close_ended();
     }
-    flows.total()
+    flows.total(1.0)
 }
 
 /// Where one particle meets the drum.
@@ -52,16 +50,23 @@ struct Spot {
 
 /// Makes contacts of the candidates that touch; puts the others to sleep where their gap is known.
 fn open_contacts(scene: Scene, slots: &mut Slots) {
-    for candidate in 0..slots.candidates.len() {
-        if slots.candidates.wake_of(candidate) > scene.way {
-            continue;
-        }
-        let (id, feature) = slots.candidates.key(candidate);
-        // Only the particle moves, as seen from the drum. Slightly less than the gap covers round-off.
-        match gap(scene, &scene.motions[id as usize], feature) {
-            Some(gap) if gap >= 0.0 => slots.candidates.sleep(candidate, scene.way + (1.0 - 1e-6) * gap),
-            Some(_) => open(scene, slots, candidate),
-            None => {}
+    slots.candidates.advance(scene.ways, scene.arc);
+    for patch in 0..slots.candidates.patches() {
+        let (waking, rows) = (slots.candidates.waking(patch), slots.candidates.rows(patch));
+        for candidate in ROW * rows.start..ROW * rows.end {
+            if !slots.candidates.is_due(candidate, waking) {
+                continue;
+            }
+            let (id, feature) = slots.candidates.key(candidate);
+            // Only the particle moves, as seen from the drum. Slightly less than the gap covers round-off.
+            match gap(scene, &scene.motions[id as usize], feature) {
+                Some(gap) if gap >= 0.0 => {
+                    let way = slots.candidates.way_of(id);
+                    slots.candidates.sleep(candidate, way + (1.0 - 1e-6) * gap);
+                }
+                Some(_) => open(scene, slots, candidate),
+                None => {}
+            }
         }
     }
 }
@@ -69,9 +74,9 @@ fn open_contacts(scene: Scene, slots: &mut Slots) {
 #[cold]
 fn open(scene: Scene, slots: &mut Slots, candidate: usize) {
     let id = slots.candidates.key(candidate).0 as usize;
-    let particles = scene.particles;
-    let law = scene.laws.wall_slot((particles.materials[id], particles.masses[id]));
-    slots.open(candidate, Traits { law, radii: [particles.radii[id], 0.0] });
+    let matter = scene.matter;
+    let law = scene.laws.wall_slot((matter.materials[id], matter.masses[id]));
+    slots.open(candidate, Traits { law, radii: [matter.radii[id], 0.0] });
 }
 
 /// The gap between a particle and a feature of the drum, below zero where they overlap, or slightly less than the gap;
@@ -98,33 +103,32 @@ fn meet(scene: Scene, own: &Motion, feature: FeatureId) -> Option<Spot> {
     Some(Spot { overlap: own.radius() - near.distance, normal: scene.rotation.apply(near.direction) })
 }
 
-/// Works out the first `count` contacts of a block; returns whether all of them still touch.
+/// Works out the first `count` contacts of a block.
 fn work_out(
     scene: Scene,
     (ends, block, count): (&Ends, &mut Block, usize),
     (law, traits): (&LinearLanes, &TraitsLanes),
     flows: &mut FlowLanes,
     (surfaces, sink): &mut (&mut [SurfaceLoad], &mut Sink),
-) -> bool {
+) {
     let own = ends.owner.map(|id| &scene.motions[id as usize]);
     let walls = Walls::new(own, traits.radii[0], scene.turn, scene.angular_velocity);
     let meeting = meetings(scene, ends, &walls);
     let history = block.history();
-    let used = in_use(count);
+    let used = (in_use(count), meeting.overlap / traits.radii[0]);
     let now = settle(&walls, (meeting, &history), (law, traits.damping, scene.step_rate), used, flows);
     block.remember(&now);
 
-    let force = now.force();
-    let moment = walls.arm(now.overlap) * now.tangential_force;
-    let rows = transpose([force.x, force.y, moment, moment]);
-    let (forces, points) = (force.to_array(), walls.point(now.overlap, now.normal).to_array());
+    let reaction = now.reaction();
+    let moment = -(walls.arm(now.overlap) * now.tangential_force);
+    let rows = transpose([reaction.x, reaction.y, moment, moment]);
+    let (reactions, points) = (reaction.to_array(), walls.point(now.overlap, now.normal).to_array());
     for lane in 0..count {
-        sink.add(ends.owner[lane], rows[lane]);
+        sink.take_off(ends.owner[lane], rows[lane]);
         let surface = &mut surfaces[scene.drum.surface_of(ends.other[lane])];
-        surface.force += forces[lane];
-        surface.moment += cross(points[lane], forces[lane]);
+        surface.force -= reactions[lane];
+        surface.moment -= cross(points[lane], reactions[lane]);
     }
-    !(used & now.overlap.simd_le(Lanes::ZERO)).any()
 }
 
 /// Where the particles of a block meet their features. A contact that ends because another feature answers has an
@@ -175,7 +179,7 @@ fn heir_of(scene: Scene, slots: &Slots, particle: u32, feature: FeatureId) -> Op
     candidates.of(particle).find(|&candidate| {
         let (_, other) = candidates.key(candidate);
         other != RIM
-            && candidates.wake_of(candidate) != f64::INFINITY
+            && candidates.is_free(candidate)
             && scene.drum.adjacent(feature, other)
             && meet(scene, own, other).is_some_and(|spot| spot.overlap > 0.0)
     })

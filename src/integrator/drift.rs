@@ -1,108 +1,224 @@
 //! The drift, four particles at a time, and the sums that it makes on the way.
 
-use super::Motion;
-use super::pull::{Pull, Pulls};
+use super::constants::Constants;
+use super::pull::{Fresh, Known, Pull, Pulls};
 use super::quad::{four_vectors, put_rest, rest_of, two_by_two};
+use super::{Load, Motion};
 use crate::lanes::{LANES, Lanes};
-use crate::threads::{CHUNK, Chunked};
+use crate::threads::{CHUNK, Chunked, PATCH, chunk_count};
 use crate::vector::{Vec2, larger};
 
-/// What a drift changes.
-pub(super) struct Moved<'a> {
-    pub(super) positions: &'a mut [Vec2],
-    pub(super) velocities: &'a mut [Vec2],
-    pub(super) angles: &'a mut [f64],
-    pub(super) spins: &'a mut [f64],
+/// What a drift changes of particles, but for what contacts are told of them.
+#[derive(Debug)]
+pub struct Moved<'a> {
+    /// Velocities [m/s].
+    pub velocities: &'a mut [Vec2],
+    /// Angles [rad].
+    pub angles: &'a mut [f64],
+    /// Angular velocities [rad/s].
+    pub spins: &'a mut [f64],
 }
 
-impl Moved<'_> {
+/// What contacts are told of particles: their motions, and by patch the square of the longest way [m²].
+#[derive(Debug)]
+pub struct Told<'a> {
+    pub(super) motions: &'a mut [Motion],
+    pub(super) ways: &'a mut [f64],
+}
+
+impl Told<'_> {
+    /// What contacts may read now.
+    pub fn read(&self) -> (&[Motion], &[f64]) {
+        (self.motions, self.ways)
+    }
+
+    /// That of one chunk.
+    pub fn chunk(&mut self, chunk: usize) -> Told<'_> {
+        let end = self.motions.len().min((chunk + 1) * CHUNK);
+        Told {
+            motions: &mut self.motions[chunk * CHUNK..end],
+            ways: &mut self.ways[chunk * (CHUNK / PATCH)..end.div_ceil(PATCH)],
+        }
+    }
+
     fn split(self, at: usize) -> (Self, Self) {
-        let (positions, more_positions) = self.positions.split_at_mut(at);
-        let (velocities, more_velocities) = self.velocities.split_at_mut(at);
-        let (angles, more_angles) = self.angles.split_at_mut(at);
-        let (spins, more_spins) = self.spins.split_at_mut(at);
+        let (motions, more_motions) = self.motions.split_at_mut(at);
+        let (ways, more_ways) = self.ways.split_at_mut(at.div_ceil(PATCH));
+        (Self { motions, ways }, Self { motions: more_motions, ways: more_ways })
+    }
+}
+
+/// What is the same for all particles in one drift.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Setting<'a> {
+    pub(super) constants: &'a Constants,
+    pub(super) time_step: f64,
+    /// The angle by which the drum turns [rad].
+    pub(super) turn: f64,
+    pub(super) gravity: Vec2,
+}
+
+/// The drift of whole chunks of particles.
+#[derive(Debug)]
+pub struct Drift<'a> {
+    /// The first of the particles.
+    pub(super) first: usize,
+    pub(super) moved: Moved<'a>,
+    /// By chunk: Σ m x.
+    pub(super) mass_moments: &'a mut [Vec2],
+    pub(super) setting: Setting<'a>,
+}
+
+impl Drift<'_> {
+    /// The first of the chunks.
+    pub fn chunk(&self) -> usize {
+        self.first / CHUNK
+    }
+
+    /// The second half of a kick by `loads`, which are taken, then the first half of the next one and the drift: one
+    /// chunk.
+    pub fn kick_and_run(self, told: Told, loads: &mut [Load]) {
+        let constants = self.setting.constants.of(self.first, loads.len());
+        let gravity = self.setting.gravity;
+        self.run(told, Fresh { loads, constants, gravity });
+    }
+
+    /// Half a kick with the accelerations that the particles carry, then the drift: one chunk.
+    pub(super) fn run_on(self, told: Told, (accelerations, spin_rates): (&[Vec2], &[f64])) {
+        self.run(told, Known { accelerations, spin_rates });
+    }
+
+    fn run(mut self, mut told: Told, mut pull: impl Pull) {
+        let mut sums = QuadSums::new(self.setting.turn);
+        let masses = self.setting.constants.of(self.first, told.motions.len()).masses;
+        self.move_quads(&mut told, &mut pull, masses, &mut sums);
+        if !told.motions.len().is_multiple_of(LANES) {
+            self.move_rest(&mut told, &mut pull, masses, &mut sums);
+        }
+        if let Some(chunk) = self.mass_moments.first_mut() {
+            *chunk = sums.mass_moment();
+        }
+    }
+
+    fn move_quads<P: Pull>(&mut self, told: &mut Told, pull: &mut P, masses: &[f64], sums: &mut QuadSums) {
+        let quads = told.motions.len() / LANES;
+        // Slices of one known length let the compiler drop the bounds checks.
+        let velocities = &mut self.moved.velocities.as_chunks_mut().0[..quads];
+        let angles = &mut self.moved.angles.as_chunks_mut().0[..quads];
+        let spins = &mut self.moved.spins.as_chunks_mut().0[..quads];
+        let masses = &masses.as_chunks().0[..quads];
+        let motions = &mut told.motions.as_chunks_mut().0[..quads];
+        for (patch, way) in told.ways.iter_mut().enumerate() {
+            let first = patch * (PATCH / LANES);
+            for quad in first..quads.min(first + PATCH / LANES) {
+                let pulls = pull.of(quad, quads);
+                let mut four = Quad {
+                    velocities: &mut velocities[quad],
+                    angles: &mut angles[quad],
+                    spins: &mut spins[quad],
+                    motions: &mut motions[quad],
+                };
+                four.advance::<P>(pulls, self.setting.time_step, &masses[quad], sums);
+            }
+            *way = sums.take_longest();
+        }
+    }
+
+    fn move_rest<P: Pull>(&mut self, told: &mut Told, pull: &mut P, masses: &[f64], sums: &mut QuadSums) {
+        let pulls = pull.of_rest();
+        let mut velocities = rest_of(self.moved.velocities);
+        let mut angles = rest_of(self.moved.angles);
+        let mut spins = rest_of(self.moved.spins);
+        let (_, rest) = told.motions.as_chunks_mut::<LANES>();
+        let mut motions = std::array::from_fn(|lane| rest[lane.min(rest.len() - 1)]);
+        let mut four = Quad {
+            velocities: &mut velocities,
+            angles: &mut angles,
+            spins: &mut spins,
+            motions: &mut motions,
+        };
+        four.advance::<P>(pulls, self.setting.time_step, &rest_of(masses), sums);
+        put_rest(self.moved.velocities, &velocities);
+        put_rest(self.moved.angles, &angles);
+        put_rest(self.moved.spins, &spins);
+        put_rest(told.motions, &motions);
+        if let Some(way) = told.ways.last_mut() {
+            *way = larger(*way, sums.take_longest());
+        }
+    }
+}
+
+impl Chunked for Drift<'_> {
+    fn chunks(&self) -> usize {
+        chunk_count(self.moved.spins.len())
+    }
+
+    fn split(self, chunks: usize) -> (Self, Self) {
+        let at = chunks * CHUNK;
+        let (velocities, more_velocities) = self.moved.velocities.split_at_mut(at);
+        let (angles, more_angles) = self.moved.angles.split_at_mut(at);
+        let (spins, more_spins) = self.moved.spins.split_at_mut(at);
+        let (mass_moments, more_mass_moments) = self.mass_moments.split_at_mut(chunks);
+        let (first, setting) = (self.first, self.setting);
+        let moved = Moved { velocities, angles, spins };
+        let more = Moved { velocities: more_velocities, angles: more_angles, spins: more_spins };
         (
-            Self { positions, velocities, angles, spins },
-            Self {
-                positions: more_positions,
-                velocities: more_velocities,
-                angles: more_angles,
-                spins: more_spins,
-            },
+            Self { first, moved, mass_moments, setting },
+            Self { first: first + at, moved: more, mass_moments: more_mass_moments, setting },
         )
     }
 }
 
-pub(super) struct Drift<'a, P> {
-    pub(super) pull: P,
-    pub(super) moved: Moved<'a>,
-    pub(super) masses: &'a [f64],
-    pub(super) motions: &'a mut [Motion],
-    pub(super) sums: &'a mut [(Vec2, f64)],
+/// The drift of whole chunks, with all that they need for it at hand.
+#[derive(Debug)]
+pub struct Complete<'a, L> {
+    /// What moves.
+    pub drift: Drift<'a>,
+    /// What contacts are told of it.
+    pub told: Told<'a>,
+    /// Where its accelerations come from, by particle.
+    pub source: L,
 }
 
-impl<P: Pull> Drift<'_, P> {
-    pub(super) fn run(mut self, time_step: f64, turn: f64) {
-        let mut sums = QuadSums::new(turn);
-        self.move_quads(time_step, &mut sums);
-        if !self.motions.len().is_multiple_of(LANES) {
-            self.move_rest(time_step, &mut sums);
-        }
-        if let Some(chunk) = self.sums.first_mut() {
-            *chunk = sums.total();
-        }
+/// Slices by particle.
+pub trait ByParticle: Sized + Send {
+    /// Cuts before particle `at`.
+    fn cut(self, at: usize) -> (Self, Self);
+}
+
+impl ByParticle for &mut [Load] {
+    fn cut(self, at: usize) -> (Self, Self) {
+        self.split_at_mut(at)
+    }
+}
+
+impl ByParticle for (&[Vec2], &[f64]) {
+    fn cut(self, at: usize) -> (Self, Self) {
+        let ((a, more_a), (b, more_b)) = (self.0.split_at(at), self.1.split_at(at));
+        ((a, b), (more_a, more_b))
+    }
+}
+
+impl<L: ByParticle> Chunked for Complete<'_, L> {
+    fn chunks(&self) -> usize {
+        self.drift.chunks()
     }
 
-    fn move_quads(&mut self, time_step: f64, sums: &mut QuadSums) {
-        let quads = self.motions.len() / LANES;
-        // Slices of one known length let the compiler drop the bounds checks.
-        let positions = &mut self.moved.positions.as_chunks_mut().0[..quads];
-        let velocities = &mut self.moved.velocities.as_chunks_mut().0[..quads];
-        let angles = &mut self.moved.angles.as_chunks_mut().0[..quads];
-        let spins = &mut self.moved.spins.as_chunks_mut().0[..quads];
-        let masses = &self.masses.as_chunks().0[..quads];
-        let motions = &mut self.motions.as_chunks_mut().0[..quads];
-        for quad in 0..quads {
-            let pulls = self.pull.of(quad, quads);
-            let mut four = Quad {
-                positions: &mut positions[quad],
-                velocities: &mut velocities[quad],
-                angles: &mut angles[quad],
-                spins: &mut spins[quad],
-            };
-            four.advance::<P>(pulls, time_step, (&masses[quad], sums), &mut motions[quad]);
-        }
-    }
-
-    fn move_rest(&mut self, time_step: f64, sums: &mut QuadSums) {
-        let pulls = self.pull.of_rest();
-        let mut positions = rest_of(self.moved.positions);
-        let mut velocities = rest_of(self.moved.velocities);
-        let mut angles = rest_of(self.moved.angles);
-        let mut spins = rest_of(self.moved.spins);
-        let (_, rest) = self.motions.as_chunks_mut::<LANES>();
-        let mut motions = std::array::from_fn(|lane| rest[lane.min(rest.len() - 1)]);
-        let mut four = Quad {
-            positions: &mut positions,
-            velocities: &mut velocities,
-            angles: &mut angles,
-            spins: &mut spins,
-        };
-        four.advance::<P>(pulls, time_step, (&rest_of(self.masses), sums), &mut motions);
-        put_rest(self.moved.positions, &positions);
-        put_rest(self.moved.velocities, &velocities);
-        put_rest(self.moved.angles, &angles);
-        put_rest(self.moved.spins, &spins);
-        put_rest(self.motions, &motions);
+    fn split(self, chunks: usize) -> (Self, Self) {
+        let at = chunks * CHUNK;
+        let (drift, more_drift) = self.drift.split(chunks);
+        let (told, more_told) = self.told.split(at);
+        let (source, more_source) = self.source.cut(at);
+        (Self { drift, told, source }, Self { drift: more_drift, told: more_told, source: more_source })
     }
 }
 
 /// Four particles.
 struct Quad<'a> {
-    positions: &'a mut [Vec2; LANES],
     velocities: &'a mut [Vec2; LANES],
     angles: &'a mut [f64; LANES],
     spins: &'a mut [f64; LANES],
+    motions: &'a mut [Motion; LANES],
 }
 
 impl Quad<'_> {
@@ -112,8 +228,8 @@ impl Quad<'_> {
         &mut self,
         (accelerations, spin_rates): Pulls,
         time_step: f64,
-        (masses, sums): (&[f64; LANES], &mut QuadSums),
-        motions: &mut [Motion; LANES],
+        masses: &[f64; LANES],
+        sums: &mut QuadSums,
     ) {
         let (step, half) = (Lanes::splat(time_step), Lanes::splat(0.5 * time_step));
         let (kicks, twists) = (accelerations.map(|a| a * half), spin_rates * half);
@@ -128,9 +244,8 @@ impl Quad<'_> {
         *self.velocities = four_vectors(velocities);
         *self.spins = spins.to_array();
         let displacements = velocities.map(|velocity| velocity * step);
-        let before = two_by_two(self.positions);
+        let before = two_by_two(&self.motions.map(|motion| motion.position()));
         let positions = [before[0] + displacements[0], before[1] + displacements[1]];
-        *self.positions = four_vectors(positions);
         sums.note(before, displacements);
         sums.weigh(positions, masses);
         let turns = spins * step;
@@ -139,7 +254,7 @@ impl Quad<'_> {
         let foretold = [velocities[0] + kicks[0], velocities[1] + kicks[1]].map(Lanes::to_array);
         let (places, ways) = (positions.map(Lanes::to_array), displacements.map(Lanes::to_array));
         let turns = turns.to_array();
-        for (lane, motion) in motions.iter_mut().enumerate() {
+        for (lane, motion) in self.motions.iter_mut().enumerate() {
             let (two, x) = (lane / 2, 2 * (lane % 2));
             motion.place = Lanes::new([places[two][x], places[two][x + 1], ways[two][x], ways[two][x + 1]]);
             let radius = motion.radius();
@@ -184,34 +299,13 @@ impl QuadSums {
         self.mass_moment += positions[1] * Lanes::new([c, c, d, d]);
     }
 
-    fn total(&self) -> (Vec2, f64) {
+    fn mass_moment(&self) -> Vec2 {
         let [x, y, more_x, more_y] = self.mass_moment.to_array();
-        let longest = self.longest_squared.to_array().into_iter().fold(0.0, larger);
-        (Vec2::new(x + more_x, y + more_y), longest)
-    }
-}
-
-impl<P: Pull> Chunked for Drift<'_, P> {
-    fn chunks(&self) -> usize {
-        self.sums.len()
+        Vec2::new(x + more_x, y + more_y)
     }
 
-    fn split(self, chunks: usize) -> (Self, Self) {
-        let at = chunks * CHUNK;
-        let (pull, more_pull) = self.pull.split(at);
-        let (moved, more_moved) = self.moved.split(at);
-        let (masses, more_masses) = self.masses.split_at(at);
-        let (motions, more_motions) = self.motions.split_at_mut(at);
-        let (sums, more_sums) = self.sums.split_at_mut(chunks);
-        (
-            Self { pull, moved, masses, motions, sums },
-            Self {
-                pull: more_pull,
-                moved: more_moved,
-                masses: more_masses,
-                motions: more_motions,
-                sums: more_sums,
-            },
-        )
+    /// The square of the longest way since it was last taken.
+    fn take_longest(&mut self) -> f64 {
+        std::mem::replace(&mut self.longest_squared, Lanes::ZERO).to_array().into_iter().fold(0.0, larger)
     }
 }

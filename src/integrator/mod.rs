@@ -3,6 +3,7 @@
 //! Between the kicks a particle moves with its half-step velocity; contacts are told that displacement. The velocity at
 //! the end of the step, which the dashpots need before the force is known, is foretold with the last acceleration.
 
+mod constants;
 mod drift;
 mod kick;
 mod pull;
@@ -10,11 +11,12 @@ mod quad;
 
 use crate::lanes::Lanes;
 use crate::particles::Particles;
-use crate::threads::{Threads, chunk_count};
+use crate::threads::{CHUNK, PATCH, Threads, chunk_count};
 use crate::vector::Vec2;
-use drift::{Drift, Moved};
+use constants::Constants;
+use drift::Setting;
+pub use drift::{Complete, Drift, Moved, Told};
 use kick::Kick;
-use pull::{Fresh, Known};
 
 /// What contacts need of a particle in one step, as two rows that load at once; one cache line.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -82,17 +84,17 @@ impl Load {
     }
 }
 
-/// Scratch of the integrator; nothing in it outlives a step but what follows from the particles' constants.
+/// Scratch of the integrator; nothing in it outlives a step but what follows from the particles' constants. While steps
+/// follow each other unseen, the motions alone know where the particles are.
 #[derive(Debug, Clone)]
 pub struct Integrator {
     /// What the contacts are told, by particle.
     pub motions: Vec<Motion>,
-    /// 1/m [m/kg], by particle.
-    inverse_masses: Vec<f64>,
-    /// 1/I, 0 where the spin is locked.
-    inverse_inertias: Vec<f64>,
-    /// Per chunk: Σ m x and the square of the longest way.
-    chunks: Vec<(Vec2, f64)>,
+    /// The square of the longest way of the step as seen from the drum [m²], by patch.
+    pub ways: Vec<f64>,
+    /// Σ m x, by chunk.
+    mass_moments: Vec<Vec2>,
+    constants: Constants,
     time_step: f64,
     gravity: Vec2,
 }
@@ -107,88 +109,80 @@ impl Integrator {
                 pace: Lanes::new([velocity.x, velocity.y, 0.0, particles.radii[i]]),
             }
         };
-        let inverse = |value: &f64| if *value > 0.0 { 1.0 / value } else { 0.0 };
         Self {
             motions: (0..particles.len()).map(still).collect(),
-            inverse_masses: particles.masses.iter().map(inverse).collect(),
-            inverse_inertias: particles.inertias.iter().map(inverse).collect(),
-            chunks: vec![(Vec2::zeros(), 0.0); chunk_count(particles.len())],
+            ways: vec![0.0; particles.len().div_ceil(PATCH)],
+            mass_moments: vec![Vec2::zeros(); chunk_count(particles.len())],
+            constants: Constants::new(particles),
             time_step,
             gravity,
         }
     }
 
-    /// Half a kick with the known accelerations, then the drift, while the drum turns by `turn` [rad].
-    pub fn drift(&mut self, particles: &mut Particles, turn: f64, threads: &Threads) -> DriftSums {
-        let known =
-            Known { accelerations: &particles.accelerations, spin_rates: &particles.angular_accelerations };
+    /// A drift of all particles, while the drum turns by `turn` [rad], still to be run chunk by chunk.
+    pub fn drift<'a>(&'a mut self, moved: Moved<'a>, turn: f64) -> (Drift<'a>, Told<'a>) {
+        let (constants, time_step, gravity) = (&self.constants, self.time_step, self.gravity);
+        let setting = Setting { constants, time_step, turn, gravity };
+        let drift = Drift { first: 0, moved, mass_moments: &mut self.mass_moments, setting };
+        (drift, Told { motions: &mut self.motions, ways: &mut self.ways })
+    }
+
+    /// Half a kick with the accelerations that the particles carry, then the drift.
+    pub fn start(&mut self, particles: &mut Particles, turn: f64, threads: &Threads) -> DriftSums {
+        let source = (&particles.accelerations[..], &particles.angular_accelerations[..]);
         let moved = Moved {
-            positions: &mut particles.positions,
             velocities: &mut particles.velocities,
             angles: &mut particles.angles,
             spins: &mut particles.angular_velocities,
         };
-        let (time_step, masses) = (self.time_step, &particles.masses);
-        let work = Drift { pull: known, moved, masses, motions: &mut self.motions, sums: &mut self.chunks };
-        threads.for_each_chunk(masses.len(), work, &|chunk: Drift<Known>| chunk.run(time_step, turn));
-        self.sum()
+        let (drift, told) = self.drift(moved, turn);
+        let work = Complete { drift, told, source };
+        threads.for_each_chunk(source.0.len(), work, &|chunk: Complete<_>| {
+            chunk.drift.run_on(chunk.told, chunk.source);
+        });
+        self.sums()
     }
 
-    /// The second half of a kick and a `drift` in one pass over the particles, for steps between which nobody looks:
-    /// the same operations, but accelerations are not kept.
-    pub fn kick_and_drift(
-        &mut self,
-        particles: &mut Particles,
-        loads: &mut [Load],
-        turn: f64,
-        threads: &Threads,
-    ) -> DriftSums {
-        let fresh = Fresh {
-            loads,
-            inverse_masses: &self.inverse_masses,
-            inverse_inertias: &self.inverse_inertias,
-            gravity: self.gravity,
-        };
-        let moved = Moved {
-            positions: &mut particles.positions,
-            velocities: &mut particles.velocities,
-            angles: &mut particles.angles,
-            spins: &mut particles.angular_velocities,
-        };
-        let (time_step, masses) = (self.time_step, &particles.masses);
-        let work = Drift { pull: fresh, moved, masses, motions: &mut self.motions, sums: &mut self.chunks };
-        threads.for_each_chunk(masses.len(), work, &|chunk: Drift<Fresh>| chunk.run(time_step, turn));
-        self.sum()
-    }
-
-    fn sum(&self) -> DriftSums {
-        let start = (Vec2::zeros(), 0.0_f64);
-        let (mass_moment, longest_squared) =
-            self.chunks.iter().fold(start, |sum, chunk| (sum.0 + chunk.0, sum.1.max(chunk.1)));
+    /// What the last drift summed up.
+    pub fn sums(&self) -> DriftSums {
+        let mass_moment = self.mass_moments.iter().fold(Vec2::zeros(), |sum, part| sum + part);
+        let longest_squared = self.ways.iter().copied().fold(0.0, f64::max);
         DriftSums { mass_moment, longest_way: longest_squared.sqrt() }
     }
 
-    /// Accelerations from the loads and gravity, then the second half of the kick.
-    pub fn kick(&self, particles: &mut Particles, loads: &[Load], threads: &Threads) {
+    /// Accelerations from the loads and gravity, then the second half of the kick: the particles are up to date.
+    pub fn finish(&self, particles: &mut Particles, loads: &[Load], threads: &Threads) {
         let count = particles.len();
-        let (half_step, gravity) = (0.5 * self.time_step, self.gravity);
+        let (constants, half_step, gravity) = (&self.constants, 0.5 * self.time_step, self.gravity);
         let work = Kick {
+            first: 0,
+            positions: &mut particles.positions,
             velocities: &mut particles.velocities,
             spins: &mut particles.angular_velocities,
             accelerations: &mut particles.accelerations,
             spin_rates: &mut particles.angular_accelerations,
+            motions: &self.motions,
             loads,
-            inverse_masses: &self.inverse_masses,
-            inverse_inertias: &self.inverse_inertias,
         };
-        threads.for_each_chunk(count, work, &|chunk: Kick| chunk.run(half_step, gravity));
+        threads.for_each_chunk(count, work, &|chunk: Kick| chunk.run(constants, half_step, gravity));
+    }
+
+    /// Tells the particles where they are.
+    pub fn place(&self, positions: &mut [Vec2]) {
+        for (position, motion) in positions.iter_mut().zip(&self.motions) {
+            *position = motion.position();
+        }
     }
 
     /// Accelerations from the loads and gravity alone: the start of a simulation, before the first kick.
     pub fn accelerate(&self, particles: &mut Particles, loads: &[Load]) {
-        for (i, load) in loads.iter().enumerate() {
-            particles.accelerations[i] = load.force() * self.inverse_masses[i] + self.gravity;
-            particles.angular_accelerations[i] = load.moment() * self.inverse_inertias[i];
+        for (chunk, loads) in loads.chunks(CHUNK).enumerate() {
+            let constants = self.constants.of(chunk * CHUNK, loads.len());
+            for (i, load) in loads.iter().enumerate() {
+                let particle = chunk * CHUNK + i;
+                particles.accelerations[particle] = load.force() * constants.inverse_masses[i] + self.gravity;
+                particles.angular_accelerations[particle] = load.moment() * constants.inverse_inertias[i];
+            }
         }
     }
 }

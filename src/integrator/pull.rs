@@ -1,6 +1,7 @@
 //! Where a drift takes the accelerations from: what the particles carry, or the loads of the last pass.
 
 use super::Load;
+use super::constants::ConstantsOf;
 use super::quad::{rest_of, two_by_two};
 use crate::lanes::{LANES, Lanes};
 use crate::vector::Vec2;
@@ -9,14 +10,13 @@ use crate::vector::Vec2;
 pub(super) type Pulls = ([Lanes; 2], Lanes);
 
 /// Where a drift takes its accelerations from.
-pub(super) trait Pull: Send + Sized {
+pub(super) trait Pull {
     /// Whether the velocities still lack the second half of the last kick.
     const UNFINISHED: bool;
     /// The accelerations of the four particles of quad `quad` of `quads`.
     fn of(&mut self, quad: usize, quads: usize) -> Pulls;
     /// The accelerations of the particles after the last whole quad.
     fn of_rest(&mut self) -> Pulls;
-    fn split(self, at: usize) -> (Self, Self);
 }
 
 /// The accelerations that the particles carry.
@@ -38,22 +38,12 @@ impl Pull for Known<'_> {
     fn of_rest(&mut self) -> Pulls {
         (two_by_two(&rest_of(self.accelerations)), Lanes::new(rest_of(self.spin_rates)))
     }
-
-    fn split(self, at: usize) -> (Self, Self) {
-        let (accelerations, more_accelerations) = self.accelerations.split_at(at);
-        let (spin_rates, more_spin_rates) = self.spin_rates.split_at(at);
-        (
-            Self { accelerations, spin_rates },
-            Self { accelerations: more_accelerations, spin_rates: more_spin_rates },
-        )
-    }
 }
 
 /// Accelerations from the loads of the last force pass, which are taken: the next pass finds them empty.
 pub(super) struct Fresh<'a> {
     pub(super) loads: &'a mut [Load],
-    pub(super) inverse_masses: &'a [f64],
-    pub(super) inverse_inertias: &'a [f64],
+    pub(super) constants: ConstantsOf<'a>,
     pub(super) gravity: Vec2,
 }
 
@@ -63,8 +53,8 @@ impl Pull for Fresh<'_> {
     #[inline(always)]
     fn of(&mut self, quad: usize, quads: usize) -> Pulls {
         let loads = &mut self.loads.as_chunks_mut().0[..quads];
-        let inverse_masses = &self.inverse_masses.as_chunks().0[..quads];
-        let inverse_inertias = &self.inverse_inertias.as_chunks().0[..quads];
+        let inverse_masses = &self.constants.inverse_masses.as_chunks().0[..quads];
+        let inverse_inertias = &self.constants.inverse_inertias.as_chunks().0[..quads];
         let taken = std::mem::take(&mut loads[quad]);
         pulls(&taken, &inverse_masses[quad], &inverse_inertias[quad], self.gravity)
     }
@@ -72,23 +62,8 @@ impl Pull for Fresh<'_> {
     fn of_rest(&mut self) -> Pulls {
         let taken = rest_of(self.loads);
         self.loads.as_chunks_mut::<LANES>().1.fill(Load::default());
-        pulls(&taken, &rest_of(self.inverse_masses), &rest_of(self.inverse_inertias), self.gravity)
-    }
-
-    fn split(self, at: usize) -> (Self, Self) {
-        let (loads, more_loads) = self.loads.split_at_mut(at);
-        let (inverse_masses, more_inverse_masses) = self.inverse_masses.split_at(at);
-        let (inverse_inertias, more_inverse_inertias) = self.inverse_inertias.split_at(at);
-        let gravity = self.gravity;
-        (
-            Self { loads, inverse_masses, inverse_inertias, gravity },
-            Self {
-                loads: more_loads,
-                inverse_masses: more_inverse_masses,
-                inverse_inertias: more_inverse_inertias,
-                gravity,
-            },
-        )
+        let (masses, inertias) = (self.constants.inverse_masses, self.constants.inverse_inertias);
+        pulls(&taken, &rest_of(masses), &rest_of(inertias), self.gravity)
     }
 }
 

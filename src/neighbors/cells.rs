@@ -12,6 +12,10 @@ pub struct CellGrid {
     /// Cell `c` holds the members `starts[c]..starts[c + 1]`.
     starts: Vec<u32>,
     members: Vec<u32>,
+    /// The members' positions: a search reads them in a row.
+    places: Vec<Vec2>,
+    /// The cell of each particle.
+    cells: Vec<u32>,
 }
 
 impl CellGrid {
@@ -42,23 +46,27 @@ impl CellGrid {
     fn sort(&mut self, positions: &[Vec2]) {
         self.starts.clear();
         self.starts.resize(self.columns * self.rows + 1, 0);
-        for &position in positions {
-            let cell = self.cell_of(position);
-            self.starts[cell + 1] += 1;
+        let mut cells = std::mem::take(&mut self.cells);
+        cells.clear();
+        cells.extend(positions.iter().map(|&position| self.cell_of(position) as u32));
+        for &cell in &cells {
+            self.starts[cell as usize + 1] += 1;
         }
         for cell in 0..self.columns * self.rows {
             self.starts[cell + 1] += self.starts[cell];
         }
-        self.members.clear();
         self.members.resize(positions.len(), 0);
+        self.places.resize(positions.len(), Vec2::zeros());
         // Filling from the back turns each cell's end into its start without a second array of cursors.
-        for (id, &position) in positions.iter().enumerate().rev() {
-            let cell = self.cell_of(position);
-            self.starts[cell + 1] -= 1;
-            self.members[self.starts[cell + 1] as usize] = id as u32;
+        for (id, (&cell, &position)) in cells.iter().zip(positions).enumerate().rev() {
+            let start = &mut self.starts[cell as usize + 1];
+            *start -= 1;
+            self.members[*start as usize] = id as u32;
+            self.places[*start as usize] = position;
         }
         self.starts.remove(0);
         self.starts.push(positions.len() as u32);
+        self.cells = cells;
     }
 
     fn coordinates(&self, position: Vec2) -> (usize, usize) {
@@ -72,14 +80,16 @@ impl CellGrid {
         row * self.columns + column
     }
 
-    /// Calls `visit` with the members of the cell of `position` and of its neighbors, as one slice per row of cells.
-    pub fn for_each_near(&self, position: Vec2, mut visit: impl FnMut(&[u32])) {
+    /// Calls `visit` with the members of the cell of `position` and of its neighbors and with their positions, as slices
+    /// of one row of cells.
+    #[inline]
+    pub fn for_each_near(&self, position: Vec2, mut visit: impl FnMut(&[u32], &[Vec2])) {
         let (column, row) = self.coordinates(position);
         let (left, right) = (column.saturating_sub(1), (column + 1).min(self.columns - 1));
         for row in row.saturating_sub(1)..=(row + 1).min(self.rows - 1) {
             let start = self.starts[row * self.columns + left] as usize;
             let end = self.starts[row * self.columns + right + 1] as usize;
-            visit(&self.members[start..end]);
+            visit(&self.members[start..end], &self.places[start..end]);
         }
     }
 }

@@ -10,7 +10,7 @@ use cells::CellGrid;
 use crate::contact::table::{Candidate, ChunkSlots, ContactTable};
 use crate::drum::{Drum, RIM};
 use crate::particles::Particles;
-use crate::threads::{CHUNK, Chunked, Threads};
+use crate::threads::{CHUNK, Chunked, PATCH, Threads};
 use crate::vector::{Rotation, Vec2};
 
 /// Decides when to rebuild, and rebuilds.
@@ -23,8 +23,6 @@ pub struct VerletList {
     farthest: f64,
     /// How far anyone may still move before the displacements have to be looked at [m].
     budget: f64,
-    /// How far anyone can have moved since the last build [m]: the sum over steps of the longest way.
-    way: f64,
     grid: CellGrid,
 }
 
@@ -42,23 +40,21 @@ pub struct Surroundings<'a> {
 impl VerletList {
     /// A list with the margin `skin` [m] that asks to be built at once.
     pub fn new(skin: f64) -> Self {
-        Self { skin, anchors: Vec::new(), farthest: 0.0, budget: -1.0, way: 0.0, grid: CellGrid::default() }
+        Self { skin, anchors: Vec::new(), farthest: 0.0, budget: -1.0, grid: CellGrid::default() }
     }
 
     /// Takes note of a step in which nobody moved farther than `longest_way` as seen from the drum, to first order in
     /// the drum's `turn`. Returns whether displacements have to be looked at.
     pub fn advance(&mut self, longest_way: f64, turn: f64) -> bool {
-        // The way is measured along the tangent; the arc departs from it by at most |x| turn² / 2.
-        let arc = 0.5 * turn * turn * (self.farthest + self.skin);
-        self.budget -= longest_way + arc;
-        self.way += longest_way + arc;
+        self.budget -= longest_way + self.arc(turn);
         // A way that is not a number asks, too.
         self.budget <= 0.0 || self.budget.is_nan()
     }
 
-    /// How far anyone can have moved since the last build, as seen from the drum [m].
-    pub fn way(&self) -> f64 {
-        self.way
+    /// How far at most a way departs from its measure along the tangent while the drum turns by `turn` [rad]:
+    /// |x| turn² / 2 [m].
+    pub fn arc(&self, turn: f64) -> f64 {
+        0.5 * turn * turn * (self.farthest + self.skin)
     }
 
     /// Half of 1 / (distance + reach) for particles of at most `largest_radius` that the list holds, taken slightly low
@@ -94,7 +90,6 @@ impl VerletList {
             .extend(particles.positions.iter().map(|&position| around.rotation.apply_inverse(position)));
         self.farthest = particles.positions.iter().fold(0.0_f64, |most, p| most.max(p.norm()));
         self.budget = 0.5 * self.skin * ROUND_OFF_MARGIN;
-        self.way = 0.0;
         self.grid.fill(&particles.positions, 2.0 * particles.largest_radius() + self.skin);
         let search = Search { chunks: &mut table.chunks, first: 0 };
         let (grid, anchors, skin) = (&self.grid, &self.anchors, self.skin);
@@ -120,9 +115,14 @@ impl Search<'_> {
         let mut found = Vec::new();
         let start = self.first * CHUNK;
         for (i, &center) in anchors.iter().enumerate().skip(start).take(CHUNK) {
+            if i.is_multiple_of(PATCH) {
+                let patch = (i / PATCH) as u32;
+                pairs.candidates.begin(patch);
+                walls.candidates.begin(patch);
+            }
             find_pairs(i, around.particles, grid, skin, &mut found);
             for j in found.drain(..) {
-                pairs.candidates.push(Candidate { owner: i as u32, other: j });
+                pairs.candidates.push_pair(Candidate { owner: i as u32, other: j });
             }
             find_walls(around.drum, center, around.particles.radii[i] + skin, &mut found);
             for feature in found.drain(..) {
@@ -149,12 +149,17 @@ impl Chunked for Search<'_> {
 fn find_pairs(i: usize, particles: &Particles, grid: &CellGrid, skin: f64, found: &mut Vec<u32>) {
     let position = particles.positions[i];
     let own_reach = particles.radii[i] + skin;
-    grid.for_each_near(position, |members| {
-        let higher = members.iter().filter(|&&j| j as usize > i);
-        found.extend(higher.filter(|&&j| {
+    grid.for_each_near(position, |members, places| {
+        // Every member is written, and overwritten unless it is near: no CPU could foretell a branch here.
+        let mut count = found.len();
+        found.resize(count + members.len(), 0);
+        for (&j, &place) in members.iter().zip(places) {
             let reach = own_reach + particles.radii[j as usize];
-            (particles.positions[j as usize] - position).norm_squared() < reach * reach
-        }));
+            let is_near = (place - position).norm_squared() < reach * reach;
+            found[count] = j;
+            count += usize::from((j as usize > i) & is_near);
+        }
+        found.truncate(count);
     });
     found.sort_unstable();
 }

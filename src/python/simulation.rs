@@ -23,8 +23,11 @@ use crate::recorder::{Column, columns};
 use crate::simulation::Simulation as Core;
 use crate::summary::summarize;
 
-/// How long a run keeps the interpreter waiting for signals at most, but for one step.
+/// How long a run keeps the interpreter waiting for signals at most, but for the least number of steps.
 const SLICE: Duration = Duration::from_millis(30);
+
+/// Steps of a slice at least: each slice brings all particles up to date at its end.
+const LEAST_STEPS: u64 = 8;
 
 /// A drum with its load; see `drumrs.Simulation`.
 #[pyclass(frozen, module = "drumrs._core")]
@@ -78,7 +81,7 @@ impl Pace {
     fn adapt(&mut self, elapsed: Duration) {
         // The first steps are slower than the rest, and few: slices grow fast, but not at one bound.
         let factor = (SLICE.as_secs_f64() / elapsed.as_secs_f64().max(1e-6)).min(4.0);
-        self.steps = ((self.steps as f64 * factor) as u64).max(1);
+        self.steps = ((self.steps as f64 * factor) as u64).max(LEAST_STEPS);
     }
 }
 
@@ -145,8 +148,7 @@ impl Simulation {
     #[pyo3(signature = (steps, progress = None))]
     fn run(&self, py: Python<'_>, steps: u64, progress: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
         self.stop.store(false, Ordering::Relaxed);
-        // A single step of the largest loads fills a slice.
-        let mut pace = Pace { steps: 1 };
+        let mut pace = Pace { steps: LEAST_STEPS };
         let mut done = 0;
         while done < steps && !self.stop.load(Ordering::Relaxed) {
             done += self.slice(py, steps - done, &mut pace).map_err(|error| to_python(py, &error))?;

@@ -16,6 +16,9 @@ pub(super) struct Fixed {
     pub(super) time_step: f64,
     pub(super) gravity: Vec2,
     pub(super) mass: f64,
+    pub(super) least_radius: f64,
+    /// The radius of all bundles where they are of one size.
+    pub(super) radius: Option<f64>,
     pub(super) sample_steps: u64,
     pub(super) frame_steps: u64,
     /// The drum's speed where it is constant.
@@ -26,6 +29,7 @@ impl Fixed {
     pub(super) fn new(config: &SimulationConfig, particles: &Particles) -> Result<Self, Error> {
         let laws = Laws::new(&config.contact.bundle, &config.contact.drum);
         let time_step = start::time_step(config, &laws, particles)?;
+        let least_radius = particles.radii.iter().copied().fold(f64::INFINITY, f64::min);
         let every = |interval: f64| ((interval / time_step).round() as u64).max(1);
         Ok(Self {
             drum: Drum::new(&config.drum)?,
@@ -33,6 +37,8 @@ impl Fixed {
             time_step,
             gravity: Vec2::new(config.gravity[0], config.gravity[1]),
             mass: particles.total_mass(),
+            least_radius,
+            radius: (least_radius == particles.largest_radius()).then_some(least_radius),
             sample_steps: every(config.run.sample_every),
             frame_steps: every(config.run.frame_every),
             steady_speed: config.rotation.is_constant().then(|| config.rotation.angular_velocity(0.0)),

@@ -11,8 +11,8 @@ use crate::contact::table::ContactTable;
 use crate::drum::Drum;
 use crate::energy::{Balance, EnergyLedger, StoredEnergy};
 use crate::error::Error;
-use crate::forces::{ForcePass, Scene};
-use crate::integrator::{DriftSums, Integrator, Load};
+use crate::forces::{ForcePass, Matter, Scene};
+use crate::integrator::{DriftSums, Integrator, Load, Moved};
 use crate::neighbors::{Surroundings, VerletList};
 use crate::order;
 use crate::packing::pack;
@@ -38,8 +38,8 @@ pub struct Simulation {
     integrator: Integrator,
     forces: ForcePass,
     threads: Threads,
-    /// Whether the second half of the last kick is still to come; never between two runs.
-    kick_waits: bool,
+    /// Where the drift of the next step is done, the drum's turn in it [rad] and its sums; never between two runs.
+    ahead: Option<(f64, DriftSums)>,
     failure: Option<Error>,
 }
 
@@ -142,7 +142,7 @@ impl Simulation {
             table,
             fixed,
             threads,
-            kick_waits: false,
+            ahead: None,
             failure: None,
         }
     }
@@ -183,7 +183,7 @@ impl Simulation {
                 return Err(failure.clone());
             }
             if let Err(failure) = self.step(left == 0) {
-                self.finish_kick();
+                self.integrator.place(&mut self.state.particles.positions);
                 self.failure = Some(failure);
             }
         }
@@ -194,31 +194,27 @@ impl Simulation {
         self.failure.clone().map_or(Ok(()), Err)
     }
 
-    /// One step. The second half of its kick waits for the next step's drift where nobody looks in between; `last`
-    /// says that somebody will.
+    /// One step. Where nobody looks in between, the drift of the next step goes along with its forces; `last` says that
+    /// somebody will.
     fn step(&mut self, last: bool) -> Result<(), Error> {
-        if self.state.step > 0 && order::is_due(self.state.particles.len(), self.state.step) {
+        if self.is_sort_due() {
             self.sort();
         }
-        let (from, to) = (self.time(), self.time_at(self.state.step + 1));
-        let schedule = &self.config.rotation;
-        let (angle, angular_velocity) = (schedule.angle(to), schedule.angular_velocity(to));
-        let turn = schedule.angle_increment(from, to);
-        let sums = self.drift(turn);
+        let (turn, sums) = self.ahead.take().unwrap_or_else(|| self.start_drift());
         self.state.step += 1;
         if !(sums.mass_moment.x + sums.mass_moment.y).is_finite() {
+            self.integrator.place(&mut self.state.particles.positions);
             let particle = self.id_of(self.state.particles.first_non_finite().unwrap_or(0));
             return Err(Error::NonFinite { step: self.state.step, particle });
         }
-        let look = self.list.advance(sums.longest_way, turn);
-        let rotation = if look || self.has_outlines() { Rotation::new(angle) } else { Rotation::IDENTITY };
-        if look && !self.list.still_holds(&self.state.particles.positions, rotation) {
-            self.rebuild(rotation);
-        }
-        self.evaluate(Instant { rotation, angular_velocity, turn });
-        self.kick_waits = true;
-        if last || self.fixed.steady_speed.is_none() || self.is_record_due() {
-            self.finish_kick();
+        let rotation = self.keep_list(sums.longest_way, turn);
+        let angular_velocity = self.config.rotation.angular_velocity(self.time());
+        let instant = Instant { rotation, angular_velocity, turn };
+        if last || self.is_to_be_seen(sums.longest_way) {
+            self.evaluate(instant);
+            self.integrator.finish(&mut self.state.particles, &self.forces.loads, &self.threads);
+        } else {
+            self.evaluate_and_move(instant);
         }
         self.charge(sums.mass_moment, turn);
         self.guard()?;
@@ -226,9 +222,38 @@ impl Simulation {
         Ok(())
     }
 
+    /// Follows a step with the neighbor list, and builds it anew where it no longer holds. Returns the drum's rotation,
+    /// which without outlines only the list may see.
+    fn keep_list(&mut self, longest_way: f64, turn: f64) -> Rotation {
+        let look = self.list.advance(longest_way, turn);
+        if !look && !self.has_outlines() {
+            return Rotation::IDENTITY;
+        }
+        let rotation = Rotation::new(self.config.rotation.angle(self.time()));
+        if look {
+            self.integrator.place(&mut self.state.particles.positions);
+            if !self.list.still_holds(&self.state.particles.positions, rotation) {
+                self.rebuild(rotation);
+            }
+        }
+        rotation
+    }
+
+    /// Whether the particles have to be up to date at the end of this step, in which nobody moved farther than
+    /// `longest_way`.
+    fn is_to_be_seen(&self, longest_way: f64) -> bool {
+        // An error leaves the particles at the step in which it occurred.
+        let deepest = self.forces.flows.overlap_ratio + 2.0 * longest_way / self.fixed.least_radius;
+        let balance_looks = self.fixed.steady_speed.is_none() || self.config.load.spin_locked;
+        balance_looks || self.is_record_due() || self.is_sort_due() || deepest > self.config.run.overlap_limit
+    }
+
+    fn is_sort_due(&self) -> bool {
+        self.state.step > 0 && order::is_due(self.state.particles.len(), self.state.step)
+    }
+
     /// Brings neighbors together in memory.
     fn sort(&mut self) {
-        self.finish_kick();
         let order = order::along_curve(&self.state.particles.positions);
         let mut places = vec![0; order.len()];
         for (place, &particle) in order.iter().enumerate() {
@@ -240,20 +265,15 @@ impl Simulation {
         self.list.forget();
     }
 
-    fn drift(&mut self, turn: f64) -> DriftSums {
-        let (particles, threads) = (&mut self.state.particles, &self.threads);
-        if std::mem::take(&mut self.kick_waits) {
-            self.integrator.kick_and_drift(particles, &mut self.forces.loads, turn, threads)
-        } else {
-            self.forces.loads.fill(Load::default());
-            self.integrator.drift(particles, turn, threads)
-        }
+    fn start_drift(&mut self) -> (f64, DriftSums) {
+        let turn = self.next_turn();
+        self.forces.loads.fill(Load::default());
+        (turn, self.integrator.start(&mut self.state.particles, turn, &self.threads))
     }
 
-    fn finish_kick(&mut self) {
-        if std::mem::take(&mut self.kick_waits) {
-            self.integrator.kick(&mut self.state.particles, &self.forces.loads, &self.threads);
-        }
+    /// The angle by which the drum turns in the step after the last [rad].
+    fn next_turn(&self) -> f64 {
+        self.config.rotation.angle_increment(self.time(), self.time_at(self.state.step + 1))
     }
 
     fn is_record_due(&self) -> bool {
@@ -273,19 +293,24 @@ impl Simulation {
     }
 
     fn evaluate(&mut self, instant: Instant) {
-        let scene = Scene {
-            motions: &self.integrator.motions,
-            particles: &self.state.particles,
-            laws: &self.fixed.laws,
-            drum: &self.fixed.drum,
-            rotation: instant.rotation,
-            angular_velocity: instant.angular_velocity,
-            turn: instant.turn,
-            way: self.list.way(),
-            half_gap: self.half_gap,
-            step_rate: 1.0 / self.fixed.time_step,
-        };
+        let Particles { materials, masses, radii, .. } = &self.state.particles;
+        let matter = Matter { materials, masses, radii, radius: self.fixed.radius };
+        let (motions, ways) = (&self.integrator.motions[..], &self.integrator.ways[..]);
+        let scene = Scene { motions, ways, ..scene(&self.fixed, &self.list, self.half_gap, matter, instant) };
         self.forces.evaluate(scene, &mut self.table, &self.threads);
+    }
+
+    /// The forces of this step and the drift of the next.
+    fn evaluate_and_move(&mut self, instant: Instant) {
+        let turn = self.next_turn();
+        let Particles { materials, masses, radii, velocities, angles, angular_velocities: spins, .. } =
+            &mut self.state.particles;
+        let matter = Matter { materials, masses, radii, radius: self.fixed.radius };
+        let moved = Moved { velocities, angles, spins };
+        let scene = scene(&self.fixed, &self.list, self.half_gap, matter, instant);
+        let drift = self.integrator.drift(moved, turn);
+        self.forces.evaluate_and_move(scene, &mut self.table, drift, &self.threads);
+        self.ahead = Some((turn, self.integrator.sums()));
     }
 
     fn charge(&mut self, mass_moment: Vec2, turn: f64) {
@@ -310,11 +335,12 @@ impl Simulation {
         Balance { mass_moment, outer_moment, angular_momentum: 0.0 }
     }
 
-    fn guard(&self) -> Result<(), Error> {
+    fn guard(&mut self) -> Result<(), Error> {
         let limit = self.config.run.overlap_limit;
         if self.forces.flows.overlap_ratio <= limit {
             return Ok(());
         }
+        self.integrator.place(&mut self.state.particles.positions);
         let step = self.state.step;
         let (place, ratio) = start::deepest_overlap(&self.table, &self.state.particles);
         let particle = self.id_of(place);
@@ -382,5 +408,28 @@ impl Simulation {
     }
 }
 
-/// Margin of the neighbor list in radii of the largest bundle; speed is flat from 0.1 to 0.3 at 100 … 10 000 bundles.
+/// Margin of the neighbor list in radii of the largest bundle; speed is flat from 0.15 to 0.8 at 10 000 … 1 000 000 bundles.
 const DEFAULT_SKIN: f64 = 0.3;
+
+/// All that contacts need at an instant but what is told of the particles' motion.
+fn scene<'a>(
+    fixed: &'a Fixed,
+    list: &VerletList,
+    half_gap: f64,
+    matter: Matter<'a>,
+    instant: Instant,
+) -> Scene<'a> {
+    Scene {
+        motions: &[],
+        ways: &[],
+        matter,
+        laws: &fixed.laws,
+        drum: &fixed.drum,
+        rotation: instant.rotation,
+        angular_velocity: instant.angular_velocity,
+        turn: instant.turn,
+        arc: list.arc(instant.turn),
+        half_gap,
+        step_rate: 1.0 / fixed.time_step,
+    }
+}

@@ -88,8 +88,8 @@ pub struct Answer {
 pub fn respond(law: &LinearLaw, overlap: f64, (approach, slip): (f64, f64), history: &History) -> Answer {
     let encounter = Encounter {
         overlap: Lanes::splat(overlap),
-        displacement: Displacement { approach: Lanes::splat(approach), slip: Lanes::splat(slip) },
-        closing_speed: Lanes::ZERO,
+        displacement: Displacement { parting: Lanes::splat(-approach), slip: Lanes::splat(slip) },
+        parting_speed: Lanes::ZERO,
         damping: Lanes::ZERO,
         step_rate: 1.0 / TIME_STEP,
     };
