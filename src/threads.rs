@@ -108,7 +108,7 @@ impl Threads {
     pub fn for_each_chunk<W: Chunked>(&self, count: usize, work: W, kernel: &(impl Fn(W) + Sync)) {
         match self.pool_for(count) {
             Some(pool) => pool.install(|| share(work, kernel, pool.current_num_threads())),
-            None => in_turn(work, kernel),
+            None => in_turn(work).for_each(kernel),
         }
     }
 }
@@ -164,11 +164,16 @@ fn take<W: Chunked>(stretch: &Mutex<Option<W>>, first: bool) -> Option<W> {
     }
 }
 
-fn in_turn<W: Chunked>(mut work: W, kernel: &impl Fn(W)) {
-    while work.chunks() > 1 {
+/// The chunks of `work`, one by one.
+pub fn in_turn<W: Chunked>(work: W) -> impl Iterator<Item = W> {
+    let mut left = Some(work);
+    std::iter::from_fn(move || {
+        let work = left.take()?;
+        if work.chunks() <= 1 {
+            return Some(work);
+        }
         let (first, rest) = work.split(1);
-        kernel(first);
-        work = rest;
-    }
-    kernel(work);
+        left = Some(rest);
+        Some(first)
+    })
 }

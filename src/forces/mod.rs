@@ -14,7 +14,7 @@ use crate::drum::Drum;
 use crate::energy::{StepFlows, SurfaceLoad};
 use crate::integrator::{Complete, Drift, Load, Motion, Told};
 use crate::lanes::{LANES, Lanes, lanes};
-use crate::threads::{CHUNK, Chunked, Threads, chunk_count};
+use crate::threads::{CHUNK, Chunked, Threads, chunk_count, in_turn};
 use crate::vector::Rotation;
 use post::{Delivery, Outbox, PostOffice, Sink};
 
@@ -146,11 +146,10 @@ impl ForcePass {
     /// Evaluates and moves on chunk by chunk, so that large loads pass through the cache once a step: a chunk's contacts
     /// are with itself and later ones, so after its turn nobody asks where its particles were, and its post is complete.
     fn sweep(&mut self, scene: Scene, table: &mut ContactTable, (drift, mut told): (Drift, Told)) {
-        let mut left = Some(drift);
         let surfaces_per_chunk = self.surfaces.len();
-        for (chunk, slots) in table.chunks.iter_mut().enumerate() {
-            let count = CHUNK.min(self.loads.len() - chunk * CHUNK);
-            let loads = &mut self.chunk_loads[..count];
+        for (slots, drift) in table.chunks.iter_mut().zip(in_turn(drift)) {
+            let chunk = drift.chunk();
+            let loads = &mut self.chunk_loads[..CHUNK.min(self.loads.len() - chunk * CHUNK)];
             let (motions, ways) = told.read();
             let work = Chunks {
                 first: chunk,
@@ -162,17 +161,8 @@ impl ForcePass {
                 surfaces_per_chunk,
             };
             work.run(Scene { motions, ways, ..scene });
-            self.post.collect(chunk, &mut self.chunk_loads[..count]);
-            if let Some(drift) = left.take() {
-                let (own, rest) = if drift.chunks() > 1 {
-                    let (own, rest) = drift.split(1);
-                    (own, Some(rest))
-                } else {
-                    (drift, None)
-                };
-                left = rest;
-                own.kick_and_run(told.chunk(chunk), &mut self.chunk_loads[..count]);
-            }
+            self.post.collect(chunk, loads);
+            drift.kick_and_run(told.chunk(chunk), loads);
         }
     }
 
@@ -192,8 +182,8 @@ impl ForcePass {
     }
 }
 
-/// Reads what the contacts of a chunk are about to read in their own order: the particles of the chunk that `motions`
-/// begins with, then those `abroad`. Where that has left the cache, many reads are then under way at once.
+/// Reads what the contacts of a chunk are about to read in their own order: its particles, from
+/// `first` on, then those `abroad`. Where that has left the cache, many reads are then under way at once.
 #[inline(always)]
 fn fetch(motions: &[Motion], first: usize, abroad: &[u32]) {
     let own = motions[first..].iter().take(CHUNK).fold(Lanes::ZERO, |seen, motion| seen | motion.place);
