@@ -133,8 +133,8 @@ def compare_sweeps(repeats: int) -> None:
 
 
 def _sweep_seconds(jobs: int) -> float:
-    """Return the time that a sweep of eight equal cases takes on so many threads [s]."""
-    base = drumrs.baseline().replace({"run.duration": 0.5})
+    """Return the time that a sweep of eight equal cases of five seconds takes on so many threads [s]."""
+    base = drumrs.baseline().replace({"run.duration": 5.0, "run.window": (2.0, 5.0)})
     sweep = drumrs.Sweep(base, seeds=8)
     with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(jobs) as executor:
         began = time.perf_counter()
