@@ -15,12 +15,12 @@ import drumrs
 ENVIRONMENT = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
 # The command line, which says when it enters a function: there it is interrupted, a moment later.
 CHILD = """
-import importlib, sys
+import importlib, os
 {before}
 module = importlib.import_module({module!r})
 real = getattr(module, {name!r})
 def entered(*arguments, **options):
-    print("entered", flush=True)
+    os.write(1, b"entered\\n")  # in one piece, as two threads may enter
     return real(*arguments, **options)
 setattr(module, {name!r}, entered)
 from drumrs.cli import main
