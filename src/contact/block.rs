@@ -42,6 +42,11 @@ pub struct Ends {
 }
 
 impl Ends {
+    /// The same contact in all lanes.
+    pub(super) fn splat((owner, other): (u32, u32)) -> Self {
+        Self { owner: [owner; LANES], other: [other; LANES] }
+    }
+
     /// The key of a contact.
     #[inline]
     pub(super) fn key(&self, lane: usize) -> (u32, u32) {
@@ -55,9 +60,10 @@ impl Ends {
 }
 
 /// What four contacts remember; three cache lines.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy)]
 #[repr(C, align(64))]
 pub struct Block {
+    /// Overlaps [m]; below zero where a lane is vacant.
     pub(super) overlap: [f64; LANES],
     pub(super) tangential_displacement: [f64; LANES],
     pub(super) normal_force: [f64; LANES],
@@ -66,12 +72,41 @@ pub struct Block {
     pub(super) normal_y: [f64; LANES],
 }
 
+/// What stands in the place of the overlap where there is no contact.
+const NO_CONTACT: f64 = -1.0;
+
 impl Block {
-    /// What the contacts remember.
+    /// No contacts.
+    pub(super) const VACANT: Self = Self {
+        overlap: [NO_CONTACT; LANES],
+        tangential_displacement: [0.0; LANES],
+        normal_force: [0.0; LANES],
+        tangential_force: [0.0; LANES],
+        normal_x: [0.0; LANES],
+        normal_y: [0.0; LANES],
+    };
+
+    /// Whether a lane has a contact.
+    #[inline]
+    pub fn holds(&self, lane: usize) -> bool {
+        self.overlap[lane] >= 0.0
+    }
+
+    pub(super) fn vacate(&mut self, lane: usize) {
+        self.put(lane, &History { overlap: NO_CONTACT, ..History::default() });
+    }
+
+    /// All ones in the lanes that have a contact.
+    #[inline(always)]
+    pub fn in_use(&self) -> Lanes {
+        Lanes::new(self.overlap).simd_ge(Lanes::ZERO)
+    }
+
+    /// What the contacts remember; vacant lanes remember nothing.
     #[inline(always)]
     pub fn history(&self) -> HistoryLanes {
         HistoryLanes {
-            overlap: Lanes::new(self.overlap),
+            overlap: Lanes::new(self.overlap).fast_max(Lanes::ZERO),
             tangential_displacement: Lanes::new(self.tangential_displacement),
             normal_force: Lanes::new(self.normal_force),
             tangential_force: Lanes::new(self.tangential_force),
@@ -82,7 +117,8 @@ impl Block {
     /// Replaces what they remember.
     #[inline(always)]
     pub fn remember(&mut self, history: &HistoryLanes) {
-        self.overlap = history.overlap.to_array();
+        let vacant = !self.in_use() & Lanes::splat(NO_CONTACT);
+        self.overlap = (history.overlap | vacant).to_array();
         self.tangential_displacement = history.tangential_displacement.to_array();
         self.normal_force = history.normal_force.to_array();
         self.tangential_force = history.tangential_force.to_array();
@@ -93,7 +129,7 @@ impl Block {
     /// The contacts that did not touch at the last force evaluation, as bits.
     #[inline(always)]
     pub(super) fn separated(&self) -> u32 {
-        Lanes::new(self.overlap).simd_le(Lanes::ZERO).to_bitmask()
+        Lanes::new(self.overlap).simd_eq(Lanes::ZERO).to_bitmask()
     }
 
     #[inline]

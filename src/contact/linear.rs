@@ -236,7 +236,7 @@ impl LinearLanes {
         // The step's whole change of overlap, and the part of it that fell within the contact.
         let (mut approach, travel) = (encounter.overlap - history.overlap, overlap - history.overlap);
         let mut share = touching & Lanes::ONE;
-        if !touched.all() {
+        if (touching & !touched).any() {
             approach = touched.select(approach, -encounter.displacement.parting);
             share = touched.select(share, touching & share_since_touch(travel, approach));
         }

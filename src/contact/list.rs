@@ -1,9 +1,12 @@
 //! Contacts that have a history, in key order, four to a block.
 
+use std::ops::Range;
+
 use super::Contact;
 use super::block::{Block, Ends, Traits, TraitsBlock};
 use super::shift::{close_gap, open_gap};
 use crate::lanes::LANES;
+use crate::threads::{CHUNK, PATCH};
 
 /// One contact with all that its list keeps of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,30 +40,41 @@ pub enum ListTraits {
     Each(Vec<TraitsBlock>),
 }
 
-/// Contacts in key order: by owner, then by other side. Lanes of the last block beyond the end hold anything.
+/// Contacts in key order: by owner, then by other side; patch by patch of their owners, so that one more or one less moves
+/// only those of its patch. A patch begins with a whole block, and the lanes after its last contact are vacant.
 #[derive(Debug, Clone)]
 pub struct ContactList {
     ends: Vec<Ends>,
     blocks: Vec<Block>,
     traits: ListTraits,
-    len: usize,
+    /// Numbers of contacts, by patch.
+    counts: [u32; PATCHES],
+}
+
+/// Patches in a chunk.
+const PATCHES: usize = CHUNK / PATCH;
+
+/// The patch of a chunk that a particle belongs to.
+fn patch_of(particle: u32) -> usize {
+    particle as usize % CHUNK / PATCH
 }
 
 impl Default for ContactList {
     fn default() -> Self {
-        Self { ends: Vec::new(), blocks: Vec::new(), traits: ListTraits::Same(Traits::default()), len: 0 }
+        let traits = ListTraits::Same(Traits::default());
+        Self { ends: Vec::new(), blocks: Vec::new(), traits, counts: [0; PATCHES] }
     }
 }
 
 impl ContactList {
     /// Number of contacts.
     pub fn len(&self) -> usize {
-        self.len
+        self.counts.iter().sum::<u32>() as usize
     }
 
     /// Whether there are none.
     pub fn is_empty(&self) -> bool {
-        self.len == 0
+        self.blocks.is_empty()
     }
 
     /// Who is at the contacts, what they remember, and their traits.
@@ -69,7 +83,18 @@ impl ContactList {
         (&self.ends, &mut self.blocks, &self.traits)
     }
 
-    /// One contact.
+    /// The lanes, vacant ones included.
+    pub fn lanes(&self) -> std::ops::Range<usize> {
+        0..LANES * self.blocks.len()
+    }
+
+    /// Whether lane `index` has a contact.
+    #[inline]
+    pub fn holds(&self, index: usize) -> bool {
+        self.blocks[index / LANES].holds(index % LANES)
+    }
+
+    /// The contact of lane `index`.
     pub fn entry(&self, index: usize) -> Entry {
         let (block, lane) = (index / LANES, index % LANES);
         let traits = match &self.traits {
@@ -82,10 +107,15 @@ impl ContactList {
 
     /// All contacts, in key order.
     pub fn iter(&self) -> impl Iterator<Item = Entry> + '_ {
-        (0..self.len).map(|index| self.entry(index))
+        self.lanes().filter(|&index| self.holds(index)).map(|index| self.entry(index))
     }
 
-    /// The key of contact `index`.
+    /// The keys of all contacts, ascending.
+    pub fn keys(&self) -> impl Iterator<Item = (u32, u32)> + '_ {
+        self.lanes().filter(|&index| self.holds(index)).map(|index| self.key(index))
+    }
+
+    /// The key of the contact of lane `index`.
     #[inline]
     pub fn key(&self, index: usize) -> (u32, u32) {
         self.ends[index / LANES].key(index % LANES)
@@ -106,35 +136,48 @@ impl ContactList {
         }
     }
 
-    /// Puts a contact at the end, whatever its key.
-    pub fn append(&mut self, entry: &Entry) {
-        if self.is_empty() {
-            self.traits = ListTraits::Same(entry.traits);
-        }
-        if self.len == LANES * self.blocks.len() {
-            self.ends.push(Ends::default());
-            self.blocks.push(Block::default());
-            if let ListTraits::Each(blocks) = &mut self.traits {
-                blocks.push(TraitsBlock::default());
-            }
-        }
-        self.len += 1;
-        self.put(self.len - 1, entry);
-    }
-
-    /// Restores the order of the keys.
-    pub fn sort(&mut self) {
-        let mut entries: Vec<Entry> = self.iter().collect();
-        entries.sort_unstable_by_key(|entry| (entry.contact.particle, entry.contact.other));
-        for (index, entry) in entries.iter().enumerate() {
-            self.put(index, entry);
-        }
+    /// The blocks of a patch.
+    fn blocks_of(&self, patch: usize) -> Range<usize> {
+        let blocks = |count: &u32| count.div_ceil(LANES as u32) as usize;
+        let first = self.counts[..patch].iter().map(blocks).sum();
+        first..first + blocks(&self.counts[patch])
     }
 
     /// Puts a contact in its place.
     pub fn insert(&mut self, entry: Entry) {
+        if self.is_empty() {
+            self.traits = ListTraits::Same(entry.traits);
+        }
         let key = (entry.contact.particle, entry.contact.other);
-        let (mut low, mut high) = (0, self.len);
+        let patch = patch_of(key.0);
+        let count = self.counts[patch] as usize;
+        if count.is_multiple_of(LANES) {
+            self.insert_block(self.blocks_of(patch).end, key, &entry.traits);
+        }
+        self.counts[patch] += 1;
+        let blocks = self.blocks_of(patch);
+        let place = self.place_of(key, LANES * blocks.start, count);
+        let index = place - LANES * blocks.start;
+        open_gap(&mut self.ends[blocks.clone()], index);
+        open_gap(&mut self.blocks[blocks.clone()], index);
+        if let ListTraits::Each(each) = &mut self.traits {
+            open_gap(&mut each[blocks], index);
+        }
+        self.put(place, &entry);
+    }
+
+    /// Adds a vacant block. Its lanes have the ends and traits of a contact, so that they can be worked out.
+    fn insert_block(&mut self, at: usize, key: (u32, u32), traits: &Traits) {
+        self.ends.insert(at, Ends::splat(key));
+        self.blocks.insert(at, Block::VACANT);
+        if let ListTraits::Each(blocks) = &mut self.traits {
+            blocks.insert(at, TraitsBlock::splat(traits));
+        }
+    }
+
+    /// Where among the `count` contacts from lane `first` on one with this key comes.
+    fn place_of(&self, key: (u32, u32), first: usize, count: usize) -> usize {
+        let (mut low, mut high) = (first, first + count);
         while low < high {
             let middle = usize::midpoint(low, high);
             if self.key(middle) < key {
@@ -143,16 +186,10 @@ impl ContactList {
                 high = middle;
             }
         }
-        self.append(&entry);
-        open_gap(&mut self.ends, low);
-        open_gap(&mut self.blocks, low);
-        if let ListTraits::Each(blocks) = &mut self.traits {
-            open_gap(blocks, low);
-        }
-        self.put(low, &entry);
+        low
     }
 
-    /// Takes contact `index` out.
+    /// Takes the contact of lane `index` out.
     pub fn remove(&mut self, index: usize) -> Entry {
         let entry = self.entry(index);
         self.drop(index);
@@ -160,15 +197,24 @@ impl ContactList {
     }
 
     fn drop(&mut self, index: usize) {
-        self.len -= 1;
-        let blocks = self.len.div_ceil(LANES);
-        close_gap(&mut self.ends, index);
-        close_gap(&mut self.blocks, index);
-        self.ends.truncate(blocks);
-        self.blocks.truncate(blocks);
+        let patch = patch_of(self.key(index).0);
+        let blocks = self.blocks_of(patch);
+        let index = index - LANES * blocks.start;
+        close_gap(&mut self.ends[blocks.clone()], index);
+        close_gap(&mut self.blocks[blocks.clone()], index);
         if let ListTraits::Each(each) = &mut self.traits {
-            close_gap(each, index);
-            each.truncate(blocks);
+            close_gap(&mut each[blocks.clone()], index);
+        }
+        self.counts[patch] -= 1;
+        let (last, lane) = (blocks.end - 1, self.counts[patch] as usize % LANES);
+        if lane > 0 {
+            (lane..LANES).for_each(|lane| self.blocks[last].vacate(lane));
+            return;
+        }
+        self.ends.remove(last);
+        self.blocks.remove(last);
+        if let ListTraits::Each(each) = &mut self.traits {
+            each.remove(last);
         }
     }
 
@@ -179,11 +225,10 @@ impl ContactList {
             if separated == 0 {
                 continue;
             }
-            for index in (LANES * block..self.len.min(LANES * (block + 1))).rev() {
-                if separated >> (index % LANES) & 1 == 1 {
-                    take(self.key(index));
-                    self.drop(index);
-                }
+            for lane in (0..LANES).rev().filter(|lane| separated >> lane & 1 == 1) {
+                let index = LANES * block + lane;
+                take(self.key(index));
+                self.drop(index);
             }
         }
     }

@@ -222,8 +222,7 @@ impl Slots {
     /// Lets those of the new candidates sleep that are contacts.
     pub fn link(&mut self) {
         let mut candidate = 0;
-        for index in 0..self.contacts.len() {
-            let key = self.contacts.key(index);
+        for key in self.contacts.keys() {
             while candidate < self.candidates.len() && self.candidates.key(candidate) < key {
                 candidate += 1;
             }
@@ -280,16 +279,12 @@ impl ContactTable {
         for chunk in self.chunks.drain(..) {
             for entry in chunk.pairs.contacts.iter() {
                 let entry = entry.between(place(entry.contact.particle), place(entry.contact.other));
-                moved.chunk_of(entry.contact.particle).pairs.contacts.append(&entry);
+                moved.chunk_of(entry.contact.particle).pairs.contacts.insert(entry);
             }
             for mut entry in chunk.walls.contacts.iter() {
                 entry.contact.particle = place(entry.contact.particle);
-                moved.chunk_of(entry.contact.particle).walls.contacts.append(&entry);
+                moved.chunk_of(entry.contact.particle).walls.contacts.insert(entry);
             }
-        }
-        for chunk in &mut moved.chunks {
-            chunk.pairs.contacts.sort();
-            chunk.walls.contacts.sort();
         }
         *self = moved;
     }

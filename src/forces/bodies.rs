@@ -15,6 +15,14 @@ pub struct Meeting {
     pub normal: Vec2Lanes,
 }
 
+impl Meeting {
+    /// With no overlap but in the lanes that are `in_use`.
+    #[inline(always)]
+    pub fn within(self, in_use: Lanes) -> Self {
+        Self { overlap: in_use & self.overlap, ..self }
+    }
+}
+
 /// Bodies whose relative motion can be resolved in a given frame of contact.
 pub trait Bodies {
     /// The step's relative displacement, resolved along `normal` with the lever arms of `overlap`. `then` tells whether
@@ -230,18 +238,18 @@ impl FlowLanes {
 
 /// All ones in every lane.
 #[inline(always)]
-pub fn all_ones() -> Lanes {
+fn all_ones() -> Lanes {
     Lanes::splat(f64::from_bits(u64::MAX))
 }
 
-/// One step of four contacts: encounter, law, work, new history. `in_use` is all ones where a lane counts, `depth` what
-/// their overlaps are judged by.
+/// One step of four contacts: encounter, law, work, new history. Vacant lanes have no overlap and no past, hence neither
+/// force nor work; `in_use` is all ones in the others. `depth` is what overlaps are judged by.
 #[inline(always)]
 pub fn settle(
     bodies: &impl Bodies,
     (meeting, history): (Meeting, &HistoryLanes),
     (law, damping, step_rate): (&LinearLanes, Lanes, f64),
-    (in_use, depth): (Lanes, Lanes),
+    (in_use, depth): (Lanes, impl Fn(Lanes) -> Lanes),
     flows: &mut FlowLanes,
 ) -> HistoryLanes {
     let Meeting { overlap, normal } = meeting;
@@ -254,11 +262,11 @@ pub fn settle(
     let work_normal = response.normal_force * displacement.parting + history.normal_force * before.parting;
     let work_tangential =
         response.tangential_force * displacement.slip + history.tangential_force * before.slip;
-    flows.work_normal -= in_use & work_normal;
-    flows.work_tangential += in_use & work_tangential;
-    flows.dissipated_normal += in_use & response.dissipated_normal;
-    flows.dissipated_sliding += in_use & response.dissipated_sliding;
-    flows.depth = (in_use & depth).fast_max(flows.depth);
+    flows.work_normal -= work_normal;
+    flows.work_tangential += work_tangential;
+    flows.dissipated_normal += response.dissipated_normal;
+    flows.dissipated_sliding += response.dissipated_sliding;
+    flows.depth = depth(overlap).fast_max(flows.depth);
     let touching = overlap.simd_gt(Lanes::ZERO);
     flows.touching &= touching | !in_use;
     HistoryLanes {

@@ -13,7 +13,7 @@ use crate::contact::table::{ChunkSlots, ContactTable};
 use crate::drum::Drum;
 use crate::energy::{StepFlows, SurfaceLoad};
 use crate::integrator::{Complete, Drift, Load, Motion, Told};
-use crate::lanes::{LANES, Lanes, lanes};
+use crate::lanes::Lanes;
 use crate::threads::{CHUNK, Chunked, Threads, chunk_count, in_turn};
 use crate::vector::Rotation;
 use post::{Delivery, Outbox, PostOffice, Sink};
@@ -189,16 +189,6 @@ fn fetch(motions: &[Motion], first: usize, abroad: &[u32]) {
     let own = motions[first..].iter().take(CHUNK).fold(Lanes::ZERO, |seen, motion| seen | motion.place);
     let places = abroad.iter().fold(own, |seen, &particle| seen | motions[particle as usize].place);
     std::hint::black_box(places);
-}
-
-/// All ones in the first `count` lanes.
-#[inline(always)]
-fn in_use(count: usize) -> Lanes {
-    if count >= LANES {
-        return bodies::all_ones();
-    }
-    let ones = f64::from_bits(u64::MAX);
-    lanes(|lane| if lane < count { ones } else { 0.0 })
 }
 
 /// The slots of whole chunks of particles, and where their loads and sums go.

@@ -2,9 +2,9 @@
 
 use std::array;
 
+use super::Scene;
 use super::bodies::{FlowLanes, Met, Pairs, settle};
 use super::post::Sink;
-use super::{Scene, in_use};
 use crate::contact::block::{Block, Ends, Traits, TraitsLanes};
 use crate::contact::linear::LinearLanes;
 use crate::contact::list::ListTraits;
@@ -23,8 +23,7 @@ const GROUP: usize = 8;
 pub fn evaluate(scene: Scene, slots: &mut Slots, sink: &mut Sink) -> StepFlows {
     open_contacts(scene, slots);
     let laws = scene.laws.pairs();
-    let len = slots.contacts.len();
-    if len == 0 {
+    if slots.contacts.is_empty() {
         return StepFlows::default();
     }
     let (ends, blocks, traits) = slots.contacts.parts_mut();
@@ -33,7 +32,7 @@ pub fn evaluate(scene: Scene, slots: &mut Slots, sink: &mut Sink) -> StepFlows {
         ListTraits::Same(same) => {
             let (law, traits) = (LinearLanes::splat(&laws[same.law.law as usize]), TraitsLanes::splat(same));
             let of = |_| (law, traits);
-            let flows = work_through(scene, (ends, blocks, len), sink, of, |overlap, _| overlap);
+            let flows = work_through(scene, (ends, blocks), sink, of, |overlap, _| overlap);
             (flows.all_touch(), flows.total(same.radii[0].min(same.radii[1])))
         }
         ListTraits::Each(each) => {
@@ -42,7 +41,7 @@ pub fn evaluate(scene: Scene, slots: &mut Slots, sink: &mut Sink) -> StepFlows {
                 (LinearLanes::new(|lane| &laws[own.laws()[lane] as usize]), own.lanes())
             };
             let ratio = |overlap, [own, other]: [Lanes; 2]| overlap / own.fast_min(other);
-            let flows = work_through(scene, (ends, blocks, len), sink, of, ratio);
+            let flows = work_through(scene, (ends, blocks), sink, of, ratio);
             (flows.all_touch(), flows.total(1.0))
         }
     };
@@ -56,7 +55,7 @@ pub fn evaluate(scene: Scene, slots: &mut Slots, sink: &mut Sink) -> StepFlows {
 #[inline(always)]
 fn work_through(
     scene: Scene,
-    (ends, blocks, len): (&[Ends], &mut [Block], usize),
+    (ends, blocks): (&[Ends], &mut [Block]),
     sink: &mut Sink,
     traits_of: impl Fn(usize) -> (LinearLanes, TraitsLanes),
     depth: impl Fn(Lanes, [Lanes; 2]) -> Lanes,
@@ -64,25 +63,18 @@ fn work_through(
     let mut flows = FlowLanes::zero();
     let mut met = [Met::none(); GROUP];
     let mut loads = [[Lanes::ZERO; LANES]; GROUP];
-    let (full, rest) = blocks.split_at_mut(len / LANES);
-    for (group, (blocks, ends)) in full.chunks_mut(GROUP).zip(ends.chunks(GROUP)).enumerate() {
+    for (group, (blocks, ends)) in blocks.chunks_mut(GROUP).zip(ends.chunks(GROUP)).enumerate() {
         let first = GROUP * group;
-        for (index, (ends, met)) in ends.iter().zip(&mut met).enumerate().take(blocks.len()) {
+        for (index, (ends, met)) in ends.iter().zip(&mut met).enumerate() {
             *met = meet(scene, ends, &traits_of(first + index).1);
         }
         for (index, (block, (met, loads))) in blocks.iter_mut().zip(met.iter().zip(&mut loads)).enumerate() {
             let (law, traits) = traits_of(first + index);
-            *loads = work_out((block, LANES), met, (scene.step_rate, &law, &traits), &depth, &mut flows);
+            *loads = work_out(block, met, (scene.step_rate, &law, &traits), &depth, &mut flows);
         }
-        for (ends, loads) in ends.iter().zip(&loads).take(blocks.len()) {
-            load((ends, LANES), loads, sink);
+        for (ends, loads) in ends.iter().zip(&loads) {
+            load(ends, loads, sink);
         }
-    }
-    if let (Some(block), Some(ends)) = (rest.first_mut(), ends.last()) {
-        let (law, traits) = traits_of(len / LANES);
-        let (met, count) = (meet(scene, ends, &traits), len % LANES);
-        let loads = work_out((block, count), &met, (scene.step_rate, &law, &traits), &depth, &mut flows);
-        load((ends, count), &loads, sink);
     }
     flows
 }
@@ -197,19 +189,20 @@ fn meet(scene: Scene, ends: &Ends, traits: &TraitsLanes) -> Met {
     Met::new(ends.owner.map(motion), ends.other.map(motion), traits.radii)
 }
 
-/// Works out the first `count` contacts of a block. Returns the forces on the others, x and y, and the moments on them;
-/// then the moments on the owners with their sign turned round.
+/// Works out a block. Returns the forces on the others, x and y, and the moments on them; then the moments on the owners
+/// with their sign turned round.
 #[inline(always)]
 fn work_out(
-    (block, count): (&mut Block, usize),
+    block: &mut Block,
     met: &Met,
     (step_rate, law, traits): (f64, &LinearLanes, &TraitsLanes),
     depth: &impl Fn(Lanes, [Lanes; 2]) -> Lanes,
     flows: &mut FlowLanes,
 ) -> [Lanes; LANES] {
     let pairs = Pairs { met, radii: traits.radii };
-    let (meeting, history) = (pairs.meeting(), block.history());
-    let used = (in_use(count), depth(meeting.overlap, traits.radii));
+    let (history, in_use) = (block.history(), block.in_use());
+    let meeting = pairs.meeting().within(in_use);
+    let used = (in_use, |overlap| depth(overlap, traits.radii));
     let now = settle(&pairs, (meeting, &history), (law, traits.damping, step_rate), used, flows);
     block.remember(&now);
     let reaction = now.reaction();
@@ -218,10 +211,10 @@ fn work_out(
     [reaction.x, reaction.y, other_moment, -own_moment]
 }
 
-/// Brings the loads of the first `count` contacts of a block to their particles, in key order.
+/// Brings the loads of a block to their particles, in key order; those of vacant lanes are zero.
 #[inline(always)]
-fn load((ends, count): (&Ends, usize), loads: &[Lanes; LANES], sink: &mut Sink) {
-    for (lane, row) in transpose(*loads).into_iter().enumerate().take(count) {
+fn load(ends: &Ends, loads: &[Lanes; LANES], sink: &mut Sink) {
+    for (lane, row) in transpose(*loads).into_iter().enumerate() {
         let [x, y, other_moment, own_moment] = row.to_array();
         sink.take_off(ends.owner[lane], Lanes::new([x, y, own_moment, other_moment]));
         sink.react(ends.other[lane], row);

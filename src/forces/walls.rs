@@ -1,8 +1,8 @@
 //! Contacts of particles with the drum: rim, edges, vertices.
 
+use super::Scene;
 use super::bodies::{FlowLanes, Meeting, Walls, settle};
 use super::post::Sink;
-use super::{Scene, in_use};
 use crate::contact::block::{Block, Ends, Traits, TraitsLanes};
 use crate::contact::linear::LinearLanes;
 use crate::contact::list::ListTraits;
@@ -21,10 +21,8 @@ pub fn evaluate(scene: Scene, slots: &mut Slots, surfaces: &mut [SurfaceLoad], s
     open_contacts(scene, slots);
     let mut flows = FlowLanes::zero();
     let laws = scene.laws.walls();
-    let len = slots.contacts.len();
     let (ends, blocks, list_traits) = slots.contacts.parts_mut();
     for (index, (block, ends)) in blocks.iter_mut().zip(ends).enumerate() {
-        let count = (len - LANES * index).min(LANES);
         let (law, traits) = match list_traits {
             ListTraits::Same(same) => {
                 (LinearLanes::splat(&laws[same.law.law as usize]), TraitsLanes::splat(same))
@@ -33,7 +31,7 @@ pub fn evaluate(scene: Scene, slots: &mut Slots, surfaces: &mut [SurfaceLoad], s
                 (LinearLanes::new(|lane| &laws[each[index].laws()[lane] as usize]), each[index].lanes())
             }
         };
-        work_out(scene, (ends, block, count), (&law, &traits), &mut flows, &mut (&mut *surfaces, sink));
+        work_out(scene, (ends, block), (&law, &traits), &mut flows, &mut (&mut *surfaces, sink));
     }
     if !flows.all_touch() {
         slots.close_ended();
@@ -103,19 +101,19 @@ fn meet(scene: Scene, own: &Motion, feature: FeatureId) -> Option<Spot> {
     Some(Spot { overlap: own.radius() - near.distance, normal: scene.rotation.apply(near.direction) })
 }
 
-/// Works out the first `count` contacts of a block.
+/// Works out a block.
 fn work_out(
     scene: Scene,
-    (ends, block, count): (&Ends, &mut Block, usize),
+    (ends, block): (&Ends, &mut Block),
     (law, traits): (&LinearLanes, &TraitsLanes),
     flows: &mut FlowLanes,
     (surfaces, sink): &mut (&mut [SurfaceLoad], &mut Sink),
 ) {
     let own = ends.owner.map(|id| &scene.motions[id as usize]);
     let walls = Walls::new(own, traits.radii[0], scene.turn, scene.angular_velocity);
-    let meeting = meetings(scene, ends, &walls);
-    let history = block.history();
-    let used = (in_use(count), meeting.overlap / traits.radii[0]);
+    let (history, in_use) = (block.history(), block.in_use());
+    let meeting = meetings(scene, (ends, block), &walls).within(in_use);
+    let used = (in_use, |overlap| overlap / traits.radii[0]);
     let now = settle(&walls, (meeting, &history), (law, traits.damping, scene.step_rate), used, flows);
     block.remember(&now);
 
@@ -123,7 +121,7 @@ fn work_out(
     let moment = -(walls.arm(now.overlap) * now.tangential_force);
     let rows = transpose([reaction.x, reaction.y, moment, moment]);
     let (reactions, points) = (reaction.to_array(), walls.point(now.overlap, now.normal).to_array());
-    for lane in 0..count {
+    for lane in 0..LANES {
         sink.take_off(ends.owner[lane], rows[lane]);
         let surface = &mut surfaces[scene.drum.surface_of(ends.other[lane])];
         surface.force -= reactions[lane];
@@ -134,7 +132,7 @@ fn work_out(
 /// Where the particles of a block meet their features. A contact that ends because another feature answers has an
 /// overlap of zero, so that its last work is charged.
 #[inline(always)]
-fn meetings(scene: Scene, ends: &Ends, walls: &Walls) -> Meeting {
+fn meetings(scene: Scene, (ends, block): (&Ends, &Block), walls: &Walls) -> Meeting {
     let rim = scene.drum.radius().map(|radius| walls.meet_rim(radius));
     if let Some(meeting) = rim
         && ends.other == [RIM; LANES]
@@ -147,7 +145,7 @@ fn meetings(scene: Scene, ends: &Ends, walls: &Walls) -> Meeting {
         spots = std::array::from_fn(|lane| Spot { overlap: overlaps[lane], normal: normals[lane] });
     }
     for (lane, spot) in spots.iter_mut().enumerate() {
-        if ends.other[lane] != RIM {
+        if ends.other[lane] != RIM && block.holds(lane) {
             let own = &scene.motions[ends.owner[lane] as usize];
             *spot = meet(scene, own, ends.other[lane]).unwrap_or_default();
         }
@@ -158,10 +156,13 @@ fn meetings(scene: Scene, ends: &Ends, walls: &Walls) -> Meeting {
 /// Passes the history of a contact to the neighboring feature when a particle rolls from one to the other.
 fn hand_over(scene: Scene, slots: &mut Slots) {
     let mut index = 0;
-    while index < slots.contacts.len() {
+    while slots.contacts.lanes().contains(&index) {
         let (particle, feature) = slots.contacts.key(index);
         index += 1;
-        if feature == RIM || meet(scene, &scene.motions[particle as usize], feature).is_some() {
+        if feature == RIM
+            || !slots.contacts.holds(index - 1)
+            || meet(scene, &scene.motions[particle as usize], feature).is_some()
+        {
             continue;
         }
         if let Some(heir) = heir_of(scene, slots, particle, feature) {
