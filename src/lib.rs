@@ -3,15 +3,15 @@
 //! Everything is SI and per metre of drum depth. The drum turns about the origin; positive angles are
 //! counter-clockwise.
 //!
-//! | level | modules                                                              |
-//! |-------|----------------------------------------------------------------------|
-//! | 0     | [`vector`], [`error`]                                                |
-//! | 1     | [`lanes`], [`threads`], [`particles`], [`drum`], [`energy`]          |
-//! | 2     | [`contact`], [`order`], [`packing`], [`integrator`], [`recorder`]    |
-//! | 3     | [`config`], [`neighbors`], [`forces`], [`state`], [`summary`]        |
-//! | 4     | [`start`]                                                            |
-//! | 5     | [`simulation`]                                                       |
-//! | 6     | [`checkpoint`]; `python`, which only the feature of that name builds |
+//! | level | modules                                                                |
+//! |-------|------------------------------------------------------------------------|
+//! | 0     | [`vector`], [`error`]                                                  |
+//! | 1     | [`lanes`], [`threads`], [`patch`], [`particles`], [`drum`], [`energy`] |
+//! | 2     | [`contact`], [`order`], [`packing`], [`integrator`], [`recorder`]      |
+//! | 3     | [`config`], [`neighbors`], [`forces`], [`state`], [`summary`]          |
+//! | 4     | [`start`]                                                              |
+//! | 5     | [`simulation`]                                                         |
+//! | 6     | [`checkpoint`]; `python`, which only the feature of that name builds   |
 //!
 //! A module imports only from lower levels; `tests/architecture.rs` reads this table and checks it.
 //!
@@ -39,6 +39,7 @@ pub mod neighbors;
 pub mod order;
 pub mod packing;
 pub mod particles;
+pub mod patch;
 #[cfg(feature = "python")]
 mod python;
 pub mod recorder;

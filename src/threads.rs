@@ -10,9 +10,6 @@ use crate::error::Error;
 /// Particles per chunk.
 pub const CHUNK: usize = 512;
 
-/// Particles per patch, of which a chunk has several: neighbors in large loads, whose motion is followed together.
-pub const PATCH: usize = 64;
-
 /// Number of chunks that `count` particles make.
 pub fn chunk_count(count: usize) -> usize {
     count.div_ceil(CHUNK)

@@ -6,7 +6,8 @@ use super::Contact;
 use super::block::{Block, Ends, Traits, TraitsBlock};
 use super::shift::{close_gap, open_gap};
 use crate::lanes::LANES;
-use crate::threads::{CHUNK, PATCH};
+use crate::patch::PATCH;
+use crate::threads::CHUNK;
 
 /// One contact with all that its list keeps of it.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -6,10 +6,11 @@
 
 use super::Contact;
 use super::block::Traits;
+use super::clock::{Clock, StepClock, WayClock};
 use super::list::{ContactList, Entry};
 use crate::lanes::ROW;
-use crate::threads::{CHUNK, PATCH, chunk_count};
-use crate::vector::larger;
+use crate::patch::{PATCH, PatchMotion};
+use crate::threads::{CHUNK, chunk_count};
 
 /// Two bodies near each other.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -22,26 +23,26 @@ pub struct Candidate {
 
 /// Pairs of bodies near each other, in key order, and until when they may sleep; patch by patch of their owners.
 #[derive(Debug, Clone, Default)]
-pub struct Candidates {
+pub struct Candidates<C> {
     /// A patch begins with a whole row; those of the one before are filled up with its last candidate.
     bodies: Vec<Candidate>,
     /// Filled up with numbers that never come.
     wake: Vec<f32>,
-    patches: Vec<Patch>,
+    patches: Vec<Patch<C>>,
     /// The patches whose particles are at the candidates, their owners' own in front.
     watched: Vec<u32>,
 }
 
 /// The candidates of one patch's particles.
 #[derive(Debug, Clone, Copy)]
-struct Patch {
+struct Patch<C> {
     first_row: u32,
     first_watched: u32,
-    /// How far anyone in the patches watched can have moved since the list was built [m].
-    way: f64,
+    /// Goes with what anyone in the patches watched does.
+    clock: C,
 }
 
-impl Candidates {
+impl<C: Clock> Candidates<C> {
     /// Number of candidates, those that fill up included.
     pub fn len(&self) -> usize {
         self.bodies.len()
@@ -66,7 +67,7 @@ impl Candidates {
             self.bodies.resize(self.wake.len(), last);
         }
         let (first_row, first_watched) = ((self.wake.len() / ROW) as u32, self.watched.len() as u32);
-        self.patches.push(Patch { first_row, first_watched, way: 0.0 });
+        self.patches.push(Patch { first_row, first_watched, clock: C::default() });
         self.watched.push(patch);
     }
 
@@ -94,28 +95,28 @@ impl Candidates {
         self.patches.len()
     }
 
-    /// Follows a step in which nobody of a patch moved farther than the root of its entry in `ways`, and `arc` more.
-    pub fn advance(&mut self, ways: &[f64], arc: f64) {
+    /// Follows a step: shows `advance` each patch's clock, and the most that anyone whom it watches did.
+    pub fn follow(&mut self, motions: &[PatchMotion], advance: impl Fn(&mut C, PatchMotion)) {
         let mut end = self.watched.len();
         for patch in self.patches.iter_mut().rev() {
             let watched = &self.watched[patch.first_watched as usize..end];
-            let longest = watched.iter().fold(0.0, |most, &patch| larger(most, ways[patch as usize]));
-            patch.way += longest.sqrt() + arc;
+            let motions = watched.iter().map(|&patch| motions[patch as usize]);
+            advance(&mut patch.clock, motions.fold(PatchMotion::default(), PatchMotion::and));
             end = patch.first_watched as usize;
         }
     }
 
-    /// How far anyone at the candidates of particle `owner` can have moved since the list was built [m].
+    /// The clock of a patch.
     #[inline(always)]
-    pub fn way_of(&self, owner: u32) -> f64 {
-        self.patches[owner as usize % CHUNK / PATCH].way
+    pub fn clock(&self, patch: usize) -> &C {
+        &self.patches[patch].clock
     }
 
-    /// The way that rows of wakes are compared with: those that are rounded to below a patch's way come to below it, too.
-    /// Never infinite, nor not a number, however far somebody has gone.
+    /// The reading that rows of wakes are compared with: those that are rounded to below a patch's clock come to below it,
+    /// too. Never infinite, nor not a number.
     #[inline(always)]
     pub fn waking(&self, patch: usize) -> f32 {
-        ((self.patches[patch].way * (1.0 + 1e-6)) as f32).min(f32::MAX)
+        ((self.clock(patch).reading() * (1.0 + 1e-6)) as f32).min(f32::MAX)
     }
 
     /// The rows of a patch.
@@ -152,7 +153,7 @@ impl Candidates {
         self.bodies.iter()
     }
 
-    /// The ways at which a row of candidates wakes [m]: before their patch's way has come so far, no contact can have
+    /// The readings at which a row of candidates wakes: before their patch's clock has come so far, no contact can have
     /// formed. Infinite for contacts. Scratch that saves work and changes no result.
     #[inline(always)]
     pub fn wakes(&self, row: usize) -> [f32; ROW] {
@@ -171,7 +172,7 @@ impl Candidates {
         self.wake[candidate] < f32::INFINITY
     }
 
-    /// Lets a candidate sleep until the given way [m].
+    /// Lets a candidate sleep until its clock shows `until`.
     #[inline]
     pub fn sleep(&mut self, candidate: usize, until: f64) {
         self.wake[candidate] = until as f32;
@@ -187,14 +188,14 @@ impl Candidates {
 
 /// Candidates and contacts of one kind (pairs, or walls) that the particles of one chunk own.
 #[derive(Debug, Clone, Default)]
-pub struct Slots {
+pub struct Slots<C> {
     /// Who may touch.
-    pub candidates: Candidates,
+    pub candidates: Candidates<C>,
     /// Who does.
     pub contacts: ContactList,
 }
 
-impl Slots {
+impl<C: Clock> Slots<C> {
     /// Makes a contact, still without history, of candidate `index`.
     pub fn open(&mut self, index: usize, traits: Traits) {
         let (particle, other) = self.candidates.key(index);
@@ -237,9 +238,9 @@ impl Slots {
 #[derive(Debug, Clone, Default)]
 pub struct ChunkSlots {
     /// With particles of higher id.
-    pub pairs: Slots,
+    pub pairs: Slots<StepClock>,
     /// With the drum.
-    pub walls: Slots,
+    pub walls: Slots<WayClock>,
 }
 
 /// All slots, chunk by chunk.
@@ -309,7 +310,7 @@ mod tests {
     use super::*;
     use crate::contact::History;
 
-    fn slots(candidates: &[(u32, u32)]) -> Slots {
+    fn slots(candidates: &[(u32, u32)]) -> Slots<StepClock> {
         let mut slots = Slots::default();
         for &(owner, other) in candidates {
             slots.candidates.push(Candidate { owner, other });
@@ -317,7 +318,7 @@ mod tests {
         slots
     }
 
-    fn free(slots: &Slots) -> Vec<usize> {
+    fn free(slots: &Slots<StepClock>) -> Vec<usize> {
         (0..ROW).filter(|&candidate| slots.candidates.is_free(candidate)).collect()
     }
 
@@ -352,16 +353,17 @@ mod tests {
     #[test]
     fn a_patch_follows_those_that_its_candidates_are_with() {
         let patch = PATCH as u32;
-        let mut candidates = Candidates::default();
+        let mut candidates = Candidates::<WayClock>::default();
         candidates.begin(0);
         candidates.push_pair(Candidate { owner: 0, other: 1 });
         candidates.push_pair(Candidate { owner: 2, other: 2 * patch });
         candidates.begin(1);
         candidates.push_pair(Candidate { owner: patch, other: patch + 1 });
-        // Squares of ways: patch 2 has moved by 4, which concerns patch 0 only.
-        candidates.advance(&[1.0, 4.0, 16.0], 0.5);
-        candidates.advance(&[1.0, 4.0, 0.0], 0.0);
-        assert_eq!((candidates.way_of(2), candidates.way_of(patch)), (4.5 + 1.0, 2.5 + 2.0));
+        // Patch 2 has moved by 4, which concerns patch 0 only.
+        let motions = |ways: [f64; 3]| ways.map(|way| PatchMotion { way, change: 0.0 });
+        candidates.follow(&motions([1.0, 2.0, 4.0]), |clock, most| clock.advance(most.way, 0.5));
+        candidates.follow(&motions([1.0, 2.0, 0.0]), |clock, most| clock.advance(most.way, 0.0));
+        assert_eq!([0, 1].map(|patch| candidates.clock(patch).reading()), [4.5 + 1.0, 2.5 + 2.0]);
         // The first patch is filled up, so that the second begins with a row of its own.
         assert_eq!((candidates.rows(0), candidates.rows(1)), (0..1, 1..2));
         assert_eq!((candidates.of(2), candidates.key(ROW)), (1..2, (patch, patch + 1)));

@@ -14,6 +14,7 @@ use crate::drum::Drum;
 use crate::energy::{StepFlows, SurfaceLoad};
 use crate::integrator::{Complete, Drift, Load, Motion, Told};
 use crate::lanes::Lanes;
+use crate::patch::PatchMotion;
 use crate::threads::{CHUNK, Chunked, Threads, chunk_count, in_turn};
 use crate::vector::Rotation;
 use post::{Delivery, Outbox, PostOffice, Sink};
@@ -35,12 +36,14 @@ pub struct Scene<'a> {
     pub angular_velocity: f64,
     /// The angle it turned during the step [rad].
     pub turn: f64,
-    /// The square of the longest way of the step as seen from the drum [m²], by patch.
-    pub ways: &'a [f64],
+    /// The most that anyone did in the step, by patch.
+    pub patches: &'a [PatchMotion],
     /// How much farther anyone can have come by the drum's turn [m].
     pub arc: f64,
-    /// Half of 1 / (distance + reach), for the largest distance and reach in the list and slightly less [1/m].
-    pub half_gap: f64,
+    /// More than round-off changes a displacement by from one step to the next [m].
+    pub round_off: f64,
+    /// 1 / (distance + reach), for the largest distance and reach in the list and slightly less [1/m].
+    pub inverse_reach: f64,
     /// 1 / time step [1/s].
     pub step_rate: f64,
 }
@@ -115,8 +118,8 @@ impl ForcePass {
         threads: &Threads,
     ) {
         if threads.serve(self.loads.len()) {
-            let (motions, ways) = told.read();
-            self.evaluate_all(Scene { motions, ways, ..scene }, table, threads);
+            let (motions, patches) = told.read();
+            self.evaluate_all(Scene { motions, patches, ..scene }, table, threads);
             let post = &self.post;
             let work = Complete { drift, told, source: &mut self.loads[..] };
             threads.for_each_chunk(scene.matter.masses.len(), work, &|chunk: Complete<&mut [Load]>| {
@@ -150,7 +153,7 @@ impl ForcePass {
         for (slots, drift) in table.chunks.iter_mut().zip(in_turn(drift)) {
             let chunk = drift.chunk();
             let loads = &mut self.chunk_loads[..CHUNK.min(self.loads.len() - chunk * CHUNK)];
-            let (motions, ways) = told.read();
+            let (motions, patches) = told.read();
             let work = Chunks {
                 first: chunk,
                 slots: std::slice::from_mut(slots),
@@ -160,7 +163,7 @@ impl ForcePass {
                 surfaces: &mut self.chunk_surfaces[chunk * surfaces_per_chunk..][..surfaces_per_chunk],
                 surfaces_per_chunk,
             };
-            work.run(Scene { motions, ways, ..scene });
+            work.run(Scene { motions, patches, ..scene });
             self.post.collect(chunk, loads);
             drift.kick_and_run(told.chunk(chunk), loads);
         }

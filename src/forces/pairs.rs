@@ -6,11 +6,12 @@ use super::Scene;
 use super::bodies::{FlowLanes, Met, Pairs, settle};
 use super::post::Sink;
 use crate::contact::block::{Block, Ends, Traits, TraitsLanes};
+use crate::contact::clock::StepClock;
 use crate::contact::linear::LinearLanes;
 use crate::contact::list::ListTraits;
 use crate::contact::table::Slots;
 use crate::energy::StepFlows;
-use crate::lanes::{LANES, Lanes, ROW, Row, lanes, transpose};
+use crate::lanes::{LANES, Lanes, ROW, Row, Vec2Lanes, lanes, transpose};
 
 /// Candidates looked at together, as soon as so many are due; a power of two.
 const BLOCK: usize = 64;
@@ -19,8 +20,11 @@ const BLOCK: usize = 64;
 /// that they stay in the cache.
 const GROUP: usize = 8;
 
+/// Steps that a candidate may sleep: so few that clocks, which are numbers of half the size, count exactly.
+const LONGEST_SLEEP: f64 = 1e6;
+
 /// Evaluates the pairs of one chunk in key order.
-pub fn evaluate(scene: Scene, slots: &mut Slots, sink: &mut Sink) -> StepFlows {
+pub fn evaluate(scene: Scene, slots: &mut Slots<StepClock>, sink: &mut Sink) -> StepFlows {
     open_contacts(scene, slots);
     let laws = scene.laws.pairs();
     if slots.contacts.is_empty() {
@@ -80,19 +84,19 @@ fn work_through(
 }
 
 /// Makes contacts of the candidates that touch; puts the others to sleep until the particles could have closed the gap.
-fn open_contacts(scene: Scene, slots: &mut Slots) {
-    slots.candidates.advance(scene.ways, scene.arc);
+fn open_contacts(scene: Scene, slots: &mut Slots<StepClock>) {
+    slots.candidates.follow(scene.patches, |clock, most| clock.advance(most.change + scene.round_off));
     let mut due = Due { count: 0, candidates: [0; BLOCK + 2 * ROW] };
     for patch in 0..slots.candidates.patches() {
         let waking = Row::splat(slots.candidates.waking(patch));
         for row in slots.candidates.rows(patch) {
             due.find(row, slots.candidates.wakes(row), waking);
             if due.count >= BLOCK {
-                look_at_all(scene, slots, &mut due);
+                look_at_all(scene, slots, patch, &mut due);
             }
         }
+        look_at_all(scene, slots, patch, &mut due);
     }
-    look_at_all(scene, slots, &mut due);
 }
 
 /// Candidates that are due.
@@ -132,31 +136,36 @@ const IN_FRONT: [[u8; ROW]; 1 << ROW] = {
     table
 };
 
-/// Looks at the candidates that are due, four at a time; the last four are filled up with the last one.
-fn look_at_all(scene: Scene, slots: &mut Slots, due: &mut Due) {
+/// Looks at the candidates of a patch that are due, four at a time; the last four are filled up with the last one.
+fn look_at_all(scene: Scene, slots: &mut Slots<StepClock>, patch: usize, due: &mut Due) {
     let count = std::mem::take(&mut due.count);
     let last = due.candidates[count.saturating_sub(1)];
     due.candidates[count..count + LANES].fill(last);
     for four in &due.candidates.as_chunks().0[..count.div_ceil(LANES)] {
-        look_at(scene, slots, four);
+        look_at(scene, slots, patch, four);
     }
 }
 
-/// Looks at four candidates.
-fn look_at(scene: Scene, slots: &mut Slots, due: &[u32; LANES]) {
+/// Looks at four candidates of a patch.
+fn look_at(scene: Scene, slots: &mut Slots<StepClock>, patch: usize, due: &[u32; LANES]) {
     let candidates = &mut slots.candidates;
+    let clock = *candidates.clock(patch);
     let bodies = due.map(|candidate| candidates.bodies(candidate as usize));
     let own = bodies.map(|pair| &scene.motions[pair.owner as usize]);
     let other = bodies.map(|pair| &scene.motions[pair.other as usize]);
-    let [gap_x, gap_y, ..] = transpose(array::from_fn(|lane| other[lane].place - own[lane].place));
-    // Each of the two has to go half of the gap, which is (distance² − reach²) / (distance + reach).
-    let reach = match scene.matter.radius {
-        Some(radius) => Lanes::splat(radius + radius),
-        None => lanes(|lane| own[lane].radius() + other[lane].radius()),
-    };
-    let excess = gap_x * gap_x + gap_y * gap_y - reach * reach;
-    let way = lanes(|lane| candidates.way_of(bodies[lane].owner));
-    let sleep = way + excess.fast_max(Lanes::ZERO) * scene.half_gap;
+    let [gap_x, gap_y, apart_x, apart_y] =
+        transpose(array::from_fn(|lane| other[lane].place - own[lane].place));
+    let (between, apart) = (Vec2Lanes { x: gap_x, y: gap_y }, Vec2Lanes { x: apart_x, y: apart_y });
+    let reach = scene.matter.radius.map_or_else(
+        || lanes(|lane| own[lane].radius() + other[lane].radius()),
+        |radius| Lanes::splat(radius + radius),
+    );
+    // The gap is (distance² − reach²) / (distance + reach); the approach is over the distance, which is no less than reach.
+    let excess = between.dot(between) - reach * reach;
+    let gap = excess.fast_max(Lanes::ZERO) * scene.inverse_reach;
+    let approach = between.dot(apart).fast_min(Lanes::ZERO) * (Lanes::splat(-1.0) / reach);
+    let sleep = steps_to_touch(gap, approach, Lanes::splat(clock.limit()));
+    let sleep = Lanes::splat(clock.steps()) + sleep.fast_min(Lanes::splat(LONGEST_SLEEP));
     for (&candidate, until) in due.iter().zip(sleep.to_array()) {
         candidates.sleep(candidate as usize, until);
     }
@@ -172,8 +181,16 @@ fn look_at(scene: Scene, slots: &mut Slots, due: &[u32; LANES]) {
     }
 }
 
+/// Fewer steps than two particles need to touch, for their gap, for what they approach in a step, and for a limit L of the
+/// change of a displacement: k of gap = approach k + L k (k + 1).
+#[inline(always)]
+fn steps_to_touch(gap: Lanes, approach: Lanes, limit: Lanes) -> Lanes {
+    let linear = approach + limit;
+    (gap + gap) * (1.0 - 1e-6) / (linear + (linear * linear + limit * gap * 4.0).sqrt())
+}
+
 #[cold]
-fn open(scene: Scene, slots: &mut Slots, candidate: usize) {
+fn open(scene: Scene, slots: &mut Slots<StepClock>, candidate: usize) {
     let (owner, other) = slots.candidates.key(candidate);
     let (i, j) = (owner as usize, other as usize);
     let matter = scene.matter;

@@ -4,6 +4,7 @@ use super::Scene;
 use super::bodies::{FlowLanes, Meeting, Walls, settle};
 use super::post::Sink;
 use crate::contact::block::{Block, Ends, Traits, TraitsLanes};
+use crate::contact::clock::{Clock, WayClock};
 use crate::contact::linear::LinearLanes;
 use crate::contact::list::ListTraits;
 use crate::contact::table::Slots;
@@ -14,7 +15,12 @@ use crate::lanes::{LANES, ROW, Vec2Lanes, lanes, transpose};
 use crate::vector::{Vec2, cross, dot};
 
 /// Evaluates the contacts of one chunk with the drum in key order and adds the loads by surface.
-pub fn evaluate(scene: Scene, slots: &mut Slots, surfaces: &mut [SurfaceLoad], sink: &mut Sink) -> StepFlows {
+pub fn evaluate(
+    scene: Scene,
+    slots: &mut Slots<WayClock>,
+    surfaces: &mut [SurfaceLoad],
+    sink: &mut Sink,
+) -> StepFlows {
     if surfaces.len() > 1 {
         hand_over(scene, slots);
     }
@@ -47,10 +53,11 @@ struct Spot {
 }
 
 /// Makes contacts of the candidates that touch; puts the others to sleep where their gap is known.
-fn open_contacts(scene: Scene, slots: &mut Slots) {
-    slots.candidates.advance(scene.ways, scene.arc);
+fn open_contacts(scene: Scene, slots: &mut Slots<WayClock>) {
+    slots.candidates.follow(scene.patches, |clock, most| clock.advance(most.way, scene.arc));
     for patch in 0..slots.candidates.patches() {
         let (waking, rows) = (slots.candidates.waking(patch), slots.candidates.rows(patch));
+        let way = slots.candidates.clock(patch).reading();
         for candidate in ROW * rows.start..ROW * rows.end {
             if !slots.candidates.is_due(candidate, waking) {
                 continue;
@@ -59,7 +66,6 @@ fn open_contacts(scene: Scene, slots: &mut Slots) {
             // Only the particle moves, as seen from the drum. Slightly less than the gap covers round-off.
             match gap(scene, &scene.motions[id as usize], feature) {
                 Some(gap) if gap >= 0.0 => {
-                    let way = slots.candidates.way_of(id);
                     slots.candidates.sleep(candidate, way + (1.0 - 1e-6) * gap);
                 }
                 Some(_) => open(scene, slots, candidate),
@@ -70,7 +76,7 @@ fn open_contacts(scene: Scene, slots: &mut Slots) {
 }
 
 #[cold]
-fn open(scene: Scene, slots: &mut Slots, candidate: usize) {
+fn open(scene: Scene, slots: &mut Slots<WayClock>, candidate: usize) {
     let id = slots.candidates.key(candidate).0 as usize;
     let matter = scene.matter;
     let law = scene.laws.wall_slot((matter.materials[id], matter.masses[id]));
@@ -154,7 +160,7 @@ fn meetings(scene: Scene, (ends, block): (&Ends, &Block), walls: &Walls) -> Meet
 }
 
 /// Passes the history of a contact to the neighboring feature when a particle rolls from one to the other.
-fn hand_over(scene: Scene, slots: &mut Slots) {
+fn hand_over(scene: Scene, slots: &mut Slots<WayClock>) {
     let mut index = 0;
     while slots.contacts.lanes().contains(&index) {
         let (particle, feature) = slots.contacts.key(index);
@@ -174,7 +180,7 @@ fn hand_over(scene: Scene, slots: &mut Slots) {
 }
 
 /// The candidate that a contact of `particle` with `feature` goes on as.
-fn heir_of(scene: Scene, slots: &Slots, particle: u32, feature: FeatureId) -> Option<usize> {
+fn heir_of(scene: Scene, slots: &Slots<WayClock>, particle: u32, feature: FeatureId) -> Option<usize> {
     let candidates = &slots.candidates;
     let own = &scene.motions[particle as usize];
     candidates.of(particle).find(|&candidate| {

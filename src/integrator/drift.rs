@@ -1,11 +1,14 @@
 //! The drift, four particles at a time, and the sums that it makes on the way.
 
+use std::f64::consts::SQRT_2;
+
 use super::constants::Constants;
 use super::pull::{Fresh, Known, Pull, Pulls};
 use super::quad::{four_vectors, put_rest, rest_of, two_by_two};
 use super::{Load, Motion};
 use crate::lanes::{LANES, Lanes};
-use crate::threads::{CHUNK, Chunked, PATCH, chunk_count};
+use crate::patch::{PATCH, PatchMotion};
+use crate::threads::{CHUNK, Chunked, chunk_count};
 use crate::vector::{Vec2, larger};
 
 /// What a drift changes of particles, but for what contacts are told of them.
@@ -19,17 +22,17 @@ pub struct Moved<'a> {
     pub spins: &'a mut [f64],
 }
 
-/// What contacts are told of particles: their motions, and by patch the square of the longest way [m²].
+/// What contacts are told of particles: their motions, and by patch the most that anyone did.
 #[derive(Debug)]
 pub struct Told<'a> {
     pub(super) motions: &'a mut [Motion],
-    pub(super) ways: &'a mut [f64],
+    pub(super) patches: &'a mut [PatchMotion],
 }
 
 impl Told<'_> {
     /// What contacts may read now.
-    pub fn read(&self) -> (&[Motion], &[f64]) {
-        (self.motions, self.ways)
+    pub fn read(&self) -> (&[Motion], &[PatchMotion]) {
+        (self.motions, self.patches)
     }
 
     /// That of one chunk.
@@ -37,14 +40,14 @@ impl Told<'_> {
         let end = self.motions.len().min((chunk + 1) * CHUNK);
         Told {
             motions: &mut self.motions[chunk * CHUNK..end],
-            ways: &mut self.ways[chunk * (CHUNK / PATCH)..end.div_ceil(PATCH)],
+            patches: &mut self.patches[chunk * (CHUNK / PATCH)..end.div_ceil(PATCH)],
         }
     }
 
     fn split(self, at: usize) -> (Self, Self) {
         let (motions, more_motions) = self.motions.split_at_mut(at);
-        let (ways, more_ways) = self.ways.split_at_mut(at.div_ceil(PATCH));
-        (Self { motions, ways }, Self { motions: more_motions, ways: more_ways })
+        let (patches, more_patches) = self.patches.split_at_mut(at.div_ceil(PATCH));
+        (Self { motions, patches }, Self { motions: more_motions, patches: more_patches })
     }
 }
 
@@ -89,7 +92,7 @@ impl Drift<'_> {
     }
 
     fn run(mut self, mut told: Told, mut pull: impl Pull) {
-        let mut sums = QuadSums::new(self.setting.turn);
+        let mut sums = QuadSums::new(self.setting.turn, self.setting.time_step);
         let masses = self.setting.constants.of(self.first, told.motions.len()).masses;
         self.move_quads(&mut told, &mut pull, masses, &mut sums);
         if !told.motions.len().is_multiple_of(LANES) {
@@ -108,7 +111,7 @@ impl Drift<'_> {
         let spins = &mut self.moved.spins.as_chunks_mut().0[..quads];
         let masses = &masses.as_chunks().0[..quads];
         let motions = &mut told.motions.as_chunks_mut().0[..quads];
-        for (patch, way) in told.ways.iter_mut().enumerate() {
+        for (patch, most) in told.patches.iter_mut().enumerate() {
             let first = patch * (PATCH / LANES);
             for quad in first..quads.min(first + PATCH / LANES) {
                 let pulls = pull.of(quad, quads);
@@ -120,7 +123,7 @@ impl Drift<'_> {
                 };
                 four.advance::<P>(pulls, self.setting.time_step, &masses[quad], sums);
             }
-            *way = sums.take_longest();
+            *most = sums.take_most();
         }
     }
 
@@ -142,8 +145,8 @@ impl Drift<'_> {
         put_rest(self.moved.angles, &angles);
         put_rest(self.moved.spins, &spins);
         put_rest(told.motions, &motions);
-        if let Some(way) = told.ways.last_mut() {
-            *way = larger(*way, sums.take_longest());
+        if let Some(most) = told.patches.last_mut() {
+            *most = most.and(sums.take_most());
         }
     }
 }
@@ -233,6 +236,7 @@ impl Quad<'_> {
     ) {
         let (step, half) = (Lanes::splat(time_step), Lanes::splat(0.5 * time_step));
         let (kicks, twists) = (accelerations.map(|a| a * half), spin_rates * half);
+        sums.note_kicks(kicks);
         let mut velocities = two_by_two(self.velocities);
         let mut spins = Lanes::new(*self.spins);
         if P::UNFINISHED {
@@ -269,14 +273,18 @@ struct QuadSums {
     mass_moment: Lanes,
     /// The squares of the longest ways.
     longest_squared: Lanes,
+    /// The greatest x or y of half a kick.
+    greatest_kick: Lanes,
     /// The angle by which the drum turns, as the factors of y and x.
     turns: Lanes,
+    time_step: f64,
 }
 
 impl QuadSums {
-    fn new(turn: f64) -> Self {
+    fn new(turn: f64, time_step: f64) -> Self {
         let turns = Lanes::new([-turn, turn, -turn, turn]);
-        Self { mass_moment: Lanes::ZERO, longest_squared: Lanes::ZERO, turns }
+        let zero = Lanes::ZERO;
+        Self { mass_moment: zero, longest_squared: zero, greatest_kick: zero, turns, time_step }
     }
 
     /// Takes note of the ways as seen from the drum.
@@ -304,8 +312,19 @@ impl QuadSums {
         Vec2::new(x + more_x, y + more_y)
     }
 
-    /// The square of the longest way since it was last taken.
-    fn take_longest(&mut self) -> f64 {
-        std::mem::replace(&mut self.longest_squared, Lanes::ZERO).to_array().into_iter().fold(0.0, larger)
+    #[inline(always)]
+    fn note_kicks(&mut self, kicks: [Lanes; 2]) {
+        let kick = kicks[0].abs().fast_max(self.greatest_kick);
+        self.greatest_kick = kicks[1].abs().fast_max(kick);
+    }
+
+    /// The most that anyone did since it was last taken.
+    fn take_most(&mut self) -> PatchMotion {
+        let most = |lanes: &mut Lanes| {
+            std::mem::replace(lanes, Lanes::ZERO).to_array().into_iter().fold(0.0, larger)
+        };
+        // Two half kicks, of which x and y are known to be no greater.
+        let kick = 2.0 * SQRT_2 * most(&mut self.greatest_kick);
+        PatchMotion { way: most(&mut self.longest_squared).sqrt(), change: kick * self.time_step }
     }
 }

@@ -11,7 +11,8 @@ mod quad;
 
 use crate::lanes::Lanes;
 use crate::particles::Particles;
-use crate::threads::{CHUNK, PATCH, Threads, chunk_count};
+use crate::patch::{PATCH, PatchMotion};
+use crate::threads::{CHUNK, Threads, chunk_count};
 use crate::vector::Vec2;
 use constants::Constants;
 use drift::Setting;
@@ -90,8 +91,8 @@ impl Load {
 pub struct Integrator {
     /// What the contacts are told, by particle.
     pub motions: Vec<Motion>,
-    /// The square of the longest way of the step as seen from the drum [m²], by patch.
-    pub ways: Vec<f64>,
+    /// The most that anyone did in the step, by patch.
+    pub patches: Vec<PatchMotion>,
     /// Σ m x, by chunk.
     mass_moments: Vec<Vec2>,
     constants: Constants,
@@ -111,7 +112,7 @@ impl Integrator {
         };
         Self {
             motions: (0..particles.len()).map(still).collect(),
-            ways: vec![0.0; particles.len().div_ceil(PATCH)],
+            patches: vec![PatchMotion::default(); particles.len().div_ceil(PATCH)],
             mass_moments: vec![Vec2::zeros(); chunk_count(particles.len())],
             constants: Constants::new(particles),
             time_step,
@@ -124,7 +125,7 @@ impl Integrator {
         let (constants, time_step, gravity) = (&self.constants, self.time_step, self.gravity);
         let setting = Setting { constants, time_step, turn, gravity };
         let drift = Drift { first: 0, moved, mass_moments: &mut self.mass_moments, setting };
-        (drift, Told { motions: &mut self.motions, ways: &mut self.ways })
+        (drift, Told { motions: &mut self.motions, patches: &mut self.patches })
     }
 
     /// Half a kick with the accelerations that the particles carry, then the drift.
@@ -146,8 +147,8 @@ impl Integrator {
     /// What the last drift summed up.
     pub fn sums(&self) -> DriftSums {
         let mass_moment = self.mass_moments.iter().fold(Vec2::zeros(), |sum, part| sum + part);
-        let longest_squared = self.ways.iter().copied().fold(0.0, f64::max);
-        DriftSums { mass_moment, longest_way: longest_squared.sqrt() }
+        let longest_way = self.patches.iter().fold(0.0, |most: f64, patch| most.max(patch.way));
+        DriftSums { mass_moment, longest_way }
     }
 
     /// Accelerations from the loads and gravity, then the second half of the kick: the particles are up to date.

@@ -10,7 +10,8 @@ use cells::CellGrid;
 use crate::contact::table::{Candidate, ChunkSlots, ContactTable};
 use crate::drum::{Drum, RIM};
 use crate::particles::Particles;
-use crate::threads::{CHUNK, Chunked, PATCH, Threads};
+use crate::patch::PATCH;
+use crate::threads::{CHUNK, Chunked, Threads};
 use crate::vector::{Rotation, Vec2};
 
 /// Decides when to rebuild, and rebuilds.
@@ -57,12 +58,17 @@ impl VerletList {
         0.5 * turn * turn * (self.farthest + self.skin)
     }
 
-    /// Half of 1 / (distance + reach) for particles of at most `largest_radius` that the list holds, taken slightly low
-    /// to cover round-off [1/m].
+    /// 1 / (distance + reach) for particles of at most `largest_radius` that the list holds, taken slightly low to cover
+    /// round-off [1/m].
     ///
     /// Within the list, a distance is at most the reach and the skin at the build, and one skin more since.
-    pub fn half_gap(&self, largest_radius: f64) -> f64 {
-        0.5 * ROUND_OFF_MARGIN / (4.0 * largest_radius + 2.0 * self.skin)
+    pub fn inverse_reach(&self, largest_radius: f64) -> f64 {
+        ROUND_OFF_MARGIN / (4.0 * largest_radius + 2.0 * self.skin)
+    }
+
+    /// More than round-off of positions changes a displacement by from one step to the next [m].
+    pub fn round_off(&self) -> f64 {
+        8.0 * f64::EPSILON * (self.farthest + self.skin)
     }
 
     /// Whether the list still holds for sure: nobody has moved half the skin, or close to it.

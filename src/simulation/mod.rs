@@ -34,7 +34,7 @@ pub struct Simulation {
     fixed: Fixed,
     /// Scratch: nothing in it changes a result.
     list: VerletList,
-    half_gap: f64,
+    inverse_reach: f64,
     integrator: Integrator,
     forces: ForcePass,
     threads: Threads,
@@ -132,7 +132,7 @@ impl Simulation {
         let skin = config.run.skin.unwrap_or(DEFAULT_SKIN * state.particles.largest_radius());
         let list = VerletList::new(skin);
         Self {
-            half_gap: list.half_gap(state.particles.largest_radius()),
+            inverse_reach: list.inverse_reach(state.particles.largest_radius()),
             list,
             integrator: Integrator::new(&state.particles, fixed.time_step, fixed.gravity),
             forces: ForcePass::new(count, fixed.drum.surface_count()),
@@ -157,6 +157,8 @@ impl Simulation {
         self.rebuild(instant.rotation);
         self.evaluate(instant);
         self.integrator.accelerate(&mut self.state.particles, &self.forces.loads);
+        // The particles have not been moving yet: what the list knows of their displacements does not hold.
+        self.list.forget();
         let mass_moment = start::mass_moment(&self.state.particles);
         let balance = Balance {
             angular_momentum: self.state.particles.angular_momentum(),
@@ -295,8 +297,9 @@ impl Simulation {
     fn evaluate(&mut self, instant: Instant) {
         let Particles { materials, masses, radii, .. } = &self.state.particles;
         let matter = Matter { materials, masses, radii, radius: self.fixed.radius };
-        let (motions, ways) = (&self.integrator.motions[..], &self.integrator.ways[..]);
-        let scene = Scene { motions, ways, ..scene(&self.fixed, &self.list, self.half_gap, matter, instant) };
+        let (motions, patches) = (&self.integrator.motions[..], &self.integrator.patches[..]);
+        let scene =
+            Scene { motions, patches, ..scene(&self.fixed, &self.list, self.inverse_reach, matter, instant) };
         self.forces.evaluate(scene, &mut self.table, &self.threads);
     }
 
@@ -307,7 +310,7 @@ impl Simulation {
             &mut self.state.particles;
         let matter = Matter { materials, masses, radii, radius: self.fixed.radius };
         let moved = Moved { velocities, angles, spins };
-        let scene = scene(&self.fixed, &self.list, self.half_gap, matter, instant);
+        let scene = scene(&self.fixed, &self.list, self.inverse_reach, matter, instant);
         let drift = self.integrator.drift(moved, turn);
         self.forces.evaluate_and_move(scene, &mut self.table, drift, &self.threads);
         self.ahead = Some((turn, self.integrator.sums()));
@@ -415,13 +418,13 @@ const DEFAULT_SKIN: f64 = 0.3;
 fn scene<'a>(
     fixed: &'a Fixed,
     list: &VerletList,
-    half_gap: f64,
+    inverse_reach: f64,
     matter: Matter<'a>,
     instant: Instant,
 ) -> Scene<'a> {
     Scene {
         motions: &[],
-        ways: &[],
+        patches: &[],
         matter,
         laws: &fixed.laws,
         drum: &fixed.drum,
@@ -429,7 +432,8 @@ fn scene<'a>(
         angular_velocity: instant.angular_velocity,
         turn: instant.turn,
         arc: list.arc(instant.turn),
-        half_gap,
+        round_off: list.round_off(),
+        inverse_reach,
         step_rate: 1.0 / fixed.time_step,
     }
 }
