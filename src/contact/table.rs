@@ -4,6 +4,8 @@
 //! whatever the neighbor list holds; a rebuild makes new candidates and leaves contacts alone. That is what makes a
 //! trajectory independent of the margin. Both are kept by chunk of particles, in key order.
 
+use std::ops::Range;
+
 use super::Contact;
 use super::block::Traits;
 use super::clock::{Clock, StepClock, WayClock};
@@ -121,7 +123,7 @@ impl<C: Clock> Candidates<C> {
 
     /// The rows of a patch.
     #[inline(always)]
-    pub fn rows(&self, patch: usize) -> std::ops::Range<usize> {
+    pub fn rows(&self, patch: usize) -> Range<usize> {
         let end = self.patches.get(patch + 1).map_or(self.wake.len() / ROW, |next| next.first_row as usize);
         self.patches[patch].first_row as usize..end
     }
@@ -139,7 +141,7 @@ impl<C: Clock> Candidates<C> {
     }
 
     /// The candidates of one particle.
-    pub fn of(&self, particle: u32) -> std::ops::Range<usize> {
+    pub fn of(&self, particle: u32) -> Range<usize> {
         let start = self.bodies.partition_point(|bodies| bodies.owner < particle);
         let mut end = start + self.bodies[start..].partition_point(|bodies| bodies.owner == particle);
         while end > start + 1 && self.bodies[end - 1] == self.bodies[end - 2] {
@@ -153,11 +155,11 @@ impl<C: Clock> Candidates<C> {
         self.bodies.iter()
     }
 
-    /// The readings at which a row of candidates wakes: before their patch's clock has come so far, no contact can have
-    /// formed. Infinite for contacts. Scratch that saves work and changes no result.
+    /// The readings at which the candidates of some rows wake: before their patch's clock has come so far, no contact can
+    /// have formed. Infinite for contacts. Scratch that saves work and changes no result.
     #[inline(always)]
-    pub fn wakes(&self, row: usize) -> [f32; ROW] {
-        self.wake.as_chunks().0[row]
+    pub fn wakes(&self, rows: Range<usize>) -> &[[f32; ROW]] {
+        &self.wake.as_chunks().0[rows]
     }
 
     /// Whether a candidate has woken.

@@ -1,6 +1,7 @@
 //! Contacts between particles: candidates that are awake are looked at, contacts are worked out four at a time.
 
 use std::array;
+use std::ops::Range;
 
 use super::Scene;
 use super::bodies::{FlowLanes, Met, Pairs, settle};
@@ -9,12 +10,12 @@ use crate::contact::block::{Block, Ends, Traits, TraitsLanes};
 use crate::contact::clock::StepClock;
 use crate::contact::linear::LinearLanes;
 use crate::contact::list::ListTraits;
-use crate::contact::table::Slots;
+use crate::contact::table::{Candidates, Slots};
 use crate::energy::StepFlows;
 use crate::lanes::{LANES, Lanes, ROW, Row, Vec2Lanes, lanes, transpose};
 
-/// Candidates looked at together, as soon as so many are due; a power of two.
-const BLOCK: usize = 64;
+/// Candidates of a patch that are looked at together at most; a power of two.
+const MOST_DUE: usize = 256;
 
 /// Blocks of contacts that go through the stages of a step together: so many that the stages' latencies overlap, so few
 /// that they stay in the cache.
@@ -86,36 +87,37 @@ fn work_through(
 /// Makes contacts of the candidates that touch; puts the others to sleep until the particles could have closed the gap.
 fn open_contacts(scene: Scene, slots: &mut Slots<StepClock>) {
     slots.candidates.follow(scene.patches, |clock, most| clock.advance(most.change + scene.round_off));
-    let mut due = Due { count: 0, candidates: [0; BLOCK + 2 * ROW] };
+    let mut due = [0; MOST_DUE + ROW];
     for patch in 0..slots.candidates.patches() {
-        let waking = Row::splat(slots.candidates.waking(patch));
-        for row in slots.candidates.rows(patch) {
-            due.find(row, slots.candidates.wakes(row), waking);
-            if due.count >= BLOCK {
-                look_at_all(scene, slots, patch, &mut due);
-            }
+        let mut rows = slots.candidates.rows(patch);
+        while !rows.is_empty() {
+            let some = rows.start..rows.end.min(rows.start + MOST_DUE / ROW);
+            rows.start = some.end;
+            let count = find_due(&slots.candidates, patch, some, &mut due);
+            look_at_all(scene, slots, patch, (&mut due, count));
         }
-        look_at_all(scene, slots, patch, &mut due);
     }
 }
 
-/// Candidates that are due.
-struct Due {
-    count: usize,
-    candidates: [u32; BLOCK + 2 * ROW],
-}
-
-impl Due {
-    /// Takes those of a row that are due, without a branch that a CPU could not foretell.
-    #[inline(always)]
-    fn find(&mut self, row: usize, wakes: [f32; ROW], waking: Row) {
+/// Finds the candidates that are due in some rows of a patch, without a branch that a CPU could not foretell.
+#[inline(always)]
+fn find_due(
+    candidates: &Candidates<StepClock>,
+    patch: usize,
+    rows: Range<usize>,
+    due: &mut [u32; MOST_DUE + ROW],
+) -> usize {
+    let waking = Row::splat(candidates.waking(patch));
+    let (mut count, mut first) = (0, (ROW * rows.start) as u32);
+    for &wakes in candidates.wakes(rows) {
         let set = Row::new(wakes).simd_le(waking).to_bitmask() as usize & (IN_FRONT.len() - 1);
         // The whole row is written, those that are due in front; the next row overwrites the others.
-        let (first, place) = ((ROW * row) as u32, self.count.min(BLOCK - 1));
-        let candidates = IN_FRONT[set].map(|lane| first + u32::from(lane));
-        self.candidates[place..place + ROW].copy_from_slice(&candidates);
-        self.count += set.count_ones() as usize;
+        let place = count & (MOST_DUE - 1);
+        due[place..place + ROW].copy_from_slice(&IN_FRONT[set].map(|lane| first + u32::from(lane)));
+        count += set.count_ones() as usize;
+        first += ROW as u32;
     }
+    count
 }
 
 /// For each set of lanes, as bits: its lanes in front, in their order.
@@ -136,12 +138,16 @@ const IN_FRONT: [[u8; ROW]; 1 << ROW] = {
     table
 };
 
-/// Looks at the candidates of a patch that are due, four at a time; the last four are filled up with the last one.
-fn look_at_all(scene: Scene, slots: &mut Slots<StepClock>, patch: usize, due: &mut Due) {
-    let count = std::mem::take(&mut due.count);
-    let last = due.candidates[count.saturating_sub(1)];
-    due.candidates[count..count + LANES].fill(last);
-    for four in &due.candidates.as_chunks().0[..count.div_ceil(LANES)] {
+/// Looks at the first `count` candidates of a patch, four at a time; the last four are filled up with the last one.
+fn look_at_all(
+    scene: Scene,
+    slots: &mut Slots<StepClock>,
+    patch: usize,
+    (due, count): (&mut [u32; MOST_DUE + ROW], usize),
+) {
+    let last = due[count.saturating_sub(1)];
+    due[count..count + LANES].fill(last);
+    for four in &due.as_chunks().0[..count.div_ceil(LANES)] {
         look_at(scene, slots, patch, four);
     }
 }
@@ -156,14 +162,17 @@ fn look_at(scene: Scene, slots: &mut Slots<StepClock>, patch: usize, due: &[u32;
     let [gap_x, gap_y, apart_x, apart_y] =
         transpose(array::from_fn(|lane| other[lane].place - own[lane].place));
     let (between, apart) = (Vec2Lanes { x: gap_x, y: gap_y }, Vec2Lanes { x: apart_x, y: apart_y });
-    let reach = scene.matter.radius.map_or_else(
-        || lanes(|lane| own[lane].radius() + other[lane].radius()),
-        |radius| Lanes::splat(radius + radius),
+    let [reach, inverse] = scene.matter.radius.map_or_else(
+        || {
+            let reach = lanes(|lane| own[lane].radius() + other[lane].radius());
+            [reach, Lanes::ONE / reach]
+        },
+        |radius| [radius + radius, 1.0 / (radius + radius)].map(Lanes::splat),
     );
     // The gap is (distance² − reach²) / (distance + reach); the approach is over the distance, which is no less than reach.
     let excess = between.dot(between) - reach * reach;
     let gap = excess.fast_max(Lanes::ZERO) * scene.inverse_reach;
-    let approach = between.dot(apart).fast_min(Lanes::ZERO) * (Lanes::splat(-1.0) / reach);
+    let approach = -between.dot(apart).fast_min(Lanes::ZERO) * inverse;
     let sleep = steps_to_touch(gap, approach, Lanes::splat(clock.limit()));
     let sleep = Lanes::splat(clock.steps()) + sleep.fast_min(Lanes::splat(LONGEST_SLEEP));
     for (&candidate, until) in due.iter().zip(sleep.to_array()) {

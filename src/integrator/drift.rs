@@ -295,8 +295,9 @@ impl QuadSums {
             let way = displacements[two] - Lanes::new([b, a, d, c]) * self.turns;
             (way * way).to_array()
         });
-        let lengths = Lanes::new([squares[0][0], squares[0][2], squares[1][0], squares[1][2]])
-            + Lanes::new([squares[0][1], squares[0][3], squares[1][1], squares[1][3]]);
+        // In the order in which sums of neighbors come.
+        let lengths = Lanes::new([squares[0][0], squares[1][0], squares[0][2], squares[1][2]])
+            + Lanes::new([squares[0][1], squares[1][1], squares[0][3], squares[1][3]]);
         self.longest_squared = lengths.fast_max(self.longest_squared);
     }
 
