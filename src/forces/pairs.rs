@@ -10,7 +10,7 @@ use crate::contact::block::{Block, Ends, Traits, TraitsLanes};
 use crate::contact::clock::StepClock;
 use crate::contact::linear::LinearLanes;
 use crate::contact::list::ListTraits;
-use crate::contact::table::{Candidates, Slots};
+use crate::contact::table::{Candidate, Candidates, Slots};
 use crate::energy::StepFlows;
 use crate::lanes::{LANES, Lanes, ROW, Row, Vec2Lanes, lanes, transpose};
 
@@ -88,13 +88,25 @@ fn work_through(
 fn open_contacts(scene: Scene, slots: &mut Slots<StepClock>) {
     slots.candidates.follow(scene.patches, |clock, most| clock.advance(most.change + scene.round_off));
     let mut due = [0; MOST_DUE + ROW];
+    let mut bodies = [Candidate { owner: 0, other: 0 }; MOST_DUE + ROW];
     for patch in 0..slots.candidates.patches() {
         let mut rows = slots.candidates.rows(patch);
         while !rows.is_empty() {
             let some = rows.start..rows.end.min(rows.start + MOST_DUE / ROW);
             rows.start = some.end;
             let count = find_due(&slots.candidates, patch, some, &mut due);
-            look_at_all(scene, slots, patch, (&mut due, count));
+            // The last four are filled up with the last one.
+            let last = due[count.saturating_sub(1)];
+            due[count..count + LANES].fill(last);
+            let due = &due.as_chunks().0[..count.div_ceil(LANES)];
+            // All are fetched before any is looked at: where they have left the cache, many reads are then under way at once.
+            let bodies = &mut bodies.as_chunks_mut().0[..due.len()];
+            for (bodies, due) in bodies.iter_mut().zip(due) {
+                *bodies = due.map(|candidate| *slots.candidates.bodies(candidate as usize));
+            }
+            for (bodies, due) in bodies.iter().zip(due) {
+                look_at(scene, slots, patch, (due, bodies));
+            }
         }
     }
 }
@@ -138,25 +150,15 @@ const IN_FRONT: [[u8; ROW]; 1 << ROW] = {
     table
 };
 
-/// Looks at the first `count` candidates of a patch, four at a time; the last four are filled up with the last one.
-fn look_at_all(
+/// Looks at four candidates of a patch.
+fn look_at(
     scene: Scene,
     slots: &mut Slots<StepClock>,
     patch: usize,
-    (due, count): (&mut [u32; MOST_DUE + ROW], usize),
+    (due, bodies): (&[u32; LANES], &[Candidate; LANES]),
 ) {
-    let last = due[count.saturating_sub(1)];
-    due[count..count + LANES].fill(last);
-    for four in &due.as_chunks().0[..count.div_ceil(LANES)] {
-        look_at(scene, slots, patch, four);
-    }
-}
-
-/// Looks at four candidates of a patch.
-fn look_at(scene: Scene, slots: &mut Slots<StepClock>, patch: usize, due: &[u32; LANES]) {
     let candidates = &mut slots.candidates;
     let clock = *candidates.clock(patch);
-    let bodies = due.map(|candidate| candidates.bodies(candidate as usize));
     let own = bodies.map(|pair| &scene.motions[pair.owner as usize]);
     let other = bodies.map(|pair| &scene.motions[pair.other as usize]);
     let [gap_x, gap_y, apart_x, apart_y] =
