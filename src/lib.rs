@@ -5,7 +5,7 @@
 //!
 //! | level | modules                                                                |
 //! |-------|------------------------------------------------------------------------|
-//! | 0     | [`vector`], [`error`]                                                  |
+//! | 0     | [`vector`], [`error`], [`cache`]                                               |
 //! | 1     | [`lanes`], [`threads`], [`patch`], [`particles`], [`drum`], [`energy`] |
 //! | 2     | [`contact`], [`order`], [`packing`], [`integrator`], [`recorder`]      |
 //! | 3     | [`config`], [`neighbors`], [`forces`], [`state`], [`summary`]          |
@@ -26,6 +26,7 @@
 //!
 //! `examples/one_turn.rs` runs a whole drum.
 
+pub mod cache;
 pub mod checkpoint;
 pub mod config;
 pub mod contact;

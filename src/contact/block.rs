@@ -2,6 +2,7 @@
 
 use super::laws::SlotLaw;
 use super::{History, HistoryLanes};
+use crate::cache::ask;
 use crate::lanes::{LANES, Lanes, Vec2Lanes};
 use crate::vector::Vec2;
 
@@ -85,6 +86,12 @@ impl Block {
         normal_x: [0.0; LANES],
         normal_y: [0.0; LANES],
     };
+
+    /// Asks memory for all of it.
+    #[inline(always)]
+    pub(super) fn ask_for(&self) {
+        [&self.overlap, &self.normal_force, &self.normal_x].into_iter().for_each(ask);
+    }
 
     /// Whether a lane has a contact.
     #[inline]

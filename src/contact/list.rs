@@ -5,6 +5,7 @@ use std::ops::Range;
 use super::Contact;
 use super::block::{Block, Ends, Traits, TraitsBlock};
 use super::shift::{close_gap, open_gap};
+use crate::cache::{ask_for, part_of};
 use crate::lanes::LANES;
 use crate::patch::PATCH;
 use crate::threads::CHUNK;
@@ -82,6 +83,14 @@ impl ContactList {
     #[inline]
     pub fn parts_mut(&mut self) -> (&[Ends], &mut [Block], &ListTraits) {
         (&self.ends, &mut self.blocks, &self.traits)
+    }
+
+    /// Asks memory for part `part` of `parts`.
+    #[inline(always)]
+    pub fn ask_for(&self, part: usize, parts: usize) {
+        let blocks = part_of(self.blocks.len(), part, parts);
+        ask_for(&self.ends[blocks.clone()]);
+        self.blocks[blocks].iter().for_each(Block::ask_for);
     }
 
     /// The lanes, vacant ones included.

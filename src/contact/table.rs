@@ -10,6 +10,7 @@ use super::Contact;
 use super::block::Traits;
 use super::clock::{Clock, StepClock, WayClock};
 use super::list::{ContactList, Entry};
+use crate::cache::{ask_for, part_of};
 use crate::lanes::ROW;
 use crate::patch::{PATCH, PatchMotion};
 use crate::threads::{CHUNK, chunk_count};
@@ -90,6 +91,13 @@ impl<C: Clock> Candidates<C> {
         if !self.watched[first as usize..].contains(&patch) {
             self.watched.push(patch);
         }
+    }
+
+    /// Asks memory for part `part` of `parts`.
+    #[inline(always)]
+    pub fn ask_for(&self, part: usize, parts: usize) {
+        ask_for(&self.bodies[part_of(self.bodies.len(), part, parts)]);
+        ask_for(&self.wake[part_of(self.wake.len(), part, parts)]);
     }
 
     /// Number of patches.

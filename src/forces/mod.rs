@@ -3,6 +3,7 @@
 //! Each contact writes only its own history. Its load goes to the particles of its own chunk at once and to others by
 //! post; see `post` for the order.
 
+mod ahead;
 mod bodies;
 mod pairs;
 mod post;
@@ -13,10 +14,10 @@ use crate::contact::table::{ChunkSlots, ContactTable};
 use crate::drum::Drum;
 use crate::energy::{StepFlows, SurfaceLoad};
 use crate::integrator::{Complete, Drift, Load, Motion, Told};
-use crate::lanes::Lanes;
 use crate::patch::PatchMotion;
 use crate::threads::{CHUNK, Chunked, Threads, chunk_count, in_turn};
 use crate::vector::Rotation;
+use ahead::{Ahead, Needs};
 use post::{Delivery, Outbox, PostOffice, Sink};
 
 /// All that a contact needs beyond its own history.
@@ -143,27 +144,37 @@ impl ForcePass {
             surfaces: &mut self.chunk_surfaces,
             surfaces_per_chunk: self.surfaces.len(),
         };
-        threads.for_each_chunk(count, work, &|chunk: Chunks| chunk.run(scene));
+        threads.for_each_chunk(count, work, &|chunk: Chunks| chunk.run(scene, Ahead::new(None)));
     }
 
     /// Evaluates and moves on chunk by chunk, so that large loads pass through the cache once a step: a chunk's contacts
     /// are with itself and later ones, so after its turn nobody asks where its particles were, and its post is complete.
     fn sweep(&mut self, scene: Scene, table: &mut ContactTable, (drift, mut told): (Drift, Told)) {
         let surfaces_per_chunk = self.surfaces.len();
-        for (slots, drift) in table.chunks.iter_mut().zip(in_turn(drift)) {
+        let mut later = &mut table.chunks[..];
+        for drift in in_turn(drift) {
+            let Some((slots, rest)) = std::mem::take(&mut later).split_first_mut() else { break };
+            later = rest;
             let chunk = drift.chunk();
             let loads = &mut self.chunk_loads[..CHUNK.min(self.loads.len() - chunk * CHUNK)];
             let (motions, patches) = told.read();
+            let (outboxes, later_outboxes) = self.post.outboxes_mut()[chunk..].split_at_mut(1);
+            let next = later.first().zip(later_outboxes.first()).map(|(slots, outbox)| Needs {
+                slots,
+                motions,
+                first: (chunk + 1) * CHUNK,
+                abroad: outbox.abroad(),
+            });
             let work = Chunks {
                 first: chunk,
                 slots: std::slice::from_mut(slots),
                 loads,
-                outboxes: &mut self.post.outboxes_mut()[chunk..=chunk],
+                outboxes,
                 flows: &mut self.chunk_flows[chunk..=chunk],
                 surfaces: &mut self.chunk_surfaces[chunk * surfaces_per_chunk..][..surfaces_per_chunk],
                 surfaces_per_chunk,
             };
-            work.run(Scene { motions, patches, ..scene });
+            work.run(Scene { motions, patches, ..scene }, Ahead::new(next));
             self.post.collect(chunk, loads);
             drift.kick_and_run(told.chunk(chunk), loads);
         }
@@ -185,15 +196,6 @@ impl ForcePass {
     }
 }
 
-/// Reads what the contacts of a chunk are about to read in their own order: its particles, from
-/// `first` on, then those `abroad`. Where that has left the cache, many reads are then under way at once.
-#[inline(always)]
-fn fetch(motions: &[Motion], first: usize, abroad: &[u32]) {
-    let own = motions[first..].iter().take(CHUNK).fold(Lanes::ZERO, |seen, motion| seen | motion.place);
-    let places = abroad.iter().fold(own, |seen, &particle| seen | motions[particle as usize].place);
-    std::hint::black_box(places);
-}
-
 /// The slots of whole chunks of particles, and where their loads and sums go.
 #[derive(Debug)]
 struct Chunks<'a> {
@@ -209,13 +211,12 @@ struct Chunks<'a> {
 
 impl Chunks<'_> {
     /// Evaluates one chunk: its pairs, then its walls, so that every particle meets its contacts in key order.
-    fn run(self, scene: Scene) {
+    fn run(self, scene: Scene, mut ahead: Ahead) {
         let (Some(slots), Some(outbox)) = (self.slots.first_mut(), self.outboxes.first_mut()) else { return };
         outbox.clear();
-        fetch(scene.motions, self.first * CHUNK, outbox.abroad());
         let mut sink = Sink { first: self.first * CHUNK, loads: self.loads, outbox };
         self.surfaces.fill(SurfaceLoad::default());
-        let mut flows = pairs::evaluate(scene, &mut slots.pairs, &mut sink);
+        let mut flows = pairs::evaluate(scene, &mut slots.pairs, &mut sink, &mut ahead);
         flows.add(&walls::evaluate(scene, &mut slots.walls, self.surfaces, &mut sink));
         self.flows[0] = flows;
     }

@@ -4,6 +4,7 @@ use std::array;
 use std::ops::Range;
 
 use super::Scene;
+use super::ahead::Ahead;
 use super::bodies::{FlowLanes, Met, Pairs, settle};
 use super::post::Sink;
 use crate::contact::block::{Block, Ends, Traits, TraitsLanes};
@@ -25,8 +26,9 @@ const GROUP: usize = 8;
 const LONGEST_SLEEP: f64 = 1e6;
 
 /// Evaluates the pairs of one chunk in key order.
-pub fn evaluate(scene: Scene, slots: &mut Slots<StepClock>, sink: &mut Sink) -> StepFlows {
-    open_contacts(scene, slots);
+pub fn evaluate(scene: Scene, slots: &mut Slots<StepClock>, sink: &mut Sink, ahead: &mut Ahead) -> StepFlows {
+    ahead.share(slots.candidates.patches() + slots.contacts.lanes().len() / (LANES * GROUP));
+    open_contacts(scene, slots, ahead);
     let laws = scene.laws.pairs();
     if slots.contacts.is_empty() {
         return StepFlows::default();
@@ -37,7 +39,7 @@ pub fn evaluate(scene: Scene, slots: &mut Slots<StepClock>, sink: &mut Sink) -> 
         ListTraits::Same(same) => {
             let (law, traits) = (LinearLanes::splat(&laws[same.law.law as usize]), TraitsLanes::splat(same));
             let of = |_| (law, traits);
-            let flows = work_through(scene, (ends, blocks), sink, of, |overlap, _| overlap);
+            let flows = work_through(scene, (ends, blocks), (sink, ahead), of, |overlap, _| overlap);
             (flows.all_touch(), flows.total(same.radii[0].min(same.radii[1])))
         }
         ListTraits::Each(each) => {
@@ -46,7 +48,7 @@ pub fn evaluate(scene: Scene, slots: &mut Slots<StepClock>, sink: &mut Sink) -> 
                 (LinearLanes::new(|lane| &laws[own.laws()[lane] as usize]), own.lanes())
             };
             let ratio = |overlap, [own, other]: [Lanes; 2]| overlap / own.fast_min(other);
-            let flows = work_through(scene, (ends, blocks), sink, of, ratio);
+            let flows = work_through(scene, (ends, blocks), (sink, ahead), of, ratio);
             (flows.all_touch(), flows.total(1.0))
         }
     };
@@ -61,7 +63,7 @@ pub fn evaluate(scene: Scene, slots: &mut Slots<StepClock>, sink: &mut Sink) -> 
 fn work_through(
     scene: Scene,
     (ends, blocks): (&[Ends], &mut [Block]),
-    sink: &mut Sink,
+    (sink, ahead): (&mut Sink, &mut Ahead),
     traits_of: impl Fn(usize) -> (LinearLanes, TraitsLanes),
     depth: impl Fn(Lanes, [Lanes; 2]) -> Lanes,
 ) -> FlowLanes {
@@ -69,6 +71,7 @@ fn work_through(
     let mut met = [Met::none(); GROUP];
     let mut loads = [[Lanes::ZERO; LANES]; GROUP];
     for (group, (blocks, ends)) in blocks.chunks_mut(GROUP).zip(ends.chunks(GROUP)).enumerate() {
+        ahead.ask();
         let first = GROUP * group;
         for (index, (ends, met)) in ends.iter().zip(&mut met).enumerate() {
             *met = meet(scene, ends, &traits_of(first + index).1);
@@ -85,11 +88,12 @@ fn work_through(
 }
 
 /// Makes contacts of the candidates that touch; puts the others to sleep until the particles could have closed the gap.
-fn open_contacts(scene: Scene, slots: &mut Slots<StepClock>) {
+fn open_contacts(scene: Scene, slots: &mut Slots<StepClock>, ahead: &mut Ahead) {
     slots.candidates.follow(scene.patches, |clock, most| clock.advance(most.change + scene.round_off));
     let mut due = [0; MOST_DUE + ROW];
     let mut bodies = [Candidate { owner: 0, other: 0 }; MOST_DUE + ROW];
     for patch in 0..slots.candidates.patches() {
+        ahead.ask();
         let mut rows = slots.candidates.rows(patch);
         while !rows.is_empty() {
             let some = rows.start..rows.end.min(rows.start + MOST_DUE / ROW);
