@@ -53,8 +53,13 @@ impl StepClock {
     pub fn advance(&mut self, change: f64) {
         self.steps += 1.0;
         self.is_exceeded = change > self.limit;
-        let fallen = if self.is_exceeded { 0.0 } else { self.limit * (1.0 - DECAY) };
-        self.limit = larger(fallen, HEADROOM * change);
+        let enough = HEADROOM * change;
+        // Who sleeps relies on the limit: it may fall at any time, but rise only where everybody is woken.
+        self.limit = if self.is_exceeded {
+            enough
+        } else {
+            larger(self.limit * (1.0 - DECAY), enough.min(self.limit))
+        };
     }
 
     /// Number of steps since the list was built.
@@ -95,5 +100,15 @@ mod tests {
         let falls = (0..100).map(|_| reading(0.1)).all(f64::is_finite);
         assert!(falls);
         assert_eq!(reading(2.2), f64::INFINITY, "the limit falls when little happens");
+    }
+
+    #[test]
+    fn a_limit_rises_only_where_everybody_is_woken() {
+        let mut clock = StepClock::default();
+        for step in 0..1000 {
+            let before = clock.limit();
+            clock.advance(1.0 + 0.3 * f64::from(step * 7919 % 100) / 100.0);
+            assert!(clock.limit() <= before || clock.reading() == f64::INFINITY, "step {step}");
+        }
     }
 }

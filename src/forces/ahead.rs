@@ -3,7 +3,7 @@
 
 use crate::cache::{ask, ask_for, part_of};
 use crate::contact::table::ChunkSlots;
-use crate::integrator::Motion;
+use crate::integrator::{Drift, Motion};
 use crate::threads::CHUNK;
 
 /// What a chunk will read.
@@ -17,6 +17,8 @@ pub struct Needs<'a> {
     pub first: usize,
     /// The particles of other chunks that it reads.
     pub abroad: &'a [u32],
+    /// The drift of the present chunk, which reads particles after the contacts.
+    pub drift: &'a Drift<'a>,
 }
 
 /// What is still to be asked for.
@@ -55,8 +57,11 @@ fn ask_for_share(needs: Needs, part: usize, parts: usize) {
     let pairs = &needs.slots.pairs;
     pairs.candidates.ask_for(part, parts);
     pairs.contacts.ask_for(part, parts);
+    needs.drift.ask_for(part, parts);
     let own = &needs.motions[needs.first..];
     ask_for(&own[part_of(own.len().min(CHUNK), part, parts)]);
     let abroad = &needs.abroad[part_of(needs.abroad.len(), part, parts)];
-    abroad.iter().for_each(|&particle| ask(&needs.motions[particle as usize]));
+    for &particle in abroad {
+        ask(&needs.motions[particle as usize]);
+    }
 }

@@ -151,6 +151,7 @@ impl ForcePass {
     /// are with itself and later ones, so after its turn nobody asks where its particles were, and its post is complete.
     fn sweep(&mut self, scene: Scene, table: &mut ContactTable, (drift, mut told): (Drift, Told)) {
         let surfaces_per_chunk = self.surfaces.len();
+        let is_large = self.loads.len() >= LARGE;
         let mut later = &mut table.chunks[..];
         for drift in in_turn(drift) {
             let Some((slots, rest)) = std::mem::take(&mut later).split_first_mut() else { break };
@@ -159,12 +160,14 @@ impl ForcePass {
             let loads = &mut self.chunk_loads[..CHUNK.min(self.loads.len() - chunk * CHUNK)];
             let (motions, patches) = told.read();
             let (outboxes, later_outboxes) = self.post.outboxes_mut()[chunk..].split_at_mut(1);
-            let next = later.first().zip(later_outboxes.first()).map(|(slots, outbox)| Needs {
-                slots,
-                motions,
-                first: (chunk + 1) * CHUNK,
-                abroad: outbox.abroad(),
-            });
+            let next =
+                later.first().zip(later_outboxes.first()).filter(|_| is_large).map(|(slots, outbox)| Needs {
+                    slots,
+                    motions,
+                    first: (chunk + 1) * CHUNK,
+                    abroad: outbox.abroad(),
+                    drift: &drift,
+                });
             let work = Chunks {
                 first: chunk,
                 slots: std::slice::from_mut(slots),
@@ -195,6 +198,9 @@ impl ForcePass {
         }
     }
 }
+
+/// Particles from which on a load does not stay in the cache, so that asking ahead pays.
+const LARGE: usize = 32_768;
 
 /// The slots of whole chunks of particles, and where their loads and sums go.
 #[derive(Debug)]

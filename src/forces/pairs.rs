@@ -252,3 +252,22 @@ fn load(ends: &Ends, loads: &[Lanes; LANES], sink: &mut Sink) {
         sink.react(ends.other[lane], row);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nobody_touches_sooner_than_the_steps_say() {
+        for k in 1..3000 {
+            let wave = |pace: i32| f64::from(k * pace % 97) / 97.0;
+            let (gap, approach, limit) = (wave(31) * 1e-4, wave(57) * 1e-6, 1e-9 + wave(17) * 1e-7);
+            let steps =
+                steps_to_touch(Lanes::splat(gap), Lanes::splat(approach), Lanes::splat(limit)).to_array()[0];
+            // The worst that may happen: from step to step both speed up by the limit.
+            let left = |steps: f64| gap - approach * steps - limit * steps * (steps + 1.0);
+            assert!(left(steps.floor()) >= 0.0, "{gap} {approach} {limit}");
+            assert!(left(steps.floor() + 2.0) < 0.0, "a longer sleep would do: {gap} {approach} {limit}");
+        }
+    }
+}

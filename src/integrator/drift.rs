@@ -6,6 +6,7 @@ use super::constants::Constants;
 use super::pull::{Fresh, Known, Pull, Pulls};
 use super::quad::{four_vectors, put_rest, rest_of, two_by_two};
 use super::{Load, Motion};
+use crate::cache::{ask_for, part_of};
 use crate::lanes::{LANES, Lanes};
 use crate::patch::{PATCH, PatchMotion};
 use crate::threads::{CHUNK, Chunked, chunk_count};
@@ -76,6 +77,15 @@ impl Drift<'_> {
     /// The first of the chunks.
     pub fn chunk(&self) -> usize {
         self.first / CHUNK
+    }
+
+    /// Asks memory for part `part` of `parts` of what one chunk moves.
+    #[inline(always)]
+    pub fn ask_for(&self, part: usize, parts: usize) {
+        let particles = part_of(self.moved.spins.len().min(CHUNK), part, parts);
+        ask_for(&self.moved.velocities[particles.clone()]);
+        ask_for(&self.moved.angles[particles.clone()]);
+        ask_for(&self.moved.spins[particles]);
     }
 
     /// The second half of a kick by `loads`, which are taken, then the first half of the next one and the drift: one
