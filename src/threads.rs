@@ -103,9 +103,15 @@ impl Threads {
 
     /// Runs `kernel` on each chunk of `work`, on several threads where that pays for `count` particles.
     pub fn for_each_chunk<W: Chunked>(&self, count: usize, work: W, kernel: &(impl Fn(W) + Sync)) {
+        self.for_each_run(count, work, &|run| in_turn(run).for_each(kernel));
+    }
+
+    /// Runs `kernel` on all chunks of `work`, some in a row at a time, on several threads where that pays for `count`
+    /// particles.
+    pub fn for_each_run<W: Chunked>(&self, count: usize, work: W, kernel: &(impl Fn(W) + Sync)) {
         match self.pool_for(count) {
             Some(pool) => pool.install(|| share(work, kernel, pool.current_num_threads())),
-            None => in_turn(work).for_each(kernel),
+            None => kernel(work),
         }
     }
 }
@@ -131,8 +137,8 @@ fn share<W: Chunked>(mut work: W, kernel: &(impl Fn(W) + Sync), threads: usize) 
     let help = move |number: usize| {
         for turn in 0..members {
             let stretch = &stretches[(number + turn) % members];
-            while let Some(chunk) = take(stretch, turn == 0) {
-                kernel(chunk);
+            while let Some(run) = take(stretch, turn == 0) {
+                kernel(run);
             }
         }
     };
@@ -142,22 +148,26 @@ fn share<W: Chunked>(mut work: W, kernel: &(impl Fn(W) + Sync), threads: usize) 
     });
 }
 
-/// The first or the last chunk of what is left of a stretch.
+/// Chunks that a thread takes at a time at most: so many that it can look ahead, so few that nobody waits for the last.
+const LONGEST_RUN: usize = 8;
+
+/// The first or the last chunks of what is left of a stretch.
 fn take<W: Chunked>(stretch: &Mutex<Option<W>>, first: bool) -> Option<W> {
     let mut left = stretch.lock().unwrap_or_else(PoisonError::into_inner);
     let work = left.take()?;
     let chunks = work.chunks();
-    if chunks <= 1 {
+    let run = (chunks / LONGEST_RUN).clamp(1, LONGEST_RUN);
+    if chunks <= run {
         return Some(work);
     }
     if first {
-        let (chunk, rest) = work.split(1);
+        let (taken, rest) = work.split(run);
         *left = Some(rest);
-        Some(chunk)
+        Some(taken)
     } else {
-        let (rest, chunk) = work.split(chunks - 1);
+        let (rest, taken) = work.split(chunks - run);
         *left = Some(rest);
-        Some(chunk)
+        Some(taken)
     }
 }
 
@@ -165,12 +175,27 @@ fn take<W: Chunked>(stretch: &Mutex<Option<W>>, first: bool) -> Option<W> {
 pub fn in_turn<W: Chunked>(work: W) -> impl Iterator<Item = W> {
     let mut left = Some(work);
     std::iter::from_fn(move || {
-        let work = left.take()?;
-        if work.chunks() <= 1 {
-            return Some(work);
-        }
-        let (first, rest) = work.split(1);
-        left = Some(rest);
+        let (first, rest) = first_of(left.take()?);
+        left = rest;
         Some(first)
     })
+}
+
+/// Calls `each` with the chunks of `work`, one by one, and with what comes after each.
+pub fn with_later<W: Chunked>(work: W, mut each: impl FnMut(W, Option<&W>)) {
+    let mut left = Some(work);
+    while let Some(work) = left.take() {
+        let (first, rest) = first_of(work);
+        each(first, rest.as_ref());
+        left = rest;
+    }
+}
+
+/// The first chunk of `work`, and the rest.
+fn first_of<W: Chunked>(work: W) -> (W, Option<W>) {
+    if work.chunks() <= 1 {
+        return (work, None);
+    }
+    let (first, rest) = work.split(1);
+    (first, Some(rest))
 }

@@ -3,7 +3,7 @@
 
 use crate::cache::{ask, ask_for, part_of};
 use crate::contact::table::ChunkSlots;
-use crate::integrator::{Drift, Motion};
+use crate::integrator::{Drift, Load, Motion};
 use crate::threads::CHUNK;
 
 /// What a chunk will read.
@@ -17,8 +17,10 @@ pub struct Needs<'a> {
     pub first: usize,
     /// The particles of other chunks that it reads.
     pub abroad: &'a [u32],
-    /// The drift of the present chunk, which reads particles after the contacts.
-    pub drift: &'a Drift<'a>,
+    /// The loads of its own particles, where each chunk has its own.
+    pub loads: &'a [Load],
+    /// The drift of the present chunk, where it comes after the contacts.
+    pub drift: Option<&'a Drift<'a>>,
 }
 
 /// What is still to be asked for.
@@ -57,7 +59,10 @@ fn ask_for_share(needs: Needs, part: usize, parts: usize) {
     let pairs = &needs.slots.pairs;
     pairs.candidates.ask_for(part, parts);
     pairs.contacts.ask_for(part, parts);
-    needs.drift.ask_for(part, parts);
+    ask_for(&needs.loads[part_of(needs.loads.len().min(CHUNK), part, parts)]);
+    if let Some(drift) = needs.drift {
+        drift.ask_for(part, parts);
+    }
     let own = &needs.motions[needs.first..];
     ask_for(&own[part_of(own.len().min(CHUNK), part, parts)]);
     let abroad = &needs.abroad[part_of(needs.abroad.len(), part, parts)];

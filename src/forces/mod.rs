@@ -15,7 +15,7 @@ use crate::drum::Drum;
 use crate::energy::{StepFlows, SurfaceLoad};
 use crate::integrator::{Complete, Drift, Load, Motion, Told};
 use crate::patch::PatchMotion;
-use crate::threads::{CHUNK, Chunked, Threads, chunk_count, in_turn};
+use crate::threads::{CHUNK, Chunked, Threads, chunk_count, in_turn, with_later};
 use crate::vector::Rotation;
 use ahead::{Ahead, Needs};
 use post::{Delivery, Outbox, PostOffice, Sink};
@@ -123,9 +123,16 @@ impl ForcePass {
             self.evaluate_all(Scene { motions, patches, ..scene }, table, threads);
             let post = &self.post;
             let work = Complete { drift, told, source: &mut self.loads[..] };
-            threads.for_each_chunk(scene.matter.masses.len(), work, &|chunk: Complete<&mut [Load]>| {
-                post.collect(chunk.drift.chunk(), chunk.source);
-                chunk.drift.kick_and_run(chunk.told, chunk.source);
+            let is_large = scene.matter.masses.len() >= LARGE;
+            threads.for_each_run(scene.matter.masses.len(), work, &|run: Complete<&mut [Load]>| {
+                with_later(run, |chunk, later| {
+                    post.collect(chunk.drift.chunk(), chunk.source);
+                    chunk.drift.kick_and_run(chunk.told, chunk.source, |part, parts| {
+                        if let Some(later) = later.filter(|_| is_large) {
+                            later.ask_for(part, parts);
+                        }
+                    });
+                });
             });
         } else {
             self.sweep(scene, table, (drift, told));
@@ -144,7 +151,7 @@ impl ForcePass {
             surfaces: &mut self.chunk_surfaces,
             surfaces_per_chunk: self.surfaces.len(),
         };
-        threads.for_each_chunk(count, work, &|chunk: Chunks| chunk.run(scene, Ahead::new(None)));
+        threads.for_each_run(count, work, &|chunks: Chunks| chunks.run_all(scene));
     }
 
     /// Evaluates and moves on chunk by chunk, so that large loads pass through the cache once a step: a chunk's contacts
@@ -166,7 +173,8 @@ impl ForcePass {
                     motions,
                     first: (chunk + 1) * CHUNK,
                     abroad: outbox.abroad(),
-                    drift: &drift,
+                    loads: &[],
+                    drift: Some(&drift),
                 });
             let work = Chunks {
                 first: chunk,
@@ -179,7 +187,7 @@ impl ForcePass {
             };
             work.run(Scene { motions, patches, ..scene }, Ahead::new(next));
             self.post.collect(chunk, loads);
-            drift.kick_and_run(told.chunk(chunk), loads);
+            drift.kick_and_run(told.chunk(chunk), loads, |_, _| {});
         }
     }
 
@@ -216,6 +224,24 @@ struct Chunks<'a> {
 }
 
 impl Chunks<'_> {
+    /// Evaluates all.
+    fn run_all(self, scene: Scene) {
+        let is_large = scene.motions.len() >= LARGE;
+        with_later(self, |chunk, later| {
+            let next = later.filter(|_| is_large).and_then(|later| {
+                Some(Needs {
+                    slots: later.slots.first()?,
+                    motions: scene.motions,
+                    first: later.first * CHUNK,
+                    abroad: later.outboxes.first()?.abroad(),
+                    loads: later.loads,
+                    drift: None,
+                })
+            });
+            chunk.run(scene, Ahead::new(next));
+        });
+    }
+
     /// Evaluates one chunk: its pairs, then its walls, so that every particle meets its contacts in key order.
     fn run(self, scene: Scene, mut ahead: Ahead) {
         let (Some(slots), Some(outbox)) = (self.slots.first_mut(), self.outboxes.first_mut()) else { return };

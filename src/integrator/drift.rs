@@ -90,21 +90,22 @@ impl Drift<'_> {
 
     /// The second half of a kick by `loads`, which are taken, then the first half of the next one and the drift: one
     /// chunk.
-    pub fn kick_and_run(self, told: Told, loads: &mut [Load]) {
+    /// `ahead` is called patch by patch with its number and how many there are, and may ask memory for something.
+    pub fn kick_and_run(self, told: Told, loads: &mut [Load], ahead: impl Fn(usize, usize)) {
         let constants = self.setting.constants.of(self.first, loads.len());
         let gravity = self.setting.gravity;
-        self.run(told, Fresh { loads, constants, gravity });
+        self.run(told, Fresh { loads, constants, gravity }, ahead);
     }
 
     /// Half a kick with the accelerations that the particles carry, then the drift: one chunk.
     pub(super) fn run_on(self, told: Told, (accelerations, spin_rates): (&[Vec2], &[f64])) {
-        self.run(told, Known { accelerations, spin_rates });
+        self.run(told, Known { accelerations, spin_rates }, |_, _| {});
     }
 
-    fn run(mut self, mut told: Told, mut pull: impl Pull) {
+    fn run(mut self, mut told: Told, mut pull: impl Pull, ahead: impl Fn(usize, usize)) {
         let mut sums = QuadSums::new(self.setting.turn, self.setting.time_step);
         let masses = self.setting.constants.of(self.first, told.motions.len()).masses;
-        self.move_quads(&mut told, &mut pull, masses, &mut sums);
+        self.move_quads(&mut told, &mut pull, masses, (&mut sums, ahead));
         if !told.motions.len().is_multiple_of(LANES) {
             self.move_rest(&mut told, &mut pull, masses, &mut sums);
         }
@@ -113,7 +114,13 @@ impl Drift<'_> {
         }
     }
 
-    fn move_quads<P: Pull>(&mut self, told: &mut Told, pull: &mut P, masses: &[f64], sums: &mut QuadSums) {
+    fn move_quads<P: Pull>(
+        &mut self,
+        told: &mut Told,
+        pull: &mut P,
+        masses: &[f64],
+        (sums, ahead): (&mut QuadSums, impl Fn(usize, usize)),
+    ) {
         let quads = told.motions.len() / LANES;
         // Slices of one known length let the compiler drop the bounds checks.
         let velocities = &mut self.moved.velocities.as_chunks_mut().0[..quads];
@@ -121,7 +128,9 @@ impl Drift<'_> {
         let spins = &mut self.moved.spins.as_chunks_mut().0[..quads];
         let masses = &masses.as_chunks().0[..quads];
         let motions = &mut told.motions.as_chunks_mut().0[..quads];
+        let patches = told.patches.len();
         for (patch, most) in told.patches.iter_mut().enumerate() {
+            ahead(patch, patches);
             let first = patch * (PATCH / LANES);
             for quad in first..quads.min(first + PATCH / LANES) {
                 let pulls = pull.of(quad, quads);
@@ -209,6 +218,16 @@ impl ByParticle for (&[Vec2], &[f64]) {
     fn cut(self, at: usize) -> (Self, Self) {
         let ((a, more_a), (b, more_b)) = (self.0.split_at(at), self.1.split_at(at));
         ((a, b), (more_a, more_b))
+    }
+}
+
+impl Complete<'_, &mut [Load]> {
+    /// Asks memory for part `part` of `parts` of what the first chunk needs.
+    pub fn ask_for(&self, part: usize, parts: usize) {
+        let particles = part_of(self.source.len().min(CHUNK), part, parts);
+        ask_for(&self.source[particles.clone()]);
+        ask_for(&self.told.motions[particles]);
+        self.drift.ask_for(part, parts);
     }
 }
 
