@@ -98,9 +98,13 @@ impl VerletList {
         self.budget = 0.5 * self.skin * ROUND_OFF_MARGIN;
         self.grid.fill(&particles.positions, 2.0 * particles.largest_radius() + self.skin);
         let search = Search { chunks: &mut table.chunks, first: 0 };
-        let (grid, anchors, skin) = (&self.grid, &self.anchors, self.skin);
-        threads
-            .for_each_chunk(particles.len(), search, &|chunk: Search| chunk.run(around, grid, anchors, skin));
+        let (grid, anchors) = (&self.grid, &self.anchors);
+        let same =
+            particles.radii.first().copied().filter(|&first| particles.radii.iter().all(|&r| r == first));
+        let margin = (self.skin, same);
+        threads.for_each_chunk(particles.len(), search, &|chunk: Search| {
+            chunk.run(around, grid, anchors, margin);
+        });
     }
 }
 
@@ -114,11 +118,11 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    fn run(self, around: Surroundings, grid: &CellGrid, anchors: &[Vec2], skin: f64) {
+    fn run(self, around: Surroundings, grid: &CellGrid, anchors: &[Vec2], (skin, same): (f64, Option<f64>)) {
         let Some(ChunkSlots { pairs, walls }) = self.chunks.first_mut() else { return };
         pairs.candidates.clear();
         walls.candidates.clear();
-        let mut found = Vec::new();
+        let (mut found, mut room) = (Vec::new(), Vec::new());
         let start = self.first * CHUNK;
         for (i, &center) in anchors.iter().enumerate().skip(start).take(CHUNK) {
             if i.is_multiple_of(PATCH) {
@@ -126,8 +130,7 @@ impl Search<'_> {
                 pairs.candidates.begin(patch);
                 walls.candidates.begin(patch);
             }
-            find_pairs(i, around.particles, grid, skin, &mut found);
-            for j in found.drain(..) {
+            for &j in find_pairs(i, around.particles, grid, (skin, same), &mut room) {
                 pairs.candidates.push_pair(Candidate { owner: i as u32, other: j });
             }
             find_walls(around.drum, center, around.particles.radii[i] + skin, &mut found);
@@ -151,23 +154,33 @@ impl Chunked for Search<'_> {
     }
 }
 
-/// The particles of higher id within reach of particle `i`, ascending.
-fn find_pairs(i: usize, particles: &Particles, grid: &CellGrid, skin: f64, found: &mut Vec<u32>) {
+/// The particles of higher id within reach of particle `i`, ascending. `same` is the radius where all have one, `room` what
+/// they may be written to.
+fn find_pairs<'a>(
+    i: usize,
+    particles: &Particles,
+    grid: &CellGrid,
+    (skin, same): (f64, Option<f64>),
+    room: &'a mut Vec<u32>,
+) -> &'a [u32] {
     let position = particles.positions[i];
     let own_reach = particles.radii[i] + skin;
+    let mut count = 0;
     grid.for_each_near(position, |members, places| {
+        if room.len() < count + members.len() {
+            room.resize(count + 2 * members.len(), 0);
+        }
         // Every member is written, and overwritten unless it is near: no CPU could foretell a branch here.
-        let mut count = found.len();
-        found.resize(count + members.len(), 0);
         for (&j, &place) in members.iter().zip(places) {
-            let reach = own_reach + particles.radii[j as usize];
+            let reach = own_reach + same.unwrap_or_else(|| particles.radii[j as usize]);
             let is_near = (place - position).norm_squared() < reach * reach;
-            found[count] = j;
+            room[count] = j;
             count += usize::from((j as usize > i) & is_near);
         }
-        found.truncate(count);
     });
+    let found = &mut room[..count];
     found.sort_unstable();
+    found
 }
 
 /// The drum's features within `reach` of `center` (in the drum's frame), ascending.
