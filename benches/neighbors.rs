@@ -23,7 +23,7 @@ fn rebuilds(criterion: &mut Criterion) {
                 rotation: Rotation::new(simulation.drum_angle()),
             };
             let mut table = simulation.contacts().clone();
-            let mut list = VerletList::new(0.3 * scenes::common::RADIUS);
+            let mut list = VerletList::new(0.5 * scenes::common::RADIUS);
             bencher.iter(|| list.rebuild(around, &mut table, &threads));
         });
     }

@@ -411,7 +411,7 @@ impl Simulation {
     }
 }
 
-/// Margin of the neighbor list in radii of the largest bundle; speed is flat from 0.15 to 0.8 at 10 000 … 1 000 000 bundles.
+/// Margin of the neighbor list in radii of the largest bundle; speed is flat from 0.4 to 1 at 100 … 10 000 bundles.
 const DEFAULT_SKIN: f64 = 0.5;
 
 /// All that contacts need at an instant but what is told of the particles' motion.
