@@ -18,6 +18,7 @@ use crate::patch::PatchMotion;
 use crate::threads::{CHUNK, Chunked, Threads, chunk_count, in_turn, with_later};
 use crate::vector::Rotation;
 use ahead::{Ahead, Needs};
+use pairs::Scratch;
 use post::{Delivery, Outbox, PostOffice, Sink};
 
 /// All that a contact needs beyond its own history.
@@ -69,6 +70,7 @@ pub struct ForcePass {
     pub loads: Vec<Load>,
     /// Loads of a single chunk, empty between two chunks.
     chunk_loads: Vec<Load>,
+    scratch: Box<Scratch>,
     /// Load on the particles by each of the drum's surfaces.
     pub surfaces: Vec<SurfaceLoad>,
     /// Work of the step.
@@ -85,6 +87,7 @@ impl ForcePass {
         Self {
             loads: vec![Load::default(); count],
             chunk_loads: vec![Load::default(); CHUNK],
+            scratch: Box::default(),
             surfaces: vec![SurfaceLoad::default(); surfaces],
             // Before the first pass nobody knows how deep overlaps are.
             flows: StepFlows { overlap_ratio: f64::INFINITY, ..StepFlows::default() },
@@ -185,7 +188,7 @@ impl ForcePass {
                 surfaces: &mut self.chunk_surfaces[chunk * surfaces_per_chunk..][..surfaces_per_chunk],
                 surfaces_per_chunk,
             };
-            work.run(Scene { motions, patches, ..scene }, Ahead::new(next));
+            work.run(Scene { motions, patches, ..scene }, Ahead::new(next), &mut self.scratch);
             self.post.collect(chunk, loads);
             drift.kick_and_run(told.chunk(chunk), loads, |_, _| {});
         }
@@ -227,6 +230,7 @@ impl Chunks<'_> {
     /// Evaluates all.
     fn run_all(self, scene: Scene) {
         let is_large = scene.motions.len() >= LARGE;
+        let mut scratch = Scratch::default();
         with_later(self, |chunk, later| {
             let next = later.filter(|_| is_large).and_then(|later| {
                 Some(Needs {
@@ -238,17 +242,17 @@ impl Chunks<'_> {
                     drift: None,
                 })
             });
-            chunk.run(scene, Ahead::new(next));
+            chunk.run(scene, Ahead::new(next), &mut scratch);
         });
     }
 
     /// Evaluates one chunk: its pairs, then its walls, so that every particle meets its contacts in key order.
-    fn run(self, scene: Scene, mut ahead: Ahead) {
+    fn run(self, scene: Scene, mut ahead: Ahead, scratch: &mut Scratch) {
         let (Some(slots), Some(outbox)) = (self.slots.first_mut(), self.outboxes.first_mut()) else { return };
         outbox.clear();
         let mut sink = Sink { first: self.first * CHUNK, loads: self.loads, outbox };
         self.surfaces.fill(SurfaceLoad::default());
-        let mut flows = pairs::evaluate(scene, &mut slots.pairs, &mut sink, &mut ahead);
+        let mut flows = pairs::evaluate(scene, &mut slots.pairs, (&mut sink, &mut ahead), scratch);
         flows.add(&walls::evaluate(scene, &mut slots.walls, self.surfaces, &mut sink));
         self.flows[0] = flows;
     }
