@@ -11,9 +11,9 @@ use crate::threads::CHUNK;
 pub struct Needs<'a> {
     /// Its candidates and contacts.
     pub slots: &'a ChunkSlots,
-    /// All motions, and the first of its own particles.
+    /// The motions of all particles.
     pub motions: &'a [Motion],
-    /// See there.
+    /// The first of its own particles.
     pub first: usize,
     /// The particles of other chunks that it reads.
     pub abroad: &'a [u32],
