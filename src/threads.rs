@@ -103,15 +103,21 @@ impl Threads {
 
     /// Runs `kernel` on each chunk of `work`, on several threads where that pays for `count` particles.
     pub fn for_each_chunk<W: Chunked>(&self, count: usize, work: W, kernel: &(impl Fn(W) + Sync)) {
-        self.for_each_run(count, work, &|run| in_turn(run).for_each(kernel));
+        if self.serve(count) {
+            let chunks = work.chunks();
+            let pieces = (self.count() * PIECES).min(chunks);
+            let ends = (1..=pieces).map(|piece| chunks * piece / pieces);
+            self.for_each(count, cut(work, ends), &|piece| in_turn(piece).for_each(kernel));
+        } else {
+            in_turn(work).for_each(kernel);
+        }
     }
 
-    /// Runs `kernel` on all chunks of `work`, some in a row at a time, on several threads where that pays for `count`
-    /// particles.
-    pub fn for_each_run<W: Chunked>(&self, count: usize, work: W, kernel: &(impl Fn(W) + Sync)) {
+    /// Runs `kernel` on each of `pieces`, on several threads where that pays for `count` particles.
+    pub fn for_each<W: Send>(&self, count: usize, pieces: Vec<W>, kernel: &(impl Fn(W) + Sync)) {
         match self.pool_for(count) {
-            Some(pool) => pool.install(|| share(work, kernel, pool.current_num_threads())),
-            None => kernel(work),
+            Some(pool) => pool.install(|| share(pieces, kernel, pool.current_num_threads())),
+            None => pieces.into_iter().for_each(kernel),
         }
     }
 }
@@ -121,25 +127,25 @@ impl Threads {
 /// 1.5 at 5 000.
 const PARALLEL_THRESHOLD: usize = 4096;
 
-/// Gives each thread a stretch of chunks, the same in every pass, so that it finds in its own cache what it left there.
+/// Pieces of work for each thread: so many that nobody waits long for the last.
+pub const PIECES: usize = 16;
+
+/// Gives each thread as many pieces in a row, the same in every pass, so that it finds in its own cache what it left there.
 /// Who is done takes what others have not come to: a thread whose CPU is busy with something else holds nobody up.
-fn share<W: Chunked>(mut work: W, kernel: &(impl Fn(W) + Sync), threads: usize) {
-    let members = threads.min(work.chunks());
-    let mut stretches = Vec::with_capacity(members);
-    for threads in (2..=members).rev() {
-        let chunks = work.chunks();
-        let (first, rest) = work.split(chunks / threads);
-        stretches.push(Mutex::new(Some(first)));
-        work = rest;
-    }
-    stretches.push(Mutex::new(Some(work)));
-    let stretches = &stretches[..];
+fn share<W: Send>(pieces: Vec<W>, kernel: &(impl Fn(W) + Sync), threads: usize) {
+    let members = threads.min(pieces.len());
+    let pieces: Vec<_> = pieces.into_iter().map(|piece| Mutex::new(Some(piece))).collect();
+    let pieces = &pieces[..];
+    let own =
+        move |number: usize| &pieces[pieces.len() * number / members..pieces.len() * (number + 1) / members];
+    let take = |piece: &Mutex<Option<W>>| {
+        let taken = piece.lock().unwrap_or_else(PoisonError::into_inner).take();
+        taken.into_iter().for_each(kernel);
+    };
     let help = move |number: usize| {
-        for turn in 0..members {
-            let stretch = &stretches[(number + turn) % members];
-            while let Some(run) = take(stretch, turn == 0) {
-                kernel(run);
-            }
+        own(number).iter().for_each(take);
+        for other in (1..members).map(|turn| (number + turn) % members) {
+            own(other).iter().rev().for_each(take);
         }
     };
     rayon::scope(|scope| {
@@ -148,54 +154,33 @@ fn share<W: Chunked>(mut work: W, kernel: &(impl Fn(W) + Sync), threads: usize) 
     });
 }
 
-/// Chunks that a thread takes at a time at most: so many that it can look ahead, so few that nobody waits for the last.
-const LONGEST_RUN: usize = 8;
-
-/// The first or the last chunks of what is left of a stretch.
-fn take<W: Chunked>(stretch: &Mutex<Option<W>>, first: bool) -> Option<W> {
-    let mut left = stretch.lock().unwrap_or_else(PoisonError::into_inner);
-    let work = left.take()?;
+/// Cuts `work` into pieces that end before the chunks `ends`, of which the last is the number of chunks.
+pub fn cut<W: Chunked>(work: W, ends: impl IntoIterator<Item = usize>) -> Vec<W> {
     let chunks = work.chunks();
-    let run = (chunks / LONGEST_RUN).clamp(1, LONGEST_RUN);
-    if chunks <= run {
-        return Some(work);
+    let (mut pieces, mut left, mut start) = (Vec::new(), Some(work), 0);
+    for end in ends {
+        let Some(work) = left.take() else { break };
+        if end < chunks {
+            let (piece, rest) = work.split(end - start);
+            pieces.push(piece);
+            (left, start) = (Some(rest), end);
+        } else {
+            pieces.push(work);
+        }
     }
-    if first {
-        let (taken, rest) = work.split(run);
-        *left = Some(rest);
-        Some(taken)
-    } else {
-        let (rest, taken) = work.split(chunks - run);
-        *left = Some(rest);
-        Some(taken)
-    }
+    pieces
 }
 
 /// The chunks of `work`, one by one.
 pub fn in_turn<W: Chunked>(work: W) -> impl Iterator<Item = W> {
     let mut left = Some(work);
     std::iter::from_fn(move || {
-        let (first, rest) = first_of(left.take()?);
-        left = rest;
+        let work = left.take()?;
+        if work.chunks() <= 1 {
+            return Some(work);
+        }
+        let (first, rest) = work.split(1);
+        left = Some(rest);
         Some(first)
     })
-}
-
-/// Calls `each` with the chunks of `work`, one by one, and with what comes after each.
-pub fn with_later<W: Chunked>(work: W, mut each: impl FnMut(W, Option<&W>)) {
-    let mut left = Some(work);
-    while let Some(work) = left.take() {
-        let (first, rest) = first_of(work);
-        each(first, rest.as_ref());
-        left = rest;
-    }
-}
-
-/// The first chunk of `work`, and the rest.
-fn first_of<W: Chunked>(work: W) -> (W, Option<W>) {
-    if work.chunks() <= 1 {
-        return (work, None);
-    }
-    let (first, rest) = work.split(1);
-    (first, Some(rest))
 }

@@ -5,6 +5,7 @@ mod common;
 use common::*;
 use drumrs::checkpoint;
 use drumrs::config::SimulationConfig;
+use drumrs::forces::LARGE;
 use drumrs::order;
 use drumrs::simulation::Simulation;
 use drumrs::start::InitialState;
@@ -74,6 +75,41 @@ fn any_number_of_threads_gives_the_same_bits() {
     for threads in [2, 3, 8] {
         let many = after(&config, threads, 2500);
         assert_eq!(bits(&one), bits(&many), "{threads} threads");
+    }
+}
+
+/// A load so large that each thread takes a stretch of it through evaluation and motion at once: a dense lattice, shaken.
+#[test]
+fn threads_do_not_show_in_a_load_that_is_swept() {
+    let count = LARGE + 2000;
+    let spacing = 2.0 * RADIUS * (1.0 - 1e-3);
+    let mut config = baseline(count, 0);
+    config.drum.radius = Some(0.75 * spacing * (count as f64).sqrt());
+    config.run.skin = Some(0.05 * RADIUS);
+    config.run.sample_every = 53.0 * TIME_STEP;
+    let side = (count as f64).sqrt() as usize;
+    let place = |i: usize| {
+        let (column, row) = (i % side, i / side);
+        let shift = if row.is_multiple_of(2) { 0.0 } else { 0.5 };
+        let (x, y) = (column as f64 + shift - 0.5 * side as f64, row as f64 - 0.5 * side as f64);
+        Vec2::new(x * spacing, y * spacing * 0.75_f64.sqrt())
+    };
+    let wave = |i: usize, pace: usize| (i * pace % 1009) as f64 / 504.5 - 1.0;
+    let initial = InitialState {
+        positions: (0..count).map(place).collect(),
+        velocities: Some((0..count).map(|i| Vec2::new(wave(i, 577), wave(i, 911))).collect()),
+        angular_velocities: Some((0..count).map(|i| 50.0 * wave(i, 331)).collect()),
+        ..Default::default()
+    };
+    let run = |threads: usize| {
+        let mut simulation = Simulation::with_state(config.clone(), 1, threads, initial.clone()).unwrap();
+        simulation.run(400).unwrap();
+        simulation
+    };
+    let one = run(1);
+    assert!(touching(&one).0 > count / 2, "the run must hold contacts: {:?}", touching(&one));
+    for threads in [2, 5] {
+        assert_eq!(bits(&one), bits(&run(threads)), "{threads} threads");
     }
 }
 

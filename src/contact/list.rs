@@ -218,7 +218,12 @@ impl ContactList {
         self.counts[patch] -= 1;
         let (last, lane) = (blocks.end - 1, self.counts[patch] as usize % LANES);
         if lane > 0 {
-            (lane..LANES).for_each(|lane| self.blocks[last].vacate(lane));
+            // What is vacant has the ends of a contact that is there: others may not be at hand.
+            let key = self.ends[last].key(lane - 1);
+            for lane in lane..LANES {
+                self.blocks[last].vacate(lane);
+                self.ends[last].put(lane, key);
+            }
             return;
         }
         self.ends.remove(last);

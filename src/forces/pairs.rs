@@ -6,6 +6,7 @@ use std::ops::Range;
 use super::Scene;
 use super::ahead::Ahead;
 use super::bodies::{FlowLanes, Met, Pairs, settle};
+use super::motions::Motions;
 use super::post::Sink;
 use crate::contact::block::{Block, Ends, Traits, TraitsLanes};
 use crate::contact::clock::StepClock;
@@ -47,9 +48,9 @@ impl Default for Scratch {
 
 /// Evaluates the pairs of one chunk in key order.
 pub fn evaluate(
-    scene: Scene,
+    scene: Scene<impl Motions>,
     slots: &mut Slots<StepClock>,
-    (sink, ahead): (&mut Sink, &mut Ahead),
+    (sink, ahead): (&mut Sink, &mut Ahead<impl Motions>),
     scratch: &mut Scratch,
 ) -> StepFlows {
     ahead.share(slots.candidates.patches() + slots.contacts.lanes().len() / (LANES * GROUP));
@@ -86,9 +87,9 @@ pub fn evaluate(
 /// Works out all contacts. `depth` is what an overlap between bodies of the given radii is judged by.
 #[inline(always)]
 fn work_through(
-    scene: Scene,
+    scene: Scene<impl Motions>,
     (ends, blocks): (&[Ends], &mut [Block]),
-    (sink, ahead, scratch): (&mut Sink, &mut Ahead, &mut Scratch),
+    (sink, ahead, scratch): (&mut Sink, &mut Ahead<impl Motions>, &mut Scratch),
     traits_of: impl Fn(usize) -> (LinearLanes, TraitsLanes),
     depth: impl Fn(Lanes, [Lanes; 2]) -> Lanes,
 ) -> FlowLanes {
@@ -112,7 +113,12 @@ fn work_through(
 }
 
 /// Makes contacts of the candidates that touch; puts the others to sleep until the particles could have closed the gap.
-fn open_contacts(scene: Scene, slots: &mut Slots<StepClock>, ahead: &mut Ahead, scratch: &mut Scratch) {
+fn open_contacts(
+    scene: Scene<impl Motions>,
+    slots: &mut Slots<StepClock>,
+    ahead: &mut Ahead<impl Motions>,
+    scratch: &mut Scratch,
+) {
     slots.candidates.follow(scene.patches, |clock, most| clock.advance(most.change + scene.round_off));
     let Scratch { due, bodies, .. } = scratch;
     for patch in 0..slots.candidates.patches() {
@@ -140,7 +146,7 @@ fn open_contacts(scene: Scene, slots: &mut Slots<StepClock>, ahead: &mut Ahead, 
 }
 
 /// Whether none of a patch's candidates that sleep touch. Only asked in tests: not to look is what sleep is for.
-fn sleepers_are_apart(scene: Scene, candidates: &Candidates<StepClock>, patch: usize) -> bool {
+fn sleepers_are_apart(scene: Scene<impl Motions>, candidates: &Candidates<StepClock>, patch: usize) -> bool {
     let waking = candidates.waking(patch);
     let rows = candidates.rows(patch);
     let wakes = candidates.wakes(rows.clone()).as_flattened();
@@ -150,7 +156,7 @@ fn sleepers_are_apart(scene: Scene, candidates: &Candidates<StepClock>, patch: u
             return true;
         }
         let pair = candidates.bodies(candidate);
-        let (own, other) = (&scene.motions[pair.owner as usize], &scene.motions[pair.other as usize]);
+        let (own, other) = (scene.motions.of(pair.owner), scene.motions.of(pair.other));
         (other.position() - own.position()).norm_squared() >= (own.radius() + other.radius()).powi(2)
     })
 }
@@ -196,15 +202,15 @@ const IN_FRONT: [[u8; ROW]; 1 << ROW] = {
 
 /// Looks at four candidates of a patch.
 fn look_at(
-    scene: Scene,
+    scene: Scene<impl Motions>,
     slots: &mut Slots<StepClock>,
     patch: usize,
     (due, bodies): (&[u32; LANES], &[Candidate; LANES]),
 ) {
     let candidates = &mut slots.candidates;
     let clock = *candidates.clock(patch);
-    let own = bodies.map(|pair| &scene.motions[pair.owner as usize]);
-    let other = bodies.map(|pair| &scene.motions[pair.other as usize]);
+    let own = bodies.map(|pair| scene.motions.of(pair.owner));
+    let other = bodies.map(|pair| scene.motions.of(pair.other));
     let [gap_x, gap_y, apart_x, apart_y] =
         transpose(array::from_fn(|lane| other[lane].place - own[lane].place));
     let (between, apart) = (Vec2Lanes { x: gap_x, y: gap_y }, Vec2Lanes { x: apart_x, y: apart_y });
@@ -245,7 +251,7 @@ fn steps_to_touch(gap: Lanes, approach: Lanes, limit: Lanes) -> Lanes {
 }
 
 #[cold]
-fn open(scene: Scene, slots: &mut Slots<StepClock>, candidate: usize) {
+fn open(scene: Scene<impl Motions>, slots: &mut Slots<StepClock>, candidate: usize) {
     let (owner, other) = slots.candidates.key(candidate);
     let (i, j) = (owner as usize, other as usize);
     let matter = scene.matter;
@@ -256,8 +262,8 @@ fn open(scene: Scene, slots: &mut Slots<StepClock>, candidate: usize) {
 
 /// Gathers the bodies of a block.
 #[inline(always)]
-fn meet(scene: Scene, ends: &Ends, traits: &TraitsLanes) -> Met {
-    let motion = |id: u32| &scene.motions[id as usize];
+fn meet(scene: Scene<impl Motions>, ends: &Ends, traits: &TraitsLanes) -> Met {
+    let motion = |id: u32| scene.motions.of(id);
     Met::new(ends.owner.map(motion), ends.other.map(motion), traits.radii)
 }
 

@@ -109,9 +109,19 @@ impl PostOffice {
         Self { outboxes: vec![Outbox::default(); chunks], senders: vec![Vec::new(); chunks] }
     }
 
+    /// The outboxes, one a chunk; and by chunk those that may have post for it.
+    pub fn parts_mut(&mut self) -> (&mut [Outbox], &[Vec<u32>]) {
+        (&mut self.outboxes, &self.senders)
+    }
+
     /// The outboxes, one a chunk.
-    pub fn outboxes_mut(&mut self) -> &mut [Outbox] {
-        &mut self.outboxes
+    pub fn outboxes(&self) -> &[Outbox] {
+        &self.outboxes
+    }
+
+    /// By chunk: the chunks that may have post for it, ascending.
+    pub fn senders(&self) -> &[Vec<u32>] {
+        &self.senders
     }
 
     /// Takes note of new candidates for `count` particles.
@@ -129,14 +139,15 @@ impl PostOffice {
             }
         }
     }
+}
 
-    /// Adds the post for chunk `chunk` to the loads of its particles, in the order of its senders.
-    pub fn collect(&self, chunk: usize, loads: &mut [Load]) {
-        for &sender in &self.senders[chunk] {
-            for post in self.outboxes[sender as usize].to(chunk) {
-                let [x, y, moment] = post.reaction;
-                loads[post.particle as usize - chunk * CHUNK].0 += Lanes::new([x, y, moment, 0.0]);
-            }
+/// Adds the post for chunk `chunk` to the loads of its particles, in the order of its senders. `outboxes` begin with that of
+/// chunk `first`.
+pub fn collect(chunk: usize, senders: &[u32], (first, outboxes): (usize, &[Outbox]), loads: &mut [Load]) {
+    for &sender in senders {
+        for post in outboxes[sender as usize - first].to(chunk) {
+            let [x, y, moment] = post.reaction;
+            loads[post.particle as usize - chunk * CHUNK].0 += Lanes::new([x, y, moment, 0.0]);
         }
     }
 }
@@ -165,6 +176,14 @@ pub struct Delivery<'a> {
     pub first: usize,
     /// Loads of whole chunks.
     pub loads: &'a mut [Load],
+}
+
+impl Delivery<'_> {
+    /// Collects the post of one chunk.
+    pub fn run(self, post: &PostOffice) {
+        let chunk = self.first;
+        collect(chunk, &post.senders[chunk], (0, &post.outboxes), self.loads);
+    }
 }
 
 impl Chunked for Delivery<'_> {

@@ -2,6 +2,7 @@
 
 use super::Scene;
 use super::bodies::{FlowLanes, Meeting, Walls, settle};
+use super::motions::Motions;
 use super::post::Sink;
 use crate::contact::block::{Block, Ends, Traits, TraitsLanes};
 use crate::contact::clock::{Clock, WayClock};
@@ -16,7 +17,7 @@ use crate::vector::{Vec2, cross, dot};
 
 /// Evaluates the contacts of one chunk with the drum in key order and adds the loads by surface.
 pub fn evaluate(
-    scene: Scene,
+    scene: Scene<impl Motions>,
     slots: &mut Slots<WayClock>,
     surfaces: &mut [SurfaceLoad],
     sink: &mut Sink,
@@ -53,7 +54,7 @@ struct Spot {
 }
 
 /// Makes contacts of the candidates that touch; puts the others to sleep where their gap is known.
-fn open_contacts(scene: Scene, slots: &mut Slots<WayClock>) {
+fn open_contacts(scene: Scene<impl Motions>, slots: &mut Slots<WayClock>) {
     slots.candidates.follow(scene.patches, |clock, most| clock.advance(most.way, scene.arc));
     for patch in 0..slots.candidates.patches() {
         let (waking, rows) = (slots.candidates.waking(patch), slots.candidates.rows(patch));
@@ -64,7 +65,7 @@ fn open_contacts(scene: Scene, slots: &mut Slots<WayClock>) {
             }
             let (id, feature) = slots.candidates.key(candidate);
             // Only the particle moves, as seen from the drum. Slightly less than the gap covers round-off.
-            match gap(scene, &scene.motions[id as usize], feature) {
+            match gap(scene, scene.motions.of(id), feature) {
                 Some(gap) if gap >= 0.0 => {
                     slots.candidates.sleep(candidate, way + (1.0 - 1e-6) * gap);
                 }
@@ -76,7 +77,7 @@ fn open_contacts(scene: Scene, slots: &mut Slots<WayClock>) {
 }
 
 #[cold]
-fn open(scene: Scene, slots: &mut Slots<WayClock>, candidate: usize) {
+fn open(scene: Scene<impl Motions>, slots: &mut Slots<WayClock>, candidate: usize) {
     let id = slots.candidates.key(candidate).0 as usize;
     let matter = scene.matter;
     let law = scene.laws.wall_slot((matter.materials[id], matter.masses[id]));
@@ -86,7 +87,7 @@ fn open(scene: Scene, slots: &mut Slots<WayClock>, candidate: usize) {
 /// The gap between a particle and a feature of the drum, below zero where they overlap, or slightly less than the gap;
 /// none where it is some other feature's turn.
 #[inline]
-fn gap(scene: Scene, own: &Motion, feature: FeatureId) -> Option<f64> {
+fn gap(scene: Scene<impl Motions>, own: &Motion, feature: FeatureId) -> Option<f64> {
     if feature != RIM {
         return meet(scene, own, feature).map(|spot| -spot.overlap);
     }
@@ -102,20 +103,20 @@ fn gap(scene: Scene, own: &Motion, feature: FeatureId) -> Option<f64> {
 
 /// Where a particle meets a feature of an outline, or none where it is some other feature's turn.
 #[inline]
-fn meet(scene: Scene, own: &Motion, feature: FeatureId) -> Option<Spot> {
+fn meet(scene: Scene<impl Motions>, own: &Motion, feature: FeatureId) -> Option<Spot> {
     let near = scene.drum.proximity(feature, scene.rotation.apply_inverse(own.position()))?;
     Some(Spot { overlap: own.radius() - near.distance, normal: scene.rotation.apply(near.direction) })
 }
 
 /// Works out a block.
 fn work_out(
-    scene: Scene,
+    scene: Scene<impl Motions>,
     (ends, block): (&Ends, &mut Block),
     (law, traits): (&LinearLanes, &TraitsLanes),
     flows: &mut FlowLanes,
     (surfaces, sink): &mut (&mut [SurfaceLoad], &mut Sink),
 ) {
-    let own = ends.owner.map(|id| &scene.motions[id as usize]);
+    let own = ends.owner.map(|id| scene.motions.of(id));
     let walls = Walls::new(own, traits.radii[0], scene.turn, scene.angular_velocity);
     let (history, in_use) = (block.history(), block.in_use());
     let meeting = meetings(scene, (ends, block), &walls).within(in_use);
@@ -138,7 +139,7 @@ fn work_out(
 /// Where the particles of a block meet their features. A contact that ends because another feature answers has an
 /// overlap of zero, so that its last work is charged.
 #[inline(always)]
-fn meetings(scene: Scene, (ends, block): (&Ends, &Block), walls: &Walls) -> Meeting {
+fn meetings(scene: Scene<impl Motions>, (ends, block): (&Ends, &Block), walls: &Walls) -> Meeting {
     let rim = scene.drum.radius().map(|radius| walls.meet_rim(radius));
     if let Some(meeting) = rim
         && ends.other == [RIM; LANES]
@@ -152,7 +153,7 @@ fn meetings(scene: Scene, (ends, block): (&Ends, &Block), walls: &Walls) -> Meet
     }
     for (lane, spot) in spots.iter_mut().enumerate() {
         if ends.other[lane] != RIM && block.holds(lane) {
-            let own = &scene.motions[ends.owner[lane] as usize];
+            let own = scene.motions.of(ends.owner[lane]);
             *spot = meet(scene, own, ends.other[lane]).unwrap_or_default();
         }
     }
@@ -160,14 +161,14 @@ fn meetings(scene: Scene, (ends, block): (&Ends, &Block), walls: &Walls) -> Meet
 }
 
 /// Passes the history of a contact to the neighboring feature when a particle rolls from one to the other.
-fn hand_over(scene: Scene, slots: &mut Slots<WayClock>) {
+fn hand_over(scene: Scene<impl Motions>, slots: &mut Slots<WayClock>) {
     let mut index = 0;
     while slots.contacts.lanes().contains(&index) {
         let (particle, feature) = slots.contacts.key(index);
         index += 1;
         if feature == RIM
             || !slots.contacts.holds(index - 1)
-            || meet(scene, &scene.motions[particle as usize], feature).is_some()
+            || meet(scene, scene.motions.of(particle), feature).is_some()
         {
             continue;
         }
@@ -180,9 +181,14 @@ fn hand_over(scene: Scene, slots: &mut Slots<WayClock>) {
 }
 
 /// The candidate that a contact of `particle` with `feature` goes on as.
-fn heir_of(scene: Scene, slots: &Slots<WayClock>, particle: u32, feature: FeatureId) -> Option<usize> {
+fn heir_of(
+    scene: Scene<impl Motions>,
+    slots: &Slots<WayClock>,
+    particle: u32,
+    feature: FeatureId,
+) -> Option<usize> {
     let candidates = &slots.candidates;
-    let own = &scene.motions[particle as usize];
+    let own = scene.motions.of(particle);
     candidates.of(particle).find(|&candidate| {
         let (_, other) = candidates.key(candidate);
         other != RIM

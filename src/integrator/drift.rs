@@ -23,35 +23,6 @@ pub struct Moved<'a> {
     pub spins: &'a mut [f64],
 }
 
-/// What contacts are told of particles: their motions, and by patch the most that anyone did.
-#[derive(Debug)]
-pub struct Told<'a> {
-    pub(super) motions: &'a mut [Motion],
-    pub(super) patches: &'a mut [PatchMotion],
-}
-
-impl Told<'_> {
-    /// What contacts may read now.
-    pub fn read(&self) -> (&[Motion], &[PatchMotion]) {
-        (self.motions, self.patches)
-    }
-
-    /// That of one chunk.
-    pub fn chunk(&mut self, chunk: usize) -> Told<'_> {
-        let end = self.motions.len().min((chunk + 1) * CHUNK);
-        Told {
-            motions: &mut self.motions[chunk * CHUNK..end],
-            patches: &mut self.patches[chunk * (CHUNK / PATCH)..end.div_ceil(PATCH)],
-        }
-    }
-
-    fn split(self, at: usize) -> (Self, Self) {
-        let (motions, more_motions) = self.motions.split_at_mut(at);
-        let (patches, more_patches) = self.patches.split_at_mut(at.div_ceil(PATCH));
-        (Self { motions, patches }, Self { motions: more_motions, patches: more_patches })
-    }
-}
-
 /// What is the same for all particles in one drift.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Setting<'a> {
@@ -68,6 +39,8 @@ pub struct Drift<'a> {
     /// The first of the particles.
     pub(super) first: usize,
     pub(super) moved: Moved<'a>,
+    /// By patch: the most that anyone does.
+    pub(super) patches: &'a mut [PatchMotion],
     /// By chunk: Σ m x.
     pub(super) mass_moments: &'a mut [Vec2],
     pub(super) setting: Setting<'a>,
@@ -77,6 +50,18 @@ impl Drift<'_> {
     /// The first of the chunks.
     pub fn chunk(&self) -> usize {
         self.first / CHUNK
+    }
+
+    /// The same for a while.
+    pub fn lend(&mut self) -> Drift<'_> {
+        let Moved { velocities, angles, spins } = &mut self.moved;
+        Drift {
+            first: self.first,
+            moved: Moved { velocities, angles, spins },
+            patches: self.patches,
+            mass_moments: self.mass_moments,
+            setting: self.setting,
+        }
     }
 
     /// Asks memory for part `part` of `parts` of what one chunk moves.
@@ -90,24 +75,23 @@ impl Drift<'_> {
 
     /// The second half of a kick by `loads`, which are taken, then the first half of the next one and the drift: one
     /// chunk.
-    /// `ahead` is called patch by patch with its number and how many there are, and may ask memory for something.
-    pub fn kick_and_run(self, told: Told, loads: &mut [Load], ahead: impl Fn(usize, usize)) {
+    pub fn kick_and_run(self, motions: &mut [Motion], loads: &mut [Load]) {
         let constants = self.setting.constants.of(self.first, loads.len());
         let gravity = self.setting.gravity;
-        self.run(told, Fresh { loads, constants, gravity }, ahead);
+        self.run(motions, Fresh { loads, constants, gravity });
     }
 
     /// Half a kick with the accelerations that the particles carry, then the drift: one chunk.
-    pub(super) fn run_on(self, told: Told, (accelerations, spin_rates): (&[Vec2], &[f64])) {
-        self.run(told, Known { accelerations, spin_rates }, |_, _| {});
+    fn run_on(self, motions: &mut [Motion], (accelerations, spin_rates): (&[Vec2], &[f64])) {
+        self.run(motions, Known { accelerations, spin_rates });
     }
 
-    fn run(mut self, mut told: Told, mut pull: impl Pull, ahead: impl Fn(usize, usize)) {
+    fn run(mut self, motions: &mut [Motion], mut pull: impl Pull) {
         let mut sums = QuadSums::new(self.setting.turn, self.setting.time_step);
-        let masses = self.setting.constants.of(self.first, told.motions.len()).masses;
-        self.move_quads(&mut told, &mut pull, masses, (&mut sums, ahead));
-        if !told.motions.len().is_multiple_of(LANES) {
-            self.move_rest(&mut told, &mut pull, masses, &mut sums);
+        let masses = self.setting.constants.of(self.first, motions.len()).masses;
+        self.move_quads(motions, &mut pull, masses, &mut sums);
+        if !motions.len().is_multiple_of(LANES) {
+            self.move_rest(motions, &mut pull, masses, &mut sums);
         }
         if let Some(chunk) = self.mass_moments.first_mut() {
             *chunk = sums.mass_moment();
@@ -116,21 +100,19 @@ impl Drift<'_> {
 
     fn move_quads<P: Pull>(
         &mut self,
-        told: &mut Told,
+        motions: &mut [Motion],
         pull: &mut P,
         masses: &[f64],
-        (sums, ahead): (&mut QuadSums, impl Fn(usize, usize)),
+        sums: &mut QuadSums,
     ) {
-        let quads = told.motions.len() / LANES;
+        let quads = motions.len() / LANES;
         // Slices of one known length let the compiler drop the bounds checks.
         let velocities = &mut self.moved.velocities.as_chunks_mut().0[..quads];
         let angles = &mut self.moved.angles.as_chunks_mut().0[..quads];
         let spins = &mut self.moved.spins.as_chunks_mut().0[..quads];
         let masses = &masses.as_chunks().0[..quads];
-        let motions = &mut told.motions.as_chunks_mut().0[..quads];
-        let patches = told.patches.len();
-        for (patch, most) in told.patches.iter_mut().enumerate() {
-            ahead(patch, patches);
+        let motions = &mut motions.as_chunks_mut().0[..quads];
+        for (patch, most) in self.patches.iter_mut().enumerate() {
             let first = patch * (PATCH / LANES);
             for quad in first..quads.min(first + PATCH / LANES) {
                 let pulls = pull.of(quad, quads);
@@ -146,25 +128,27 @@ impl Drift<'_> {
         }
     }
 
-    fn move_rest<P: Pull>(&mut self, told: &mut Told, pull: &mut P, masses: &[f64], sums: &mut QuadSums) {
+    fn move_rest<P: Pull>(
+        &mut self,
+        motions: &mut [Motion],
+        pull: &mut P,
+        masses: &[f64],
+        sums: &mut QuadSums,
+    ) {
         let pulls = pull.of_rest();
         let mut velocities = rest_of(self.moved.velocities);
         let mut angles = rest_of(self.moved.angles);
         let mut spins = rest_of(self.moved.spins);
-        let (_, rest) = told.motions.as_chunks_mut::<LANES>();
-        let mut motions = std::array::from_fn(|lane| rest[lane.min(rest.len() - 1)]);
-        let mut four = Quad {
-            velocities: &mut velocities,
-            angles: &mut angles,
-            spins: &mut spins,
-            motions: &mut motions,
-        };
+        let (_, rest) = motions.as_chunks_mut::<LANES>();
+        let mut last = std::array::from_fn(|lane| rest[lane.min(rest.len() - 1)]);
+        let mut four =
+            Quad { velocities: &mut velocities, angles: &mut angles, spins: &mut spins, motions: &mut last };
         four.advance::<P>(pulls, self.setting.time_step, &rest_of(masses), sums);
         put_rest(self.moved.velocities, &velocities);
         put_rest(self.moved.angles, &angles);
         put_rest(self.moved.spins, &spins);
-        put_rest(told.motions, &motions);
-        if let Some(most) = told.patches.last_mut() {
+        put_rest(motions, &last);
+        if let Some(most) = self.patches.last_mut() {
             *most = most.and(sums.take_most());
         }
     }
@@ -180,58 +164,40 @@ impl Chunked for Drift<'_> {
         let (velocities, more_velocities) = self.moved.velocities.split_at_mut(at);
         let (angles, more_angles) = self.moved.angles.split_at_mut(at);
         let (spins, more_spins) = self.moved.spins.split_at_mut(at);
+        let (patches, more_patches) = self.patches.split_at_mut(at.div_ceil(PATCH));
         let (mass_moments, more_mass_moments) = self.mass_moments.split_at_mut(chunks);
         let (first, setting) = (self.first, self.setting);
         let moved = Moved { velocities, angles, spins };
         let more = Moved { velocities: more_velocities, angles: more_angles, spins: more_spins };
         (
-            Self { first, moved, mass_moments, setting },
-            Self { first: first + at, moved: more, mass_moments: more_mass_moments, setting },
+            Self { first, moved, patches, mass_moments, setting },
+            Self {
+                first: first + at,
+                moved: more,
+                patches: more_patches,
+                mass_moments: more_mass_moments,
+                setting,
+            },
         )
     }
 }
 
-/// The drift of whole chunks, with all that they need for it at hand.
-#[derive(Debug)]
-pub struct Complete<'a, L> {
-    /// What moves.
-    pub drift: Drift<'a>,
-    /// What contacts are told of it.
-    pub told: Told<'a>,
-    /// Where its accelerations come from, by particle.
-    pub source: L,
+/// The drift of whole chunks with the accelerations that their particles carry.
+pub(super) struct Start<'a> {
+    pub(super) drift: Drift<'a>,
+    pub(super) motions: &'a mut [Motion],
+    pub(super) accelerations: &'a [Vec2],
+    pub(super) spin_rates: &'a [f64],
 }
 
-/// Slices by particle.
-pub trait ByParticle: Sized + Send {
-    /// Cuts before particle `at`.
-    fn cut(self, at: usize) -> (Self, Self);
-}
-
-impl ByParticle for &mut [Load] {
-    fn cut(self, at: usize) -> (Self, Self) {
-        self.split_at_mut(at)
+impl Start<'_> {
+    /// Moves one chunk.
+    pub(super) fn run(self) {
+        self.drift.run_on(self.motions, (self.accelerations, self.spin_rates));
     }
 }
 
-impl ByParticle for (&[Vec2], &[f64]) {
-    fn cut(self, at: usize) -> (Self, Self) {
-        let ((a, more_a), (b, more_b)) = (self.0.split_at(at), self.1.split_at(at));
-        ((a, b), (more_a, more_b))
-    }
-}
-
-impl Complete<'_, &mut [Load]> {
-    /// Asks memory for part `part` of `parts` of what the first chunk needs.
-    pub fn ask_for(&self, part: usize, parts: usize) {
-        let particles = part_of(self.source.len().min(CHUNK), part, parts);
-        ask_for(&self.source[particles.clone()]);
-        ask_for(&self.told.motions[particles]);
-        self.drift.ask_for(part, parts);
-    }
-}
-
-impl<L: ByParticle> Chunked for Complete<'_, L> {
+impl Chunked for Start<'_> {
     fn chunks(&self) -> usize {
         self.drift.chunks()
     }
@@ -239,9 +205,18 @@ impl<L: ByParticle> Chunked for Complete<'_, L> {
     fn split(self, chunks: usize) -> (Self, Self) {
         let at = chunks * CHUNK;
         let (drift, more_drift) = self.drift.split(chunks);
-        let (told, more_told) = self.told.split(at);
-        let (source, more_source) = self.source.cut(at);
-        (Self { drift, told, source }, Self { drift: more_drift, told: more_told, source: more_source })
+        let (motions, more_motions) = self.motions.split_at_mut(at);
+        let (accelerations, more_accelerations) = self.accelerations.split_at(at);
+        let (spin_rates, more_spin_rates) = self.spin_rates.split_at(at);
+        (
+            Self { drift, motions, accelerations, spin_rates },
+            Self {
+                drift: more_drift,
+                motions: more_motions,
+                accelerations: more_accelerations,
+                spin_rates: more_spin_rates,
+            },
+        )
     }
 }
 

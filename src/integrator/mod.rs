@@ -15,8 +15,8 @@ use crate::patch::{PATCH, PatchMotion};
 use crate::threads::{CHUNK, Threads, chunk_count};
 use crate::vector::Vec2;
 use constants::Constants;
-use drift::Setting;
-pub use drift::{Complete, Drift, Moved, Told};
+pub use drift::{Drift, Moved};
+use drift::{Setting, Start};
 use kick::Kick;
 
 /// What contacts need of a particle in one step, as two rows that load at once; one cache line.
@@ -91,8 +91,10 @@ impl Load {
 pub struct Integrator {
     /// What the contacts are told, by particle.
     pub motions: Vec<Motion>,
-    /// The most that anyone did in the step, by patch.
+    /// The most that anyone did in the last step, by patch.
     pub patches: Vec<PatchMotion>,
+    /// The same of the step under way: chunks move on while others still read what was done in the last.
+    next_patches: Vec<PatchMotion>,
     /// Σ m x, by chunk.
     mass_moments: Vec<Vec2>,
     constants: Constants,
@@ -113,6 +115,7 @@ impl Integrator {
         Self {
             motions: (0..particles.len()).map(still).collect(),
             patches: vec![PatchMotion::default(); particles.len().div_ceil(PATCH)],
+            next_patches: vec![PatchMotion::default(); particles.len().div_ceil(PATCH)],
             mass_moments: vec![Vec2::zeros(); chunk_count(particles.len())],
             constants: Constants::new(particles),
             time_step,
@@ -120,32 +123,41 @@ impl Integrator {
         }
     }
 
-    /// A drift of all particles, while the drum turns by `turn` [rad], still to be run chunk by chunk.
-    pub fn drift<'a>(&'a mut self, moved: Moved<'a>, turn: f64) -> (Drift<'a>, Told<'a>) {
+    /// A drift of all particles, while the drum turns by `turn` [rad], still to be run chunk by chunk; what the contacts are
+    /// told by particle, which it changes; and by patch.
+    pub fn drift<'a>(
+        &'a mut self,
+        moved: Moved<'a>,
+        turn: f64,
+    ) -> (Drift<'a>, &'a mut [Motion], &'a [PatchMotion]) {
         let (constants, time_step, gravity) = (&self.constants, self.time_step, self.gravity);
-        let setting = Setting { constants, time_step, turn, gravity };
-        let drift = Drift { first: 0, moved, mass_moments: &mut self.mass_moments, setting };
-        (drift, Told { motions: &mut self.motions, patches: &mut self.patches })
+        let drift = Drift {
+            first: 0,
+            moved,
+            patches: &mut self.next_patches,
+            mass_moments: &mut self.mass_moments,
+            setting: Setting { constants, time_step, turn, gravity },
+        };
+        (drift, &mut self.motions, &self.patches)
     }
 
     /// Half a kick with the accelerations that the particles carry, then the drift.
     pub fn start(&mut self, particles: &mut Particles, turn: f64, threads: &Threads) -> DriftSums {
-        let source = (&particles.accelerations[..], &particles.angular_accelerations[..]);
         let moved = Moved {
             velocities: &mut particles.velocities,
             angles: &mut particles.angles,
             spins: &mut particles.angular_velocities,
         };
-        let (drift, told) = self.drift(moved, turn);
-        let work = Complete { drift, told, source };
-        threads.for_each_chunk(source.0.len(), work, &|chunk: Complete<_>| {
-            chunk.drift.run_on(chunk.told, chunk.source);
-        });
-        self.sums()
+        let (drift, motions, _) = self.drift(moved, turn);
+        let (accelerations, spin_rates) = (&particles.accelerations, &particles.angular_accelerations);
+        let work = Start { drift, motions, accelerations, spin_rates };
+        threads.for_each_chunk(accelerations.len(), work, &Start::run);
+        self.end_drift()
     }
 
-    /// What the last drift summed up.
-    pub fn sums(&self) -> DriftSums {
+    /// Sums up what a drift did that has been run on all chunks.
+    pub fn end_drift(&mut self) -> DriftSums {
+        std::mem::swap(&mut self.patches, &mut self.next_patches);
         let mass_moment = self.mass_moments.iter().fold(Vec2::zeros(), |sum, part| sum + part);
         let longest_way = self.patches.iter().fold(0.0, |most: f64, patch| most.max(patch.way));
         DriftSums { mass_moment, longest_way }

@@ -17,6 +17,7 @@ use crate::neighbors::{Surroundings, VerletList};
 use crate::order;
 use crate::packing::pack;
 use crate::particles::Particles;
+use crate::patch::PatchMotion;
 use crate::recorder::{Frames, Series, Snapshot, columns};
 use crate::start::{self, InitialState};
 use crate::state::State;
@@ -297,10 +298,9 @@ impl Simulation {
     fn evaluate(&mut self, instant: Instant) {
         let Particles { materials, masses, radii, .. } = &self.state.particles;
         let matter = Matter { materials, masses, radii, radius: self.fixed.radius };
-        let (motions, patches) = (&self.integrator.motions[..], &self.integrator.patches[..]);
-        let scene =
-            Scene { motions, patches, ..scene(&self.fixed, &self.list, self.inverse_reach, matter, instant) };
-        self.forces.evaluate(scene, &mut self.table, &self.threads);
+        let (motions, patches) = (&self.integrator.motions, &self.integrator.patches);
+        let scene = scene(&self.fixed, &self.list, self.inverse_reach, (matter, patches), instant);
+        self.forces.evaluate(scene, motions, &mut self.table, &self.threads);
     }
 
     /// The forces of this step and the drift of the next.
@@ -310,10 +310,10 @@ impl Simulation {
             &mut self.state.particles;
         let matter = Matter { materials, masses, radii, radius: self.fixed.radius };
         let moved = Moved { velocities, angles, spins };
-        let scene = scene(&self.fixed, &self.list, self.inverse_reach, matter, instant);
-        let drift = self.integrator.drift(moved, turn);
-        self.forces.evaluate_and_move(scene, &mut self.table, drift, &self.threads);
-        self.ahead = Some((turn, self.integrator.sums()));
+        let (drift, motions, patches) = self.integrator.drift(moved, turn);
+        let scene = scene(&self.fixed, &self.list, self.inverse_reach, (matter, patches), instant);
+        self.forces.evaluate_and_move(scene, &mut self.table, (drift, motions), &self.threads);
+        self.ahead = Some((turn, self.integrator.end_drift()));
     }
 
     fn charge(&mut self, mass_moment: Vec2, turn: f64) {
@@ -414,17 +414,17 @@ impl Simulation {
 /// Margin of the neighbor list in radii of the largest bundle; speed is flat from 0.4 to 1 at 100 … 10 000 bundles.
 const DEFAULT_SKIN: f64 = 0.5;
 
-/// All that contacts need at an instant but what is told of the particles' motion.
+/// All that contacts need at an instant but the particles' motions.
 fn scene<'a>(
     fixed: &'a Fixed,
     list: &VerletList,
     inverse_reach: f64,
-    matter: Matter<'a>,
+    (matter, patches): (Matter<'a>, &'a [PatchMotion]),
     instant: Instant,
-) -> Scene<'a> {
+) -> Scene<'a, ()> {
     Scene {
-        motions: &[],
-        patches: &[],
+        motions: (),
+        patches,
         matter,
         laws: &fixed.laws,
         drum: &fixed.drum,
