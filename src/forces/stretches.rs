@@ -1,7 +1,7 @@
 //! Stretches: chunks in a row that one thread takes through a step, and which of them have to wait for others.
 
 use super::motions::Copies;
-use super::post::PostOffice;
+use super::post::{Outbox, PostOffice};
 use crate::contact::table::{ChunkSlots, ContactTable};
 use crate::integrator::Motion;
 use crate::threads::{CHUNK, Chunked, PIECES, Threads, cut};
@@ -56,7 +56,7 @@ impl Stretches {
             let senders = post.senders()[first..end].iter();
             self.plan.waits.extend(senders.map(|senders| senders.first().is_some_and(is_earlier)));
             let outboxes = post.outboxes()[first..end].iter();
-            let read = outboxes.flat_map(|outbox| outbox.abroad()).map(|&particle| particle as usize);
+            let read = outboxes.flat_map(Outbox::abroad).map(|&particle| particle as usize);
             for particle in read.filter(|&particle| particle >= end * CHUNK) {
                 self.copies[particle / CHUNK].add(particle as u32);
             }
