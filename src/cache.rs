@@ -6,7 +6,13 @@ const LINE: usize = 64;
 /// Asks for some items in a row, none larger than a line.
 #[inline(always)]
 pub fn ask_for<T>(items: &[T]) {
-    items.iter().step_by((LINE / size_of::<T>()).max(1)).for_each(ask);
+    let step = const { if size_of::<T>() < LINE { LINE / size_of::<T>() } else { 1 } };
+    // Four lines at a time: asking is so little work that a loop would double it.
+    let fours = items.chunks_exact(4 * step);
+    fours.remainder().iter().step_by(step).for_each(ask);
+    for four in fours {
+        (0..4).for_each(|line| ask(&four[line * step]));
+    }
 }
 
 /// Asks for one item, no larger than a line, as far as the second level of the cache: the first one is too small to keep
@@ -19,8 +25,11 @@ pub fn ask<T>(item: &T) {
     let _ = item;
 }
 
-/// Part `part` of `parts` equal ones, as a range of `len`.
+/// Shares in which memory is asked for much at a time, so that it keeps up; a power of two, which makes them cheap to tell.
+pub const SHARES: usize = 16;
+
+/// Share `share` of some items.
 #[inline(always)]
-pub fn part_of(len: usize, part: usize, parts: usize) -> std::ops::Range<usize> {
-    len * part / parts..len * (part + 1) / parts
+pub fn share_of<T>(items: &[T], share: usize) -> &[T] {
+    &items[items.len() * share / SHARES..items.len() * (share + 1) / SHARES]
 }

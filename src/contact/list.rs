@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::Contact;
 use super::block::{Block, Ends, Traits, TraitsBlock};
 use super::shift::{close_gap, open_gap};
-use crate::cache::{ask_for, part_of};
+use crate::cache::{ask_for, share_of};
 use crate::lanes::LANES;
 use crate::patch::PATCH;
 use crate::threads::CHUNK;
@@ -85,12 +85,11 @@ impl ContactList {
         (&self.ends, &mut self.blocks, &self.traits)
     }
 
-    /// Asks memory for part `part` of `parts`.
+    /// Asks memory for a share of it.
     #[inline(always)]
-    pub fn ask_for(&self, part: usize, parts: usize) {
-        let blocks = part_of(self.blocks.len(), part, parts);
-        ask_for(&self.ends[blocks.clone()]);
-        self.blocks[blocks].iter().for_each(Block::ask_for);
+    pub fn ask_for(&self, share: usize) {
+        ask_for(share_of(&self.ends, share));
+        share_of(&self.blocks, share).iter().for_each(Block::ask_for);
     }
 
     /// The lanes, vacant ones included.

@@ -10,7 +10,7 @@ use super::Contact;
 use super::block::Traits;
 use super::clock::{Clock, StepClock, WayClock};
 use super::list::{ContactList, Entry};
-use crate::cache::{ask_for, part_of};
+use crate::cache::{ask_for, share_of};
 use crate::lanes::ROW;
 use crate::patch::{PATCH, PatchMotion};
 use crate::threads::{CHUNK, chunk_count};
@@ -93,11 +93,11 @@ impl<C: Clock> Candidates<C> {
         }
     }
 
-    /// Asks memory for part `part` of `parts`.
+    /// Asks memory for a share of them.
     #[inline(always)]
-    pub fn ask_for(&self, part: usize, parts: usize) {
-        ask_for(&self.bodies[part_of(self.bodies.len(), part, parts)]);
-        ask_for(&self.wake[part_of(self.wake.len(), part, parts)]);
+    pub fn ask_for(&self, share: usize) {
+        ask_for(share_of(&self.bodies, share));
+        ask_for(share_of(&self.wake, share));
     }
 
     /// Number of patches.

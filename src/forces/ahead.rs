@@ -2,7 +2,8 @@
 //! cache, that hides most of memory's latency.
 
 use super::motions::Motions;
-use crate::cache::{ask, ask_for, part_of};
+use super::post::Outbox;
+use crate::cache::{SHARES, ask, ask_for, share_of};
 use crate::contact::table::ChunkSlots;
 use crate::integrator::Drift;
 
@@ -15,53 +16,58 @@ pub struct Needs<'a, M> {
     pub motions: M,
     /// The first of its own particles.
     pub first: usize,
-    /// The particles of other chunks that it reads.
-    pub abroad: &'a [u32],
+    /// Where its post goes.
+    pub outbox: &'a Outbox,
     /// The drift of the present chunk, which comes after the contacts.
     pub drift: &'a Drift<'a>,
+    /// Whether all of it has left the cache, not just the first levels of it.
+    pub is_far: bool,
 }
 
 /// What is still to be asked for.
 #[derive(Debug)]
 pub struct Ahead<'a, M> {
     needs: Option<Needs<'a, M>>,
-    shares: usize,
     asked: usize,
 }
 
 impl<'a, M: Motions> Ahead<'a, M> {
     /// Asks for these, or nothing.
     pub fn new(needs: Option<Needs<'a, M>>) -> Self {
-        Self { needs, shares: 1, asked: 0 }
-    }
-
-    /// Divides all into so many shares.
-    pub fn share(&mut self, shares: usize) {
-        self.shares = shares.max(1);
+        Self { needs, asked: 0 }
     }
 
     /// Asks for the next share.
     #[inline(always)]
     pub fn ask(&mut self) {
-        if let Some(needs) = self.needs
-            && self.asked < self.shares
+        if let Some(needs) = &self.needs
+            && self.asked < SHARES
         {
-            ask_for_share(needs, self.asked, self.shares);
+            ask_for_share(needs, self.asked);
             self.asked += 1;
+        }
+    }
+
+    /// Asks for the shares that are left.
+    pub fn ask_for_rest(&mut self) {
+        while self.needs.is_some() && self.asked < SHARES {
+            self.ask();
         }
     }
 }
 
 #[inline(never)]
-fn ask_for_share(needs: Needs<impl Motions>, part: usize, parts: usize) {
+fn ask_for_share(needs: &Needs<impl Motions>, share: usize) {
+    // Contacts read motions in an order that no CPU foresees.
+    ask_for(share_of(needs.motions.of_chunk(needs.first), share));
+    if !needs.is_far {
+        return;
+    }
     let pairs = &needs.slots.pairs;
-    pairs.candidates.ask_for(part, parts);
-    pairs.contacts.ask_for(part, parts);
-    needs.drift.ask_for(part, parts);
-    let own = needs.motions.of_chunk(needs.first);
-    ask_for(&own[part_of(own.len(), part, parts)]);
-    let abroad = &needs.abroad[part_of(needs.abroad.len(), part, parts)];
-    for &particle in abroad {
+    pairs.candidates.ask_for(share);
+    pairs.contacts.ask_for(share);
+    needs.drift.ask_for(share);
+    for &particle in share_of(needs.outbox.abroad(), share) {
         needs.motions.get(particle).into_iter().for_each(ask);
     }
 }

@@ -53,7 +53,6 @@ pub fn evaluate(
     (sink, ahead): (&mut Sink, &mut Ahead<impl Motions>),
     scratch: &mut Scratch,
 ) -> StepFlows {
-    ahead.share(slots.candidates.patches() + slots.contacts.lanes().len() / (LANES * GROUP));
     open_contacts(scene, slots, ahead, scratch);
     let laws = scene.laws.pairs();
     if slots.contacts.is_empty() {

@@ -11,6 +11,9 @@ use crate::energy::{StepFlows, SurfaceLoad};
 use crate::integrator::{Drift, Load, Motion};
 use crate::threads::{CHUNK, Chunked, in_turn};
 
+/// Particles from which on a load does not stay in the first levels of the cache, so that asking for motions ahead pays.
+const FAR: usize = 4096;
+
 /// What the work on a chunk writes before it reads; kept, since clearing it costs small loads a twentieth.
 #[derive(Debug, Clone)]
 pub struct Scratch {
@@ -62,15 +65,23 @@ impl Chunks<'_> {
             return;
         };
         let first = (self.first + index) * CHUNK;
-        let next = later.first().zip(later_outboxes.first()).zip(drift);
-        let next = next.filter(|_| scene.matter.masses.len() >= LARGE).map(|((slots, outbox), drift)| {
-            Needs { slots, motions: scene.motions, first: first + CHUNK, abroad: outbox.abroad(), drift }
+        let count = scene.matter.masses.len();
+        let next = later.first().zip(later_outboxes.first()).zip(drift).filter(|_| count >= FAR);
+        let next = next.map(|((slots, outbox), drift)| Needs {
+            slots,
+            motions: scene.motions,
+            first: first + CHUNK,
+            outbox,
+            drift,
+            is_far: count >= LARGE,
         });
         outbox.clear();
         let mut sink = Sink { first, loads, outbox };
         let surfaces = &mut self.surfaces[index * self.surfaces_per_chunk..][..self.surfaces_per_chunk];
         surfaces.fill(SurfaceLoad::default());
-        let mut flows = pairs::evaluate(scene, &mut slots.pairs, (&mut sink, &mut Ahead::new(next)), scratch);
+        let mut ahead = Ahead::new(next);
+        let mut flows = pairs::evaluate(scene, &mut slots.pairs, (&mut sink, &mut ahead), scratch);
+        ahead.ask_for_rest();
         flows.add(&walls::evaluate(scene, &mut slots.walls, surfaces, &mut sink));
         self.flows[index] = flows;
     }

@@ -6,7 +6,7 @@ use super::constants::Constants;
 use super::pull::{Fresh, Known, Pull, Pulls};
 use super::quad::{four_vectors, put_rest, rest_of, two_by_two};
 use super::{Load, Motion};
-use crate::cache::{ask_for, part_of};
+use crate::cache::{ask_for, share_of};
 use crate::lanes::{LANES, Lanes};
 use crate::patch::{PATCH, PatchMotion};
 use crate::threads::{CHUNK, Chunked, chunk_count};
@@ -64,13 +64,13 @@ impl Drift<'_> {
         }
     }
 
-    /// Asks memory for part `part` of `parts` of what one chunk moves.
+    /// Asks memory for a share of what one chunk moves.
     #[inline(always)]
-    pub fn ask_for(&self, part: usize, parts: usize) {
-        let particles = part_of(self.moved.spins.len().min(CHUNK), part, parts);
-        ask_for(&self.moved.velocities[particles.clone()]);
-        ask_for(&self.moved.angles[particles.clone()]);
-        ask_for(&self.moved.spins[particles]);
+    pub fn ask_for(&self, share: usize) {
+        let count = self.moved.spins.len().min(CHUNK);
+        ask_for(share_of(&self.moved.velocities[..count], share));
+        ask_for(share_of(&self.moved.angles[..count], share));
+        ask_for(share_of(&self.moved.spins[..count], share));
     }
 
     /// The second half of a kick by `loads`, which are taken, then the first half of the next one and the drift: one
