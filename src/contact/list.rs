@@ -234,11 +234,10 @@ impl ContactList {
 
     /// Takes the contacts out that did not touch at the last force evaluation, and shows their keys to `take`.
     pub fn drop_separated(&mut self, mut take: impl FnMut((u32, u32))) {
-        for block in (0..self.blocks.len()).rev() {
+        let mut end = self.blocks.len();
+        while let Some(block) = self.blocks[..end].iter().rposition(|block| block.separated() != 0) {
+            end = block;
             let separated = self.blocks[block].separated();
-            if separated == 0 {
-                continue;
-            }
             for lane in (0..LANES).rev().filter(|lane| separated >> lane & 1 == 1) {
                 let index = LANES * block + lane;
                 take(self.key(index));

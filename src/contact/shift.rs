@@ -49,16 +49,12 @@ by_columns!(TraitsBlock: damping, own_radius, other_radius, law);
 /// Moves all entries after entry `index` up by one; the last one is then anything.
 pub fn close_gap<F: Four + Copy>(fours: &mut [F], index: usize) {
     let fours = &mut fours[index / LANES..];
-    let mut lane = index % LANES;
-    for four in 0..fours.len() {
-        let next = fours[(four + 1).min(fours.len() - 1)];
-        if lane > 0 {
-            fours[four].pull(lane, &next);
-        } else {
-            // Nearly all are moved whole, by constant lanes.
-            fours[four].pull(0, &next);
-        }
-        lane = 0;
+    let (Some(first), Some(&last)) = (fours.first().copied(), fours.last()) else { return };
+    let next = fours.get(1).copied().unwrap_or(first);
+    with_lane(&mut fours[0], index % LANES, |four, lane| four.pull(lane, &next));
+    for four in 1..fours.len() {
+        let next = fours.get(four + 1).copied().unwrap_or(last);
+        fours[four].pull(0, &next);
     }
 }
 
@@ -71,6 +67,17 @@ pub fn open_gap<F: Four + Copy>(fours: &mut [F], index: usize) {
     }
     if let Some(first) = fours.first_mut() {
         let own = *first;
-        first.push(index % LANES, &own);
+        with_lane(first, index % LANES, |four, lane| four.push(lane, &own));
+    }
+}
+
+/// Calls `change` with a lane that the compiler knows, so that it is a few moves.
+#[inline(always)]
+fn with_lane<F>(four: &mut F, lane: usize, change: impl Fn(&mut F, usize)) {
+    match lane {
+        0 => change(four, 0),
+        1 => change(four, 1),
+        2 => change(four, 2),
+        _ => change(four, 3),
     }
 }
