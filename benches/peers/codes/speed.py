@@ -24,6 +24,7 @@ _SETTLE, _FEWEST_SETTLED = 0.2, 100
 # Bare drums whose cost is known at many numbers of contacts.
 _BARE = (60, 80, 100, 125, 150, 175, 200, 250, 300)
 _WITH_BAFFLES = (100, 150, 200, 250)
+_CASES = 24
 
 
 def steps_for(code: Code, count: int, seconds: float) -> int:
@@ -119,9 +120,9 @@ def mean_contacts(case: Case, seconds: float) -> float:
 
 
 def compare_sweeps(repeats: int) -> None:
-    """Print how much faster two cores are than one for a sweep of eight cases."""
+    """Print how much faster two cores are than one for a sweep of so many cases that the last ones count for little."""
     cores = sorted(os.sched_getaffinity(0))
-    print("\nA sweep of eight cases on two cores over one\n")
+    print(f"\nA sweep of {_CASES} cases on two cores over one\n")
     if len(cores) < 2:  # noqa: PLR2004
         print("not measured: there is one core only")
         return
@@ -133,9 +134,9 @@ def compare_sweeps(repeats: int) -> None:
 
 
 def _sweep_seconds(jobs: int) -> float:
-    """Return the time that a sweep of eight equal cases of five seconds takes on so many threads [s]."""
+    """Return the time that a sweep of equal cases of five seconds takes on so many threads [s]."""
     base = drumrs.baseline().replace({"run.duration": 5.0, "run.window": (2.0, 5.0)})
-    sweep = drumrs.Sweep(base, seeds=8)
+    sweep = drumrs.Sweep(base, seeds=_CASES)
     with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(jobs) as executor:
         began = time.perf_counter()
         sweep.run(folder, executor, progress=False)
