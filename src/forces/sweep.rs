@@ -12,7 +12,7 @@ use crate::integrator::{Drift, Load, Motion};
 use crate::threads::{CHUNK, Chunked, in_turn};
 
 /// Particles from which on a load does not stay in the first levels of the cache, so that asking for motions ahead pays.
-const FAR: usize = 4096;
+const FAR: usize = 8192;
 
 /// What the work on a chunk writes before it reads; kept, since clearing it costs small loads a twentieth.
 #[derive(Debug, Clone)]
