@@ -3,7 +3,7 @@
 use crate::vector::larger;
 
 /// Particles per patch; a chunk has several.
-pub const PATCH: usize = 64;
+pub const PATCH: usize = 128;
 
 /// The most that a particle of some patch did in a step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
