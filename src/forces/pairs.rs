@@ -122,9 +122,9 @@ fn open_contacts(
     let Scratch { due, bodies, .. } = scratch;
     for patch in 0..slots.candidates.patches() {
         debug_assert!(sleepers_are_apart(scene, &slots.candidates, patch), "two bodies touch unseen");
-        ahead.ask();
         let mut rows = slots.candidates.rows(patch);
         while !rows.is_empty() {
+            ahead.ask();
             let some = rows.start..rows.end.min(rows.start + MOST_DUE / ROW);
             rows.start = some.end;
             let count = find_due(&slots.candidates, patch, some, due);
