@@ -1,5 +1,7 @@
 //! Stretches: chunks in a row that one thread takes through a step, and which of them have to wait for others.
 
+use std::ops::Range;
+
 use super::motions::Copies;
 use super::post::{Outbox, PostOffice};
 use crate::contact::table::{ChunkSlots, ContactTable};
@@ -35,37 +37,33 @@ pub struct Plan {
 impl Stretches {
     /// Divides the chunks of `count` particles among `threads` threads.
     pub fn divide(&mut self, table: &ContactTable, post: &PostOffice, (count, threads): (usize, usize)) {
-        let chunks = table.chunks.len();
         let stretches = match threads {
             1 => 1,
             _ if count >= LARGE => threads * STRETCHES,
             _ => threads * PIECES,
         };
-        self.plan.divide(table, stretches.min(chunks));
+        self.plan.divide(table, stretches.min(table.chunks.len()));
         self.plan.are_swept = threads == 1 || count >= LARGE;
-        self.copies.resize_with(chunks, Copies::default);
+        self.plan.let_wait(post.senders());
+        self.list_copies(post.outboxes());
+    }
+
+    /// Finds out what stretches read of later ones.
+    fn list_copies(&mut self, outboxes: &[Outbox]) {
+        self.copies.resize_with(outboxes.len(), Copies::default);
         self.copies.iter_mut().for_each(Copies::clear);
         self.are_copied = false;
-        self.plan.waits.clear();
         if !self.plan.are_swept {
-            self.plan.waits.resize(chunks, true);
+            return;
         }
-        let mut first = 0;
-        for &end in self.plan.ends.iter().filter(|_| self.plan.are_swept) {
-            let is_earlier = |sender: &u32| (*sender as usize) < first;
-            let senders = post.senders()[first..end].iter();
-            self.plan.waits.extend(senders.map(|senders| senders.first().is_some_and(is_earlier)));
-            let outboxes = post.outboxes()[first..end].iter();
-            let read = outboxes.flat_map(Outbox::abroad).map(|&particle| particle as usize);
-            for particle in read.filter(|&particle| particle >= end * CHUNK) {
-                self.copies[particle / CHUNK].add(particle as u32);
+        for stretch in self.plan.stretches() {
+            let end = stretch.end * CHUNK;
+            let read = outboxes[stretch].iter().flat_map(Outbox::abroad).copied();
+            for particle in read.filter(|&particle| particle as usize >= end) {
+                self.copies[particle as usize / CHUNK].add(particle);
             }
-            first = end;
         }
         self.copies.iter_mut().for_each(Copies::sort);
-        let waiting = (0..chunks).filter(|&chunk| self.plan.waits[chunk]);
-        self.plan.cuts = waiting.flat_map(|chunk| [chunk, chunk + 1]).filter(|&cut| cut > 0).collect();
-        self.plan.cuts.dedup();
     }
 
     /// Number of stretches.
@@ -140,6 +138,27 @@ impl Plan {
                 self.ends.push(chunk + 1);
             }
         }
+    }
+
+    /// The chunks of each stretch.
+    fn stretches(&self) -> impl Iterator<Item = Range<usize>> + '_ {
+        [0].iter().chain(&self.ends).zip(&self.ends).map(|(&start, &end)| start..end)
+    }
+
+    /// Finds out which chunks wait. `senders` are those that may have post for a chunk, ascending.
+    fn let_wait(&mut self, senders: &[Vec<u32>]) {
+        let of_stretch = |stretch: Range<usize>| {
+            let is_earlier = move |&sender: &u32| (sender as usize) < stretch.start;
+            senders[stretch.clone()].iter().map(move |senders| senders.first().is_some_and(is_earlier))
+        };
+        self.waits = if self.are_swept {
+            self.stretches().flat_map(of_stretch).collect()
+        } else {
+            vec![true; senders.len()]
+        };
+        let waiting = (0..senders.len()).filter(|&chunk| self.waits[chunk]);
+        self.cuts = waiting.flat_map(|chunk| [chunk, chunk + 1]).filter(|&cut| cut > 0).collect();
+        self.cuts.dedup();
     }
 
     /// Those of `work` that wait, one by one.
