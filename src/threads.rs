@@ -116,8 +116,10 @@ impl Threads {
     /// Runs `kernel` on each of `pieces`, on several threads where that pays for `count` particles.
     pub fn for_each<W: Send>(&self, count: usize, pieces: Vec<W>, kernel: &(impl Fn(W) + Sync)) {
         match self.pool_for(count) {
-            Some(pool) => pool.install(|| share(pieces, kernel, pool.current_num_threads())),
-            None => pieces.into_iter().for_each(kernel),
+            Some(pool) if pieces.len() > 1 => {
+                pool.install(|| share(pieces, kernel, pool.current_num_threads()));
+            }
+            _ => pieces.into_iter().for_each(kernel),
         }
     }
 }
@@ -183,4 +185,24 @@ pub fn in_turn<W: Chunked>(work: W) -> impl Iterator<Item = W> {
         left = Some(rest);
         Some(first)
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::atomic::{AtomicUsize, Ordering};
+
+    #[test]
+    fn every_piece_is_done_once_however_few_there_are() {
+        for threads in [1, 3] {
+            let threads = Threads::new(threads).unwrap();
+            for pieces in [0, 1, 2, 3, 40] {
+                let done: Vec<AtomicUsize> = (0..pieces).map(|_| AtomicUsize::new(0)).collect();
+                threads.for_each(PARALLEL_THRESHOLD, done.iter().collect(), &|piece: &AtomicUsize| {
+                    piece.fetch_add(1, Ordering::Relaxed);
+                });
+                assert!(done.into_iter().all(|piece| piece.into_inner() == 1), "{pieces} pieces");
+            }
+        }
+    }
 }
