@@ -5,7 +5,7 @@
 
 use std::ops::{Add, Mul, Neg, Sub};
 
-use wide::{f32x8, f64x4};
+use wide::{f32x8, f64x4, u32x8};
 
 use crate::vector::Vec2;
 
@@ -20,6 +20,9 @@ pub type Row = f32x8;
 
 /// Numbers per `Row`.
 pub const ROW: usize = 8;
+
+/// As many whole numbers.
+pub type WholeRow = u32x8;
 
 /// A number for each index.
 #[inline(always)]
