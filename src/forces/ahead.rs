@@ -5,7 +5,6 @@ use super::motions::Motions;
 use super::post::Outbox;
 use crate::cache::{SHARES, ask, ask_for, share_of};
 use crate::contact::table::ChunkSlots;
-use crate::integrator::Drift;
 
 /// What a chunk will read.
 #[derive(Debug, Clone, Copy)]
@@ -18,8 +17,6 @@ pub struct Needs<'a, M> {
     pub first: usize,
     /// Where its post goes.
     pub outbox: &'a Outbox,
-    /// The drift of the present chunk, which comes after the contacts.
-    pub drift: &'a Drift<'a>,
     /// Whether all of it has left the cache, not just the first levels of it.
     pub is_far: bool,
 }
@@ -66,7 +63,6 @@ fn ask_for_share(needs: &Needs<impl Motions>, share: usize) {
     let pairs = &needs.slots.pairs;
     pairs.candidates.ask_for(share);
     pairs.contacts.ask_for(share);
-    needs.drift.ask_for(share);
     for &particle in share_of(needs.outbox.abroad(), share) {
         needs.motions.get(particle).into_iter().for_each(ask);
     }

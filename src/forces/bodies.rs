@@ -52,16 +52,18 @@ impl Met {
         Self { meeting, apart: none, parting_speed: zero, own_turn: zero, other_turn: zero }
     }
 
-    /// Owners, others, and the radii of both.
+    /// Owners, others, the radii of both, and the time step [s].
     #[inline(always)]
     pub fn new(
         own: [&Motion; LANES],
         other: [&Motion; LANES],
         [own_radius, other_radius]: [Lanes; 2],
+        time_step: f64,
     ) -> Self {
         // From the owners' centers to the others', and the displacement that changed it.
+        let steps = Lanes::new([1.0, 1.0, time_step, time_step]);
         let [gap_x, gap_y, apart_x, apart_y] =
-            transpose(std::array::from_fn(|lane| other[lane].place - own[lane].place));
+            transpose(std::array::from_fn(|lane| other[lane].place * steps - own[lane].place * steps));
         let gap = Vec2Lanes { x: gap_x, y: gap_y };
         let distance = gap.dot(gap).sqrt();
         let overlap = own_radius + other_radius - distance;
@@ -72,8 +74,8 @@ impl Met {
             meeting: Meeting { overlap, normal },
             apart: Vec2Lanes { x: apart_x, y: apart_y },
             parting_speed: Vec2Lanes { x: velocity_x, y: velocity_y }.dot(normal),
-            own_turn: lanes(|lane| own[lane].turn()),
-            other_turn: lanes(|lane| other[lane].turn()),
+            own_turn: lanes(|lane| own[lane].spin()) * time_step,
+            other_turn: lanes(|lane| other[lane].spin()) * time_step,
         }
     }
 }
@@ -136,16 +138,21 @@ pub struct Walls {
 }
 
 impl Walls {
-    /// The particles, their radii, and how the drum turns.
+    /// The particles, their radii, the time step [s], and how the drum turns.
     #[inline(always)]
-    pub fn new(own: [&Motion; LANES], radius: Lanes, drum_turn: f64, angular_velocity: f64) -> Self {
-        let [x, y, displacement_x, displacement_y] = transpose(own.map(|motion| motion.place));
-        let [velocity_x, velocity_y, turn, _] = transpose(own.map(|motion| motion.pace));
+    pub fn new(
+        own: [&Motion; LANES],
+        radius: Lanes,
+        time_step: f64,
+        (drum_turn, angular_velocity): (f64, f64),
+    ) -> Self {
+        let [x, y, pace_x, pace_y] = transpose(own.map(|motion| motion.place));
+        let [velocity_x, velocity_y, spin, _] = transpose(own.map(|motion| motion.pace));
         Self {
             position: Vec2Lanes { x, y },
-            displacement: Vec2Lanes { x: displacement_x, y: displacement_y },
+            displacement: Vec2Lanes { x: pace_x, y: pace_y } * Lanes::splat(time_step),
             velocity: Vec2Lanes { x: velocity_x, y: velocity_y },
-            turn,
+            turn: spin * time_step,
             radius,
             drum_turn,
             angular_velocity,

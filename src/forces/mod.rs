@@ -53,13 +53,15 @@ pub struct Scene<'a, M> {
     pub inverse_reach: f64,
     /// 1 / time step [1/s].
     pub step_rate: f64,
+    /// The time that the step took [s], none at the start.
+    pub time_step: f64,
 }
 
 impl<'a, M> Scene<'a, M> {
     /// The same with other motions.
     pub fn with<N>(self, motions: N) -> Scene<'a, N> {
         let Self { matter, laws, drum, rotation, angular_velocity, turn, .. } = self;
-        let Self { patches, arc, round_off, inverse_reach, step_rate, .. } = self;
+        let Self { patches, arc, round_off, inverse_reach, step_rate, time_step, .. } = self;
         Scene {
             motions,
             matter,
@@ -73,6 +75,7 @@ impl<'a, M> Scene<'a, M> {
             round_off,
             inverse_reach,
             step_rate,
+            time_step,
         }
     }
 }
@@ -88,6 +91,14 @@ pub struct Matter<'a> {
     pub radii: &'a [f64],
     /// The radius [m] where all have the same.
     pub radius: Option<f64>,
+}
+
+impl Matter<'_> {
+    /// The radius of one particle [m].
+    #[inline(always)]
+    pub fn radius_of(&self, particle: u32) -> f64 {
+        self.radius.unwrap_or_else(|| self.radii[particle as usize])
+    }
 }
 
 /// Scratch and results of the pass.

@@ -156,7 +156,7 @@ fn sleepers_are_apart(scene: Scene<impl Motions>, candidates: &Candidates<StepCl
         }
         let pair = candidates.bodies(candidate);
         let (own, other) = (scene.motions.of(pair.owner), scene.motions.of(pair.other));
-        (other.position() - own.position()).norm_squared() >= (own.radius() + other.radius()).powi(2)
+        (other.position() - own.position()).norm_squared() >= (scene.matter.radius_of(pair.owner) + scene.matter.radius_of(pair.other)).powi(2)
     })
 }
 
@@ -213,17 +213,20 @@ fn look_at(
     let [gap_x, gap_y, apart_x, apart_y] =
         transpose(array::from_fn(|lane| other[lane].place - own[lane].place));
     let (between, apart) = (Vec2Lanes { x: gap_x, y: gap_y }, Vec2Lanes { x: apart_x, y: apart_y });
-    let [reach, inverse] = scene.matter.radius.map_or_else(
+    let time_step = scene.time_step;
+    let [reach, share] = scene.matter.radius.map_or_else(
         || {
-            let reach = lanes(|lane| own[lane].radius() + other[lane].radius());
-            [reach, Lanes::ONE / reach]
+            let radius = |id: u32| scene.matter.radii[id as usize];
+            let reach = lanes(|lane| radius(bodies[lane].owner) + radius(bodies[lane].other));
+            [reach, Lanes::splat(time_step) / reach]
         },
-        |radius| [radius + radius, 1.0 / (radius + radius)].map(Lanes::splat),
+        |radius| [radius + radius, time_step / (radius + radius)].map(Lanes::splat),
     );
-    // The gap is (distance² − reach²) / (distance + reach); the approach is over the distance, which is no less than reach.
+    // The gap is (distance² − reach²) / (distance + reach); the approach in a step is over the distance, which is no less
+    // than reach.
     let excess = between.dot(between) - reach * reach;
     let gap = excess.fast_max(Lanes::ZERO) * scene.inverse_reach;
-    let approach = -between.dot(apart).fast_min(Lanes::ZERO) * inverse;
+    let approach = -between.dot(apart).fast_min(Lanes::ZERO) * share;
     let sleep = steps_to_touch(gap, approach, Lanes::splat(clock.limit()));
     let sleep = Lanes::splat(clock.steps()) + sleep.fast_min(Lanes::splat(LONGEST_SLEEP));
     for (&candidate, until) in due.iter().zip(sleep.to_array()) {
@@ -263,7 +266,7 @@ fn open(scene: Scene<impl Motions>, slots: &mut Slots<StepClock>, candidate: usi
 #[inline(always)]
 fn meet(scene: Scene<impl Motions>, ends: &Ends, traits: &TraitsLanes) -> Met {
     let motion = |id: u32| scene.motions.of(id);
-    Met::new(ends.owner.map(motion), ends.other.map(motion), traits.radii)
+    Met::new(ends.owner.map(motion), ends.other.map(motion), traits.radii, scene.time_step)
 }
 
 /// Works out a block. Returns the forces on the others, x and y, and the moments on them; then the moments on the owners

@@ -45,16 +45,14 @@ impl Chunks<'_> {
     /// Evaluates one chunk.
     pub fn evaluate(mut self, scene: Scene<impl Motions>, scratch: &mut Scratch) {
         let loads = std::mem::take(&mut self.loads);
-        self.run(0, scene, None, loads, &mut scratch.pairs);
+        self.run(0, scene, loads, &mut scratch.pairs);
     }
 
     /// Evaluates chunk `index` of these: its pairs, then its walls, so that every particle meets its contacts in key order.
-    /// `drift` is what will move it on.
     fn run(
         &mut self,
         index: usize,
         scene: Scene<impl Motions>,
-        drift: Option<&Drift>,
         loads: &mut [Load],
         scratch: &mut pairs::Scratch,
     ) {
@@ -66,13 +64,12 @@ impl Chunks<'_> {
         };
         let first = (self.first + index) * CHUNK;
         let count = scene.matter.masses.len();
-        let next = later.first().zip(later_outboxes.first()).zip(drift).filter(|_| count >= FAR);
-        let next = next.map(|((slots, outbox), drift)| Needs {
+        let next = later.first().zip(later_outboxes.first()).filter(|_| count >= FAR);
+        let next = next.map(|(slots, outbox)| Needs {
             slots,
             motions: scene.motions,
             first: first + CHUNK,
             outbox,
-            drift,
             is_far: count >= LARGE,
         });
         outbox.clear();
@@ -152,7 +149,7 @@ impl Sweep<'_> {
             let waits = stretches.waits(chunk);
             let loads = if waits { kept } else { &mut scratch.loads[..count] };
             let scene = scene.with(Held::new(motions, others));
-            chunks.run(index, scene, Some(&drift), loads, &mut scratch.pairs);
+            chunks.run(index, scene, loads, &mut scratch.pairs);
             if !waits {
                 collect(chunk, &senders[chunk], (first, chunks.outboxes), loads);
                 drift.kick_and_run(&mut motions[index * CHUNK..][..count], loads);

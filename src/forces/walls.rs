@@ -11,7 +11,6 @@ use crate::contact::list::ListTraits;
 use crate::contact::table::Slots;
 use crate::drum::{FeatureId, RIM};
 use crate::energy::{StepFlows, SurfaceLoad};
-use crate::integrator::Motion;
 use crate::lanes::{LANES, ROW, Vec2Lanes, lanes, transpose};
 use crate::vector::{Vec2, cross, dot};
 
@@ -65,7 +64,7 @@ fn open_contacts(scene: Scene<impl Motions>, slots: &mut Slots<WayClock>) {
             }
             let (id, feature) = slots.candidates.key(candidate);
             // Only the particle moves, as seen from the drum. Slightly less than the gap covers round-off.
-            match gap(scene, scene.motions.of(id), feature) {
+            match gap(scene, id, feature) {
                 Some(gap) if gap >= 0.0 => {
                     slots.candidates.sleep(candidate, way + (1.0 - 1e-6) * gap);
                 }
@@ -87,25 +86,27 @@ fn open(scene: Scene<impl Motions>, slots: &mut Slots<WayClock>, candidate: usiz
 /// The gap between a particle and a feature of the drum, below zero where they overlap, or slightly less than the gap;
 /// none where it is some other feature's turn.
 #[inline]
-fn gap(scene: Scene<impl Motions>, own: &Motion, feature: FeatureId) -> Option<f64> {
+fn gap(scene: Scene<impl Motions>, particle: u32, feature: FeatureId) -> Option<f64> {
     if feature != RIM {
-        return meet(scene, own, feature).map(|spot| -spot.overlap);
+        return meet(scene, particle, feature).map(|spot| -spot.overlap);
     }
     let rim = scene.drum.radius()?;
-    let (position, free) = (own.position(), rim - own.radius());
+    let (position, radius) = (scene.motions.of(particle).position(), scene.matter.radius_of(particle));
+    let free = rim - radius;
     // free − distance = (free² − distance²) / (free + distance), whose divisor is below 2 rim.
     let excess = free * free - dot(position, position);
     if excess > 0.0 {
         return Some(excess * (0.5 / rim));
     }
-    Some((rim - dot(position, position).sqrt()) - own.radius())
+    Some((rim - dot(position, position).sqrt()) - radius)
 }
 
 /// Where a particle meets a feature of an outline, or none where it is some other feature's turn.
 #[inline]
-fn meet(scene: Scene<impl Motions>, own: &Motion, feature: FeatureId) -> Option<Spot> {
-    let near = scene.drum.proximity(feature, scene.rotation.apply_inverse(own.position()))?;
-    Some(Spot { overlap: own.radius() - near.distance, normal: scene.rotation.apply(near.direction) })
+fn meet(scene: Scene<impl Motions>, particle: u32, feature: FeatureId) -> Option<Spot> {
+    let position = scene.motions.of(particle).position();
+    let near = scene.drum.proximity(feature, scene.rotation.apply_inverse(position))?;
+    Some(Spot { overlap: scene.matter.radius_of(particle) - near.distance, normal: scene.rotation.apply(near.direction) })
 }
 
 /// Works out a block.
@@ -117,7 +118,7 @@ fn work_out(
     (surfaces, sink): &mut (&mut [SurfaceLoad], &mut Sink),
 ) {
     let own = ends.owner.map(|id| scene.motions.of(id));
-    let walls = Walls::new(own, traits.radii[0], scene.turn, scene.angular_velocity);
+    let walls = Walls::new(own, traits.radii[0], scene.time_step, (scene.turn, scene.angular_velocity));
     let (history, in_use) = (block.history(), block.in_use());
     let meeting = meetings(scene, (ends, block), &walls).within(in_use);
     let used = (in_use, |overlap| overlap / traits.radii[0]);
@@ -153,8 +154,7 @@ fn meetings(scene: Scene<impl Motions>, (ends, block): (&Ends, &Block), walls: &
     }
     for (lane, spot) in spots.iter_mut().enumerate() {
         if ends.other[lane] != RIM && block.holds(lane) {
-            let own = scene.motions.of(ends.owner[lane]);
-            *spot = meet(scene, own, ends.other[lane]).unwrap_or_default();
+            *spot = meet(scene, ends.owner[lane], ends.other[lane]).unwrap_or_default();
         }
     }
     Meeting { overlap: lanes(|lane| spots[lane].overlap), normal: Vec2Lanes::new(|lane| spots[lane].normal) }
@@ -168,7 +168,7 @@ fn hand_over(scene: Scene<impl Motions>, slots: &mut Slots<WayClock>) {
         index += 1;
         if feature == RIM
             || !slots.contacts.holds(index - 1)
-            || meet(scene, scene.motions.of(particle), feature).is_some()
+            || meet(scene, particle, feature).is_some()
         {
             continue;
         }
@@ -188,12 +188,11 @@ fn heir_of(
     feature: FeatureId,
 ) -> Option<usize> {
     let candidates = &slots.candidates;
-    let own = scene.motions.of(particle);
     candidates.of(particle).find(|&candidate| {
         let (_, other) = candidates.key(candidate);
         other != RIM
             && candidates.is_free(candidate)
             && scene.drum.adjacent(feature, other)
-            && meet(scene, own, other).is_some_and(|spot| spot.overlap > 0.0)
+            && meet(scene, particle, other).is_some_and(|spot| spot.overlap > 0.0)
     })
 }

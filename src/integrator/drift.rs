@@ -2,26 +2,14 @@
 
 use std::f64::consts::SQRT_2;
 
-use super::constants::Constants;
+use super::constants::{Constants, Each, Inertia};
 use super::pull::{Fresh, Known, Pull, Pulls};
-use super::quad::{four_vectors, put_rest, rest_of, two_by_two};
+use super::quad::{halves, put_rest};
 use super::{Load, Motion};
-use crate::cache::{ask_for, share_of};
 use crate::lanes::{LANES, Lanes};
 use crate::patch::{PATCH, PatchMotion};
-use crate::threads::{CHUNK, Chunked, chunk_count};
+use crate::threads::{CHUNK, Chunked};
 use crate::vector::{Vec2, larger};
-
-/// What a drift changes of particles, but for what contacts are told of them.
-#[derive(Debug)]
-pub struct Moved<'a> {
-    /// Velocities [m/s].
-    pub velocities: &'a mut [Vec2],
-    /// Angles [rad].
-    pub angles: &'a mut [f64],
-    /// Angular velocities [rad/s].
-    pub spins: &'a mut [f64],
-}
 
 /// What is the same for all particles in one drift.
 #[derive(Debug, Clone, Copy)]
@@ -38,7 +26,6 @@ pub(super) struct Setting<'a> {
 pub struct Drift<'a> {
     /// The first of the particles.
     pub(super) first: usize,
-    pub(super) moved: Moved<'a>,
     /// By patch: the most that anyone does.
     pub(super) patches: &'a mut [PatchMotion],
     /// By chunk: Σ m x.
@@ -54,31 +41,19 @@ impl Drift<'_> {
 
     /// The same for a while.
     pub fn lend(&mut self) -> Drift<'_> {
-        let Moved { velocities, angles, spins } = &mut self.moved;
         Drift {
             first: self.first,
-            moved: Moved { velocities, angles, spins },
             patches: self.patches,
             mass_moments: self.mass_moments,
             setting: self.setting,
         }
     }
 
-    /// Asks memory for a share of what one chunk moves.
-    #[inline(always)]
-    pub fn ask_for(&self, share: usize) {
-        let count = self.moved.spins.len().min(CHUNK);
-        ask_for(share_of(&self.moved.velocities[..count], share));
-        ask_for(share_of(&self.moved.angles[..count], share));
-        ask_for(share_of(&self.moved.spins[..count], share));
-    }
-
     /// The second half of a kick by `loads`, which are taken, then the first half of the next one and the drift: one
     /// chunk.
     pub fn kick_and_run(self, motions: &mut [Motion], loads: &mut [Load]) {
-        let constants = self.setting.constants.of(self.first, loads.len());
         let gravity = self.setting.gravity;
-        self.run(motions, Fresh { loads, constants, gravity });
+        self.run(motions, Fresh { loads, gravity });
     }
 
     /// Half a kick with the accelerations that the particles carry, then the drift: one chunk.
@@ -88,65 +63,53 @@ impl Drift<'_> {
 
     fn run(mut self, motions: &mut [Motion], mut pull: impl Pull) {
         let mut sums = QuadSums::new(self.setting.turn, self.setting.time_step);
-        let masses = self.setting.constants.of(self.first, motions.len()).masses;
-        self.move_quads(motions, &mut pull, masses, &mut sums);
+        let each = self.setting.constants.of(self.first, motions.len());
+        match self.setting.constants.same() {
+            Some(same) => self.move_quads(motions, &mut pull, same, &mut sums),
+            None => self.move_quads(motions, &mut pull, each, &mut sums),
+        }
         if !motions.len().is_multiple_of(LANES) {
-            self.move_rest(motions, &mut pull, masses, &mut sums);
+            each.with_rest(|each| self.move_rest(motions, &mut pull, each, &mut sums));
         }
         if let Some(chunk) = self.mass_moments.first_mut() {
             *chunk = sums.mass_moment();
         }
     }
 
-    fn move_quads<P: Pull>(
+    fn move_quads<P: Pull, I: Inertia>(
         &mut self,
         motions: &mut [Motion],
         pull: &mut P,
-        masses: &[f64],
+        inertia: I,
         sums: &mut QuadSums,
     ) {
         let quads = motions.len() / LANES;
         // Slices of one known length let the compiler drop the bounds checks.
-        let velocities = &mut self.moved.velocities.as_chunks_mut().0[..quads];
-        let angles = &mut self.moved.angles.as_chunks_mut().0[..quads];
-        let spins = &mut self.moved.spins.as_chunks_mut().0[..quads];
-        let masses = &masses.as_chunks().0[..quads];
         let motions = &mut motions.as_chunks_mut().0[..quads];
         for (patch, most) in self.patches.iter_mut().enumerate() {
             let first = patch * (PATCH / LANES);
             for quad in first..quads.min(first + PATCH / LANES) {
-                let pulls = pull.of(quad, quads);
-                let mut four = Quad {
-                    velocities: &mut velocities[quad],
-                    angles: &mut angles[quad],
-                    spins: &mut spins[quad],
-                    motions: &mut motions[quad],
-                };
-                four.advance::<P>(pulls, self.setting.time_step, &masses[quad], sums);
+                let pulls = pull.of(quad, quads, inertia);
+                let positions = advance::<P>(&mut motions[quad], pulls, self.setting.time_step, sums);
+                sums.weigh::<I>(positions, inertia.of(quad, quads).masses);
             }
             *most = sums.take_most();
         }
+        sums.end_weighing(inertia);
     }
 
     fn move_rest<P: Pull>(
         &mut self,
         motions: &mut [Motion],
         pull: &mut P,
-        masses: &[f64],
+        inertia: Each,
         sums: &mut QuadSums,
     ) {
-        let pulls = pull.of_rest();
-        let mut velocities = rest_of(self.moved.velocities);
-        let mut angles = rest_of(self.moved.angles);
-        let mut spins = rest_of(self.moved.spins);
+        let pulls = pull.of_rest(inertia);
         let (_, rest) = motions.as_chunks_mut::<LANES>();
         let mut last = std::array::from_fn(|lane| rest[lane.min(rest.len() - 1)]);
-        let mut four =
-            Quad { velocities: &mut velocities, angles: &mut angles, spins: &mut spins, motions: &mut last };
-        four.advance::<P>(pulls, self.setting.time_step, &rest_of(masses), sums);
-        put_rest(self.moved.velocities, &velocities);
-        put_rest(self.moved.angles, &angles);
-        put_rest(self.moved.spins, &spins);
+        let positions = advance::<P>(&mut last, pulls, self.setting.time_step, sums);
+        sums.weigh::<Each>(positions, inertia.of(0, 1).masses);
         put_rest(motions, &last);
         if let Some(most) = self.patches.last_mut() {
             *most = most.and(sums.take_most());
@@ -156,28 +119,17 @@ impl Drift<'_> {
 
 impl Chunked for Drift<'_> {
     fn chunks(&self) -> usize {
-        chunk_count(self.moved.spins.len())
+        self.mass_moments.len()
     }
 
     fn split(self, chunks: usize) -> (Self, Self) {
         let at = chunks * CHUNK;
-        let (velocities, more_velocities) = self.moved.velocities.split_at_mut(at);
-        let (angles, more_angles) = self.moved.angles.split_at_mut(at);
-        let (spins, more_spins) = self.moved.spins.split_at_mut(at);
         let (patches, more_patches) = self.patches.split_at_mut(at.div_ceil(PATCH));
         let (mass_moments, more_mass_moments) = self.mass_moments.split_at_mut(chunks);
         let (first, setting) = (self.first, self.setting);
-        let moved = Moved { velocities, angles, spins };
-        let more = Moved { velocities: more_velocities, angles: more_angles, spins: more_spins };
         (
-            Self { first, moved, patches, mass_moments, setting },
-            Self {
-                first: first + at,
-                moved: more,
-                patches: more_patches,
-                mass_moments: more_mass_moments,
-                setting,
-            },
+            Self { first, patches, mass_moments, setting },
+            Self { first: first + at, patches: more_patches, mass_moments: more_mass_moments, setting },
         )
     }
 }
@@ -220,55 +172,39 @@ impl Chunked for Start<'_> {
     }
 }
 
-/// Four particles.
-struct Quad<'a> {
-    velocities: &'a mut [Vec2; LANES],
-    angles: &'a mut [f64; LANES],
-    spins: &'a mut [f64; LANES],
-    motions: &'a mut [Motion; LANES],
-}
-
-impl Quad<'_> {
-    /// Kicks and moves them.
-    #[inline(always)]
-    fn advance<P: Pull>(
-        &mut self,
-        (accelerations, spin_rates): Pulls,
-        time_step: f64,
-        masses: &[f64; LANES],
-        sums: &mut QuadSums,
-    ) {
-        let (step, half) = (Lanes::splat(time_step), Lanes::splat(0.5 * time_step));
-        let (kicks, twists) = (accelerations.map(|a| a * half), spin_rates * half);
-        sums.note_kicks(kicks);
-        let mut velocities = two_by_two(self.velocities);
-        let mut spins = Lanes::new(*self.spins);
+/// Kicks and moves four particles. Returns where they come, as two rows.
+#[inline(always)]
+fn advance<P: Pull>(
+    motions: &mut [Motion; LANES],
+    (accelerations, spin_rates): Pulls,
+    time_step: f64,
+    sums: &mut QuadSums,
+) -> [Lanes; 2] {
+    let (step, half) = (Lanes::splat(time_step), Lanes::splat(0.5 * time_step));
+    let to_angles = Lanes::new([0.0, time_step, 0.0, time_step]);
+    let moved = [0, 1].map(|pair| {
+        let [one, other] = [2 * pair, 2 * pair + 1];
+        let (kick, twist) = (accelerations[pair] * half, spin_rates[pair] * half);
+        let [before, mut velocities] = halves(motions[one].place, motions[other].place);
+        let [_, mut spins] = halves(motions[one].pace, motions[other].pace);
         if P::UNFINISHED {
-            velocities = [velocities[0] + kicks[0], velocities[1] + kicks[1]];
-            spins += twists;
+            velocities += kick;
+            spins += twist;
         }
-        velocities = [velocities[0] + kicks[0], velocities[1] + kicks[1]];
-        spins += twists;
-        *self.velocities = four_vectors(velocities);
-        *self.spins = spins.to_array();
-        let displacements = velocities.map(|velocity| velocity * step);
-        let before = two_by_two(&self.motions.map(|motion| motion.position()));
-        let positions = [before[0] + displacements[0], before[1] + displacements[1]];
-        sums.note(before, displacements);
-        sums.weigh(positions, masses);
-        let turns = spins * step;
-        *self.angles = (Lanes::new(*self.angles) + turns).to_array();
-
-        let foretold = [velocities[0] + kicks[0], velocities[1] + kicks[1]].map(Lanes::to_array);
-        let (places, ways) = (positions.map(Lanes::to_array), displacements.map(Lanes::to_array));
-        let turns = turns.to_array();
-        for (lane, motion) in self.motions.iter_mut().enumerate() {
-            let (two, x) = (lane / 2, 2 * (lane % 2));
-            motion.place = Lanes::new([places[two][x], places[two][x + 1], ways[two][x], ways[two][x + 1]]);
-            let radius = motion.radius();
-            motion.pace = Lanes::new([foretold[two][x], foretold[two][x + 1], turns[lane], radius]);
-        }
-    }
+        velocities += kick;
+        spins += twist;
+        let displacements = velocities * step;
+        let positions = before + displacements;
+        // Angular velocities stay as they are, angles grow.
+        let [a, _, b, _] = spins.to_array();
+        spins += Lanes::new([a, a, b, b]) * to_angles;
+        [motions[one].place, motions[other].place] = halves(positions, velocities);
+        [motions[one].pace, motions[other].pace] = halves(velocities + kick, spins);
+        sums.note_kick(kick);
+        (before, displacements, positions)
+    });
+    sums.note(moved.map(|pair| pair.0), moved.map(|pair| pair.1));
+    moved.map(|pair| pair.2)
 }
 
 /// Sums over the quads of a chunk.
@@ -305,11 +241,19 @@ impl QuadSums {
         self.longest_squared = lengths.fast_max(self.longest_squared);
     }
 
+    /// Adds particles to Σ m x, which stays without m where it is the same for all.
     #[inline(always)]
-    fn weigh(&mut self, positions: [Lanes; 2], masses: &[f64; LANES]) {
-        let [a, b, c, d] = *masses;
-        self.mass_moment += positions[0] * Lanes::new([a, a, b, b]);
-        self.mass_moment += positions[1] * Lanes::new([c, c, d, d]);
+    fn weigh<I: Inertia>(&mut self, positions: [Lanes; 2], masses: [Lanes; 2]) {
+        for (positions, masses) in positions.into_iter().zip(masses) {
+            self.mass_moment += if I::SAME { positions } else { positions * masses };
+        }
+    }
+
+    /// Brings m in where it is the same for all.
+    fn end_weighing<I: Inertia>(&mut self, inertia: I) {
+        if I::SAME {
+            self.mass_moment *= inertia.of(0, 1).masses[0];
+        }
     }
 
     fn mass_moment(&self) -> Vec2 {
@@ -318,9 +262,8 @@ impl QuadSums {
     }
 
     #[inline(always)]
-    fn note_kicks(&mut self, kicks: [Lanes; 2]) {
-        let kick = kicks[0].abs().fast_max(self.greatest_kick);
-        self.greatest_kick = kicks[1].abs().fast_max(kick);
+    fn note_kick(&mut self, kick: Lanes) {
+        self.greatest_kick = kick.abs().fast_max(self.greatest_kick);
     }
 
     /// The most that anyone did since it was last taken.

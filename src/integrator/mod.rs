@@ -15,21 +15,30 @@ use crate::patch::{PATCH, PatchMotion};
 use crate::threads::{CHUNK, Threads, chunk_count};
 use crate::vector::Vec2;
 use constants::Constants;
-pub use drift::{Drift, Moved};
+pub use drift::Drift;
 use drift::{Setting, Start};
 use kick::Kick;
 
-/// What contacts need of a particle in one step, as two rows that load at once; one cache line.
+/// Where a particle is and how it moves, as two rows that load at once; one cache line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(C, align(64))]
 pub struct Motion {
-    /// Center at the end of the step [m], x and y; how it got there [m], x and y.
+    /// Center at the end of the step [m], x and y; velocity with which it got there [m/s], x and y.
     pub place: Lanes,
-    /// Velocity foretold for the end of the step [m/s], x and y; angle turned during the step [rad]; radius [m].
+    /// Velocity foretold for the end of the step [m/s], x and y; angular velocity during the step [rad/s]; angle [rad].
     pub pace: Lanes,
 }
 
 impl Motion {
+    /// That of particle `i`, up to date.
+    fn new(particles: &Particles, i: usize) -> Self {
+        let (position, velocity) = (particles.positions[i], particles.velocities[i]);
+        Self {
+            place: Lanes::new([position.x, position.y, velocity.x, velocity.y]),
+            pace: Lanes::new([velocity.x, velocity.y, particles.angular_velocities[i], particles.angles[i]]),
+        }
+    }
+
     /// Center at the end of the step [m].
     #[inline(always)]
     pub fn position(&self) -> Vec2 {
@@ -37,16 +46,27 @@ impl Motion {
         Vec2::new(x, y)
     }
 
-    /// Angle turned during the step [rad].
+    /// Velocity during the step [m/s]; at its end once it has been kicked.
+    fn velocity(&self) -> Vec2 {
+        let [_, _, x, y] = self.place.to_array();
+        Vec2::new(x, y)
+    }
+
+    /// Angular velocity during the step [rad/s]; at its end once it has been kicked.
     #[inline(always)]
-    pub fn turn(&self) -> f64 {
+    pub fn spin(&self) -> f64 {
         self.pace.as_array()[2]
     }
 
-    /// Radius [m].
-    #[inline(always)]
-    pub fn radius(&self) -> f64 {
+    /// Angle at the end of the step [rad].
+    fn angle(&self) -> f64 {
         self.pace.as_array()[3]
+    }
+
+    /// Adds to velocity [m/s] and angular velocity [rad/s].
+    fn kick(&mut self, kick: Vec2, twist: f64) {
+        self.place += Lanes::new([0.0, 0.0, kick.x, kick.y]);
+        self.pace += Lanes::new([0.0, 0.0, twist, 0.0]);
     }
 }
 
@@ -86,7 +106,7 @@ impl Load {
 }
 
 /// Scratch of the integrator; nothing in it outlives a step but what follows from the particles' constants. While steps
-/// follow each other unseen, the motions alone know where the particles are.
+/// follow each other unseen, the motions alone know where the particles are and how they move.
 #[derive(Debug, Clone)]
 pub struct Integrator {
     /// What the contacts are told, by particle.
@@ -103,17 +123,10 @@ pub struct Integrator {
 }
 
 impl Integrator {
-    /// For these particles at rest in time: the motions say where they are and how fast, with no displacement.
+    /// For these particles, which have not moved yet.
     pub fn new(particles: &Particles, time_step: f64, gravity: Vec2) -> Self {
-        let still = |i: usize| {
-            let (position, velocity) = (particles.positions[i], particles.velocities[i]);
-            Motion {
-                place: Lanes::new([position.x, position.y, 0.0, 0.0]),
-                pace: Lanes::new([velocity.x, velocity.y, 0.0, particles.radii[i]]),
-            }
-        };
         Self {
-            motions: (0..particles.len()).map(still).collect(),
+            motions: (0..particles.len()).map(|i| Motion::new(particles, i)).collect(),
             patches: vec![PatchMotion::default(); particles.len().div_ceil(PATCH)],
             next_patches: vec![PatchMotion::default(); particles.len().div_ceil(PATCH)],
             mass_moments: vec![Vec2::zeros(); chunk_count(particles.len())],
@@ -123,17 +136,12 @@ impl Integrator {
         }
     }
 
-    /// A drift of all particles, while the drum turns by `turn` [rad], still to be run chunk by chunk; what the contacts are
-    /// told by particle, which it changes; and by patch.
-    pub fn drift<'a>(
-        &'a mut self,
-        moved: Moved<'a>,
-        turn: f64,
-    ) -> (Drift<'a>, &'a mut [Motion], &'a [PatchMotion]) {
+    /// A drift of all particles, while the drum turns by `turn` [rad], still to be run chunk by chunk; what it moves; and by
+    /// patch, the most that anyone did in the last step.
+    pub fn drift(&mut self, turn: f64) -> (Drift<'_>, &mut [Motion], &[PatchMotion]) {
         let (constants, time_step, gravity) = (&self.constants, self.time_step, self.gravity);
         let drift = Drift {
             first: 0,
-            moved,
             patches: &mut self.next_patches,
             mass_moments: &mut self.mass_moments,
             setting: Setting { constants, time_step, turn, gravity },
@@ -141,14 +149,9 @@ impl Integrator {
         (drift, &mut self.motions, &self.patches)
     }
 
-    /// Half a kick with the accelerations that the particles carry, then the drift.
-    pub fn start(&mut self, particles: &mut Particles, turn: f64, threads: &Threads) -> DriftSums {
-        let moved = Moved {
-            velocities: &mut particles.velocities,
-            angles: &mut particles.angles,
-            spins: &mut particles.angular_velocities,
-        };
-        let (drift, motions, _) = self.drift(moved, turn);
+    /// Half a kick with the accelerations that the particles carry, then the drift; the motions must be up to date.
+    pub fn start(&mut self, particles: &Particles, turn: f64, threads: &Threads) -> DriftSums {
+        let (drift, motions, _) = self.drift(turn);
         let (accelerations, spin_rates) = (&particles.accelerations, &particles.angular_accelerations);
         let work = Start { drift, motions, accelerations, spin_rates };
         threads.for_each_chunk(accelerations.len(), work, &Start::run);
@@ -163,21 +166,28 @@ impl Integrator {
         DriftSums { mass_moment, longest_way }
     }
 
-    /// Accelerations from the loads and gravity, then the second half of the kick: the particles are up to date.
-    pub fn finish(&self, particles: &mut Particles, loads: &[Load], threads: &Threads) {
-        let count = particles.len();
+    /// Accelerations from the loads and gravity, then the second half of the kick: motions and particles are up to date.
+    pub fn finish(&mut self, particles: &mut Particles, loads: &[Load], threads: &Threads) {
         let (constants, half_step, gravity) = (&self.constants, 0.5 * self.time_step, self.gravity);
         let work = Kick {
             first: 0,
-            positions: &mut particles.positions,
-            velocities: &mut particles.velocities,
-            spins: &mut particles.angular_velocities,
+            motions: &mut self.motions,
             accelerations: &mut particles.accelerations,
             spin_rates: &mut particles.angular_accelerations,
-            motions: &self.motions,
             loads,
         };
-        threads.for_each_chunk(count, work, &|chunk: Kick| chunk.run(constants, half_step, gravity));
+        threads.for_each_chunk(loads.len(), work, &|chunk: Kick| chunk.run(constants, half_step, gravity));
+        self.show(particles);
+    }
+
+    /// Tells the particles where they are and how they move.
+    pub fn show(&self, particles: &mut Particles) {
+        self.place(&mut particles.positions);
+        for (i, motion) in self.motions.iter().enumerate() {
+            particles.velocities[i] = motion.velocity();
+            particles.angular_velocities[i] = motion.spin();
+            particles.angles[i] = motion.angle();
+        }
     }
 
     /// Tells the particles where they are.

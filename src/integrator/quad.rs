@@ -1,4 +1,4 @@
-//! Particles in fours: whole quads of a slice, the rest filled up, vectors as rows of lanes.
+//! Particles in fours: whole quads of a slice, the rest filled up, the rows of two particles taken apart and put together.
 
 use crate::lanes::{LANES, Lanes};
 use crate::vector::Vec2;
@@ -23,9 +23,9 @@ pub(super) fn two_by_two(v: &[Vec2; LANES]) -> [Lanes; 2] {
     [Lanes::new([v[0].x, v[0].y, v[1].x, v[1].y]), Lanes::new([v[2].x, v[2].y, v[3].x, v[3].y])]
 }
 
-/// The inverse of `two_by_two`.
+/// The first halves of two rows in one row, and their last halves; its own inverse.
 #[inline(always)]
-pub(super) fn four_vectors(rows: [Lanes; 2]) -> [Vec2; LANES] {
-    let [[a, b, c, d], [e, f, g, h]] = rows.map(Lanes::to_array);
-    [Vec2::new(a, b), Vec2::new(c, d), Vec2::new(e, f), Vec2::new(g, h)]
+pub(super) fn halves(one: Lanes, other: Lanes) -> [Lanes; 2] {
+    let ([a, b, c, d], [e, f, g, h]) = (one.to_array(), other.to_array());
+    [Lanes::new([a, b, e, f]), Lanes::new([c, d, g, h])]
 }

@@ -12,7 +12,7 @@ use crate::drum::Drum;
 use crate::energy::{Balance, EnergyLedger, StoredEnergy};
 use crate::error::Error;
 use crate::forces::{ForcePass, Matter, Scene};
-use crate::integrator::{DriftSums, Integrator, Load, Moved};
+use crate::integrator::{DriftSums, Integrator, Load};
 use crate::neighbors::{Surroundings, VerletList};
 use crate::order;
 use crate::packing::pack;
@@ -49,6 +49,9 @@ pub struct Simulation {
 struct Instant {
     rotation: Rotation,
     angular_velocity: f64,
+    /// The time that has passed since forces were last evaluated [s].
+    time_step: f64,
+    /// The angle by which the drum turned in it [rad].
     turn: f64,
 }
 
@@ -153,6 +156,7 @@ impl Simulation {
         let instant = Instant {
             rotation: Rotation::new(self.config.rotation.angle(0.0)),
             angular_velocity: self.config.rotation.angular_velocity(0.0),
+            time_step: 0.0,
             turn: 0.0,
         };
         self.rebuild(instant.rotation);
@@ -186,7 +190,7 @@ impl Simulation {
                 return Err(failure.clone());
             }
             if let Err(failure) = self.step(left == 0) {
-                self.integrator.place(&mut self.state.particles.positions);
+                self.integrator.show(&mut self.state.particles);
                 self.failure = Some(failure);
             }
         }
@@ -206,13 +210,13 @@ impl Simulation {
         let (turn, sums) = self.ahead.take().unwrap_or_else(|| self.start_drift());
         self.state.step += 1;
         if !(sums.mass_moment.x + sums.mass_moment.y).is_finite() {
-            self.integrator.place(&mut self.state.particles.positions);
+            self.integrator.show(&mut self.state.particles);
             let particle = self.id_of(self.state.particles.first_non_finite().unwrap_or(0));
             return Err(Error::NonFinite { step: self.state.step, particle });
         }
         let rotation = self.keep_list(sums.longest_way, turn);
         let angular_velocity = self.config.rotation.angular_velocity(self.time());
-        let instant = Instant { rotation, angular_velocity, turn };
+        let instant = Instant { rotation, angular_velocity, time_step: self.fixed.time_step, turn };
         if last || self.is_to_be_seen(sums.longest_way) {
             self.evaluate(instant);
             self.integrator.finish(&mut self.state.particles, &self.forces.loads, &self.threads);
@@ -271,7 +275,7 @@ impl Simulation {
     fn start_drift(&mut self) -> (f64, DriftSums) {
         let turn = self.next_turn();
         self.forces.loads.fill(Load::default());
-        (turn, self.integrator.start(&mut self.state.particles, turn, &self.threads))
+        (turn, self.integrator.start(&self.state.particles, turn, &self.threads))
     }
 
     /// The angle by which the drum turns in the step after the last [rad].
@@ -306,11 +310,9 @@ impl Simulation {
     /// The forces of this step and the drift of the next.
     fn evaluate_and_move(&mut self, instant: Instant) {
         let turn = self.next_turn();
-        let Particles { materials, masses, radii, velocities, angles, angular_velocities: spins, .. } =
-            &mut self.state.particles;
+        let Particles { materials, masses, radii, .. } = &self.state.particles;
         let matter = Matter { materials, masses, radii, radius: self.fixed.radius };
-        let moved = Moved { velocities, angles, spins };
-        let (drift, motions, patches) = self.integrator.drift(moved, turn);
+        let (drift, motions, patches) = self.integrator.drift(turn);
         let scene = scene(&self.fixed, &self.list, self.inverse_reach, (matter, patches), instant);
         self.forces.evaluate_and_move(scene, &mut self.table, (drift, motions), &self.threads);
         self.ahead = Some((turn, self.integrator.end_drift()));
@@ -434,6 +436,7 @@ fn scene<'a>(
         arc: list.arc(instant.turn),
         round_off: list.round_off(),
         inverse_reach,
+        time_step: instant.time_step,
         step_rate: 1.0 / fixed.time_step,
     }
 }
