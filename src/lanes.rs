@@ -5,7 +5,7 @@
 
 use std::ops::{Add, Mul, Neg, Sub};
 
-use wide::{f32x8, f64x4, u32x8};
+use wide::{f32x8, f64x4, u32x4, u32x8};
 
 use crate::vector::Vec2;
 
@@ -23,6 +23,32 @@ pub const ROW: usize = 8;
 
 /// As many whole numbers.
 pub type WholeRow = u32x8;
+
+/// Four whole numbers.
+pub type WholeFour = u32x4;
+
+/// For each set of four lanes, as bits: its lanes in front, in their order.
+pub const FOUR_IN_FRONT: [[u32; LANES]; 1 << LANES] = in_front();
+
+/// The same of eight.
+pub const EIGHT_IN_FRONT: [[u32; ROW]; 1 << ROW] = in_front();
+
+const fn in_front<const N: usize, const SETS: usize>() -> [[u32; N]; SETS] {
+    let mut table = [[0; N]; SETS];
+    let mut set = 0;
+    while set < SETS {
+        let (mut lane, mut count) = (0, 0);
+        while lane < N {
+            if set >> lane & 1 == 1 {
+                table[set][count] = lane as u32;
+                count += 1;
+            }
+            lane += 1;
+        }
+        set += 1;
+    }
+    table
+}
 
 /// A number for each index.
 #[inline(always)]

@@ -66,30 +66,37 @@ impl<C: Clock> Candidates<C> {
 
     /// Goes on to the particles of patch `patch`.
     pub fn begin(&mut self, patch: u32) {
-        if let Some(&last) = self.bodies.last() {
-            self.bodies.resize(self.wake.len(), last);
-        }
+        self.end();
         let (first_row, first_watched) = ((self.wake.len() / ROW) as u32, self.watched.len() as u32);
         self.patches.push(Patch { first_row, first_watched, clock: C::default() });
         self.watched.push(patch);
     }
 
-    /// Appends a candidate, awake.
+    /// Appends a candidate, awake once the patch has ended.
     pub fn push(&mut self, candidate: Candidate) {
-        if self.len().is_multiple_of(ROW) {
-            self.wake.resize(self.len() + ROW, f32::INFINITY);
-        }
         self.bodies.push(candidate);
-        self.sleep(self.len() - 1, 0.0);
     }
 
-    /// Appends a candidate whose other side is a particle, awake.
-    pub fn push_pair(&mut self, candidate: Candidate) {
-        self.push(candidate);
-        let (patch, first) =
-            (candidate.other / PATCH as u32, self.patches.last().map_or(0, |p| p.first_watched));
-        if !self.watched[first as usize..].contains(&patch) {
-            self.watched.push(patch);
+    /// Appends the candidates of a particle with others.
+    pub fn push_pairs(&mut self, owner: u32, others: &[u32]) {
+        self.bodies.extend(others.iter().map(|&other| Candidate { owner, other }));
+        let first = self.patches.last().map_or(0, |patch| patch.first_watched as usize);
+        let mut last = owner / PATCH as u32;
+        for patch in others.iter().map(|other| other / PATCH as u32) {
+            // Most are of the same patch as the one before.
+            if patch != last && !self.watched[first..].contains(&patch) {
+                self.watched.push(patch);
+            }
+            last = patch;
+        }
+    }
+
+    /// Ends the last patch: its candidates are awake, and fill whole rows.
+    pub fn end(&mut self) {
+        self.wake.resize(self.len(), 0.0);
+        self.wake.resize(self.len().next_multiple_of(ROW), f32::INFINITY);
+        if let Some(&last) = self.bodies.last() {
+            self.bodies.resize(self.wake.len(), last);
         }
     }
 
@@ -325,6 +332,7 @@ mod tests {
         for &(owner, other) in candidates {
             slots.candidates.push(Candidate { owner, other });
         }
+        slots.candidates.end();
         slots
     }
 
@@ -365,10 +373,11 @@ mod tests {
         let patch = PATCH as u32;
         let mut candidates = Candidates::<WayClock>::default();
         candidates.begin(0);
-        candidates.push_pair(Candidate { owner: 0, other: 1 });
-        candidates.push_pair(Candidate { owner: 2, other: 2 * patch });
+        candidates.push_pairs(0, &[1]);
+        candidates.push_pairs(2, &[2 * patch]);
         candidates.begin(1);
-        candidates.push_pair(Candidate { owner: patch, other: patch + 1 });
+        candidates.push_pairs(patch, &[patch + 1]);
+        candidates.end();
         // Patch 2 has moved by 4, which concerns patch 0 only.
         let motions = |ways: [f64; 3]| ways.map(|way| PatchMotion { way, change: 0.0 });
         candidates.follow(&motions([1.0, 2.0, 4.0]), |clock, most| clock.advance(most.way, 0.5));
@@ -383,8 +392,8 @@ mod tests {
     fn candidates_are_found_by_their_particle() {
         let candidates = slots(&[(0, 1), (2, 3), (2, 5), (6, 7)]).candidates;
         assert_eq!(
-            [candidates.of(0), candidates.of(1), candidates.of(2), candidates.of(9)],
-            [0..1, 1..1, 1..3, 4..4]
+            [candidates.of(0), candidates.of(1), candidates.of(2), candidates.of(6)],
+            [0..1, 1..1, 1..3, 3..4]
         );
     }
 }

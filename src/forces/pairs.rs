@@ -14,7 +14,7 @@ use crate::contact::linear::LinearLanes;
 use crate::contact::list::ListTraits;
 use crate::contact::table::{Candidate, Candidates, Slots};
 use crate::energy::StepFlows;
-use crate::lanes::{LANES, Lanes, ROW, Row, Vec2Lanes, WholeRow, lanes, transpose};
+use crate::lanes::{EIGHT_IN_FRONT, LANES, Lanes, ROW, Row, Vec2Lanes, WholeRow, lanes, transpose};
 
 /// Candidates of a patch that are looked at together at most; a power of two.
 const MOST_DUE: usize = 256;
@@ -171,33 +171,15 @@ fn find_due(
     let waking = Row::splat(candidates.waking(patch));
     let (mut count, mut first) = (0, WholeRow::splat((ROW * rows.start) as u32));
     for &wakes in candidates.wakes(rows) {
-        let set = Row::new(wakes).simd_le(waking).to_bitmask() as usize & (IN_FRONT.len() - 1);
+        let set = Row::new(wakes).simd_le(waking).to_bitmask() as usize & (EIGHT_IN_FRONT.len() - 1);
         // The whole row is written, those that are due in front; the next row overwrites the others.
         let place = count & (MOST_DUE - 1);
-        due[place..place + ROW].copy_from_slice((WholeRow::new(IN_FRONT[set]) + first).as_array());
+        due[place..place + ROW].copy_from_slice((WholeRow::new(EIGHT_IN_FRONT[set]) + first).as_array());
         count += set.count_ones() as usize;
         first += WholeRow::splat(ROW as u32);
     }
     count
 }
-
-/// For each set of lanes, as bits: its lanes in front, in their order.
-const IN_FRONT: [[u32; ROW]; 1 << ROW] = {
-    let mut table = [[0; ROW]; 1 << ROW];
-    let mut set = 0;
-    while set < table.len() {
-        let (mut lane, mut count) = (0, 0);
-        while lane < ROW {
-            if set >> lane & 1 == 1 {
-                table[set][count] = lane as u32;
-                count += 1;
-            }
-            lane += 1;
-        }
-        set += 1;
-    }
-    table
-};
 
 /// Looks at four candidates of a patch.
 fn look_at(

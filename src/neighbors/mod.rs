@@ -9,6 +9,7 @@ use cells::CellGrid;
 
 use crate::contact::table::{Candidate, ChunkSlots, ContactTable};
 use crate::drum::{Drum, RIM};
+use crate::lanes::{FOUR_IN_FRONT, LANES, Lanes, WholeFour, lanes};
 use crate::particles::Particles;
 use crate::patch::PATCH;
 use crate::threads::{CHUNK, Chunked, Threads};
@@ -130,14 +131,15 @@ impl Search<'_> {
                 pairs.candidates.begin(patch);
                 walls.candidates.begin(patch);
             }
-            for &j in find_pairs(i, around.particles, grid, (skin, same), &mut room) {
-                pairs.candidates.push_pair(Candidate { owner: i as u32, other: j });
-            }
+            let others = find_pairs(i as u32, around.particles, grid, (skin, same), &mut room);
+            pairs.candidates.push_pairs(i as u32, others);
             find_walls(around.drum, center, around.particles.radii[i] + skin, &mut found);
             for feature in found.drain(..) {
                 walls.candidates.push(Candidate { owner: i as u32, other: feature });
             }
         }
+        pairs.candidates.end();
+        walls.candidates.end();
         pairs.link();
         walls.link();
     }
@@ -157,28 +159,43 @@ impl Chunked for Search<'_> {
 /// The particles of higher id within reach of particle `i`, ascending. `same` is the radius where all have one, `room` what
 /// they may be written to.
 fn find_pairs<'a>(
-    i: usize,
+    i: u32,
     particles: &Particles,
     grid: &CellGrid,
     (skin, same): (f64, Option<f64>),
     room: &'a mut Vec<u32>,
 ) -> &'a [u32] {
-    let position = particles.positions[i];
-    let own_reach = particles.radii[i] + skin;
+    let position = particles.positions[i as usize];
+    let (x, y, own) = (Lanes::splat(position.x), Lanes::splat(position.y), WholeFour::splat(i));
+    let own_reach = particles.radii[i as usize] + skin;
+    let same_reach = same.map(|radius| Lanes::splat((own_reach + radius) * (own_reach + radius)));
     let mut count = 0;
-    grid.for_each_near(position, |members, places| {
-        if room.len() < count + members.len() {
-            room.resize(count + 2 * members.len(), 0);
+    grid.for_each_near(i as usize, |row| {
+        if room.len() < count + LANES * row.members.len() {
+            room.resize(2 * (count + LANES * row.members.len()), 0);
         }
-        // Every member is written, and overwritten unless it is near: no CPU could foretell a branch here.
-        for (&j, &place) in members.iter().zip(places) {
-            let reach = own_reach + same.unwrap_or_else(|| particles.radii[j as usize]);
-            let is_near = (place - position).norm_squared() < reach * reach;
-            room[count] = j;
-            count += usize::from((j as usize > i) & is_near);
+        let (mut left, mut places) = (row.count, WholeFour::splat(row.first as u32));
+        for (members, (&x_of, &y_of)) in row.members.iter().zip(row.x.iter().zip(row.y)) {
+            let reach_squared = same_reach.unwrap_or_else(|| {
+                let reach = lanes(|lane| own_reach + particles.radii[members[lane] as usize]);
+                reach * reach
+            });
+            let (dx, dy) = (Lanes::new(x_of) - x, Lanes::new(y_of) - y);
+            let is_near = (dx * dx + dy * dy).simd_lt(reach_squared).to_bitmask();
+            let is_later = WholeFour::new(*members).simd_gt(own).to_bitmask();
+            let set = is_near & is_later & ((1 << left.min(LANES)) - 1);
+            // All four are written, those that are meant in front; the next overwrite the others. No CPU could foretell a
+            // branch here.
+            room[count..][..LANES].copy_from_slice((places + WholeFour::new(FOUR_IN_FRONT[set as usize])).as_array());
+            count += set.count_ones() as usize;
+            left -= left.min(LANES);
+            places += WholeFour::splat(LANES as u32);
         }
     });
     let found = &mut room[..count];
+    for place in &mut *found {
+        *place = grid.members()[*place as usize];
+    }
     found.sort_unstable();
     found
 }
