@@ -50,6 +50,17 @@ const fn in_front<const N: usize, const SETS: usize>() -> [[u32; N]; SETS] {
     table
 }
 
+/// A line of the cache.
+#[repr(align(64))]
+struct Line([u8; 64]);
+
+/// Aligns the stack of the function that calls it, where compilers would spill rows of numbers at any multiple of 16 bytes:
+/// where the system happens to put the stack, every second one would then lie across two lines of the cache.
+#[inline(always)]
+pub fn align_stack() {
+    std::hint::black_box(&mut Line([0; 64]));
+}
+
 /// A number for each index.
 #[inline(always)]
 pub fn lanes(number: impl Fn(usize) -> f64) -> Lanes {

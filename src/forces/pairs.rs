@@ -14,7 +14,7 @@ use crate::contact::linear::LinearLanes;
 use crate::contact::list::ListTraits;
 use crate::contact::table::{Candidate, Candidates, Slots};
 use crate::energy::StepFlows;
-use crate::lanes::{EIGHT_IN_FRONT, LANES, Lanes, ROW, Row, Vec2Lanes, WholeRow, lanes, transpose};
+use crate::lanes::{EIGHT_IN_FRONT, LANES, Lanes, ROW, Row, Vec2Lanes, WholeRow, align_stack, lanes, transpose};
 
 /// Candidates of a patch that are looked at together at most; a power of two.
 const MOST_DUE: usize = 256;
@@ -53,6 +53,7 @@ pub fn evaluate(
     (sink, ahead): (&mut Sink, &mut Ahead<impl Motions>),
     scratch: &mut Scratch,
 ) -> StepFlows {
+    align_stack();
     open_contacts(scene, slots, ahead, scratch);
     let laws = scene.laws.pairs();
     if slots.contacts.is_empty() {
