@@ -1,7 +1,5 @@
 //! The drift, four particles at a time, and the sums that it makes on the way.
 
-use std::f64::consts::SQRT_2;
-
 use super::constants::{Constants, Each, Inertia};
 use super::pull::{Fresh, Known, Pull, Pulls};
 use super::quad::{halves, put_rest};
@@ -200,10 +198,10 @@ fn advance<P: Pull>(
         spins += Lanes::new([a, a, b, b]) * to_angles;
         [motions[one].place, motions[other].place] = halves(positions, velocities);
         [motions[one].pace, motions[other].pace] = halves(velocities + kick, spins);
-        sums.note_kick(kick);
-        (before, displacements, positions)
+        (before, displacements, positions, kick)
     });
     sums.note(moved.map(|pair| pair.0), moved.map(|pair| pair.1));
+    sums.note_kicks(moved.map(|pair| pair.3));
     moved.map(|pair| pair.2)
 }
 
@@ -213,8 +211,8 @@ struct QuadSums {
     mass_moment: Lanes,
     /// The squares of the longest ways.
     longest_squared: Lanes,
-    /// The greatest x or y of half a kick.
-    greatest_kick: Lanes,
+    /// The squares of the greatest half kicks.
+    greatest_squared: Lanes,
     /// The angle by which the drum turns, as the factors of y and x.
     turns: Lanes,
     time_step: f64,
@@ -224,21 +222,23 @@ impl QuadSums {
     fn new(turn: f64, time_step: f64) -> Self {
         let turns = Lanes::new([-turn, turn, -turn, turn]);
         let zero = Lanes::ZERO;
-        Self { mass_moment: zero, longest_squared: zero, greatest_kick: zero, turns, time_step }
+        Self { mass_moment: zero, longest_squared: zero, greatest_squared: zero, turns, time_step }
     }
 
     /// Takes note of the ways as seen from the drum.
     #[inline(always)]
     fn note(&mut self, positions: [Lanes; 2], displacements: [Lanes; 2]) {
-        let squares = std::array::from_fn::<_, 2, _>(|two| {
+        let ways = std::array::from_fn(|two| {
             let [a, b, c, d] = positions[two].to_array();
-            let way = displacements[two] - Lanes::new([b, a, d, c]) * self.turns;
-            (way * way).to_array()
+            displacements[two] - Lanes::new([b, a, d, c]) * self.turns
         });
-        // In the order in which sums of neighbors come.
-        let lengths = Lanes::new([squares[0][0], squares[1][0], squares[0][2], squares[1][2]])
-            + Lanes::new([squares[0][1], squares[1][1], squares[0][3], squares[1][3]]);
-        self.longest_squared = lengths.fast_max(self.longest_squared);
+        self.longest_squared = squared_lengths(ways).fast_max(self.longest_squared);
+    }
+
+    /// Takes note of half kicks.
+    #[inline(always)]
+    fn note_kicks(&mut self, kicks: [Lanes; 2]) {
+        self.greatest_squared = squared_lengths(kicks).fast_max(self.greatest_squared);
     }
 
     /// Adds particles to Σ m x, which stays without m where it is the same for all.
@@ -261,18 +261,20 @@ impl QuadSums {
         Vec2::new(x + more_x, y + more_y)
     }
 
-    #[inline(always)]
-    fn note_kick(&mut self, kick: Lanes) {
-        self.greatest_kick = kick.abs().fast_max(self.greatest_kick);
-    }
-
     /// The most that anyone did since it was last taken.
     fn take_most(&mut self) -> PatchMotion {
-        let most = |lanes: &mut Lanes| {
-            std::mem::replace(lanes, Lanes::ZERO).to_array().into_iter().fold(0.0, larger)
+        let most = |squares: &mut Lanes| {
+            std::mem::replace(squares, Lanes::ZERO).to_array().into_iter().fold(0.0, larger).sqrt()
         };
-        // Two half kicks, of which x and y are known to be no greater.
-        let kick = 2.0 * SQRT_2 * most(&mut self.greatest_kick);
-        PatchMotion { way: most(&mut self.longest_squared).sqrt(), change: kick * self.time_step }
+        let kick = 2.0 * most(&mut self.greatest_squared);
+        PatchMotion { way: most(&mut self.longest_squared), change: kick * self.time_step }
     }
+}
+
+/// The squared lengths of four vectors in two rows, in any order.
+#[inline(always)]
+fn squared_lengths(rows: [Lanes; 2]) -> Lanes {
+    let [[a, b, c, d], [e, f, g, h]] = rows.map(|row| (row * row).to_array());
+    // In the order in which CPUs add neighbors.
+    Lanes::new([a, e, c, g]) + Lanes::new([b, f, d, h])
 }
