@@ -50,15 +50,11 @@ const fn in_front<const N: usize, const SETS: usize>() -> [[u32; N]; SETS] {
     table
 }
 
-/// A line of the cache.
-#[repr(align(64))]
-struct Line([u8; 64]);
-
 /// Aligns the stack of the function that calls it, where compilers would spill rows of numbers at any multiple of 16 bytes:
-/// where the system happens to put the stack, every second one would then lie across two lines of the cache.
+/// as the system happens to place the stack, every second one could then lie across two lines of the cache.
 #[inline(always)]
 pub fn align_stack() {
-    std::hint::black_box(&mut Line([0; 64]));
+    std::hint::black_box(&mut Lanes::splat(0.0));
 }
 
 /// A number for each index.

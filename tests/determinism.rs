@@ -231,6 +231,29 @@ fn a_run_in_pieces_is_the_run_in_one() {
     assert_eq!(bits(&pieces), bits(&after(&config, 1, 3000)));
 }
 
+/// Slices leave the particles behind; who looks in between gets them as they are after one more step.
+#[test]
+fn slices_of_a_run_do_not_show() {
+    for (config, slices) in [(baseline(60, 3), [1, 10, 989, 1999]), (large(), [1, 1, 150, 97])] {
+        let mut sliced = packed(&config, 1);
+        let mut looks = 0;
+        for steps in slices {
+            sliced.run_on(steps).unwrap();
+            let before = sliced.state().step;
+            sliced.arrive().unwrap();
+            looks += sliced.state().step - before;
+            assert_eq!(bits(&sliced), bits(&after(&config, 1, sliced.state().step)));
+            let step = sliced.state().step;
+            sliced.arrive().unwrap();
+            assert_eq!(sliced.state().step, step, "the particles were up to date");
+        }
+        assert!(looks > 2, "{looks} slices left the particles behind");
+        sliced.run_on(70).unwrap();
+        sliced.run(30).unwrap();
+        assert_eq!(bits(&sliced), bits(&after(&config, 1, sliced.state().step)));
+    }
+}
+
 /// Lengths × 4, times × 2, g unchanged, masses × 2^k with stiffness and damping to match.
 fn scaled(config: &SimulationConfig, mass_factor: f64) -> SimulationConfig {
     let mut scaled = config.clone();

@@ -14,7 +14,9 @@ use crate::contact::linear::LinearLanes;
 use crate::contact::list::ListTraits;
 use crate::contact::table::{Candidate, Candidates, Slots};
 use crate::energy::StepFlows;
-use crate::lanes::{EIGHT_IN_FRONT, LANES, Lanes, ROW, Row, Vec2Lanes, WholeRow, align_stack, lanes, transpose};
+use crate::lanes::{
+    EIGHT_IN_FRONT, LANES, Lanes, ROW, Row, Vec2Lanes, WholeRow, align_stack, lanes, transpose,
+};
 
 /// Candidates of a patch that are looked at together at most; a power of two.
 const MOST_DUE: usize = 256;
@@ -157,7 +159,8 @@ fn sleepers_are_apart(scene: Scene<impl Motions>, candidates: &Candidates<StepCl
         }
         let pair = candidates.bodies(candidate);
         let (own, other) = (scene.motions.of(pair.owner), scene.motions.of(pair.other));
-        (other.position() - own.position()).norm_squared() >= (scene.matter.radius_of(pair.owner) + scene.matter.radius_of(pair.other)).powi(2)
+        (other.position() - own.position()).norm_squared()
+            >= (scene.matter.radius_of(pair.owner) + scene.matter.radius_of(pair.other)).powi(2)
     })
 }
 

@@ -106,7 +106,10 @@ fn gap(scene: Scene<impl Motions>, particle: u32, feature: FeatureId) -> Option<
 fn meet(scene: Scene<impl Motions>, particle: u32, feature: FeatureId) -> Option<Spot> {
     let position = scene.motions.of(particle).position();
     let near = scene.drum.proximity(feature, scene.rotation.apply_inverse(position))?;
-    Some(Spot { overlap: scene.matter.radius_of(particle) - near.distance, normal: scene.rotation.apply(near.direction) })
+    Some(Spot {
+        overlap: scene.matter.radius_of(particle) - near.distance,
+        normal: scene.rotation.apply(near.direction),
+    })
 }
 
 /// Works out a block.
@@ -166,10 +169,7 @@ fn hand_over(scene: Scene<impl Motions>, slots: &mut Slots<WayClock>) {
     while slots.contacts.lanes().contains(&index) {
         let (particle, feature) = slots.contacts.key(index);
         index += 1;
-        if feature == RIM
-            || !slots.contacts.holds(index - 1)
-            || meet(scene, particle, feature).is_some()
-        {
+        if feature == RIM || !slots.contacts.holds(index - 1) || meet(scene, particle, feature).is_some() {
             continue;
         }
         if let Some(heir) = heir_of(scene, slots, particle, feature) {

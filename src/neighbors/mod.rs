@@ -186,7 +186,8 @@ fn find_pairs<'a>(
             let set = is_near & is_later & ((1 << left.min(LANES)) - 1);
             // All four are written, those that are meant in front; the next overwrite the others. No CPU could foretell a
             // branch here.
-            room[count..][..LANES].copy_from_slice((places + WholeFour::new(FOUR_IN_FRONT[set as usize])).as_array());
+            room[count..][..LANES]
+                .copy_from_slice((places + WholeFour::new(FOUR_IN_FRONT[set as usize])).as_array());
             count += set.count_ones() as usize;
             left -= left.min(LANES);
             places += WholeFour::splat(LANES as u32);

@@ -26,9 +26,6 @@ use crate::summary::summarize;
 /// How long a run keeps the interpreter waiting for signals at most, but for the least number of steps.
 const SLICE: Duration = Duration::from_millis(30);
 
-/// Steps of a slice at least: each slice brings all particles up to date at its end.
-const LEAST_STEPS: u64 = 8;
-
 /// A drum with its load; see `drumrs.Simulation`.
 #[pyclass(frozen, module = "drumrs._core")]
 pub struct Simulation {
@@ -47,11 +44,20 @@ impl Simulation {
         self.core.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Runs `look` on the core with the interpreter released.
+    /// Shows `look` the core with the interpreter released.
     fn with<T: Send>(&self, py: Python<'_>, look: impl FnOnce(&mut Core) -> T + Send) -> T {
+        self.under_way(py, |core| {
+            // Between two slices of a run. Where that fails, who runs it is told.
+            let _ = core.arrive();
+            look(core)
+        })
+    }
+
+    /// The same for a core whose particles may not be up to date.
+    fn under_way<T: Send>(&self, py: Python<'_>, work: impl FnOnce(&mut Core) -> T + Send) -> T {
         py.detach(|| {
             let _inside = Inside::enter();
-            look(&mut self.lock())
+            work(&mut self.lock())
         })
     }
 
@@ -60,15 +66,32 @@ impl Simulation {
         self.with(py, |core| core.state().particles.by_id(values(&core.state().particles)))
     }
 
-    /// Does steps until `left` are done or a slice of time is over; returns how many it did.
-    fn slice(&self, py: Python<'_>, left: u64, pace: &mut Pace) -> Result<u64, Error> {
-        let steps = pace.steps.min(left);
-        let (outcome, elapsed) = self.with(py, |core| {
-            let start = now();
-            (core.run(steps), start.elapsed())
-        });
-        pace.adapt(elapsed);
-        outcome.map(|()| steps)
+    /// Does steps until step `end` or until a slice of time is over; returns the step. Somebody else may have done one since the
+    /// last slice, to look.
+    fn slice(&self, py: Python<'_>, end: u64, pace: &mut Pace) -> Result<u64, Error> {
+        self.under_way(py, |core| {
+            let (start, left) = (now(), end.saturating_sub(core.state().step));
+            if pace.steps < left {
+                core.run_on(pace.steps)?;
+            } else {
+                core.run(left)?;
+            }
+            pace.adapt(start.elapsed());
+            Ok(core.state().step)
+        })
+    }
+
+    /// Runs slice by slice until step `end`, a signal or a stop.
+    fn run_until(&self, py: Python<'_>, end: u64, progress: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
+        let (mut step, mut pace) = (self.step(py), Pace { steps: 1 });
+        while step < end && !self.stop.load(Ordering::Relaxed) {
+            step = self.slice(py, end, &mut pace).map_err(|error| to_python(py, &error))?;
+            py.check_signals()?;
+            if let Some(progress) = progress {
+                progress.call1((step,))?;
+            }
+        }
+        Ok(())
     }
 }
 
@@ -81,7 +104,7 @@ impl Pace {
     fn adapt(&mut self, elapsed: Duration) {
         // The first steps are slower than the rest, and few: slices grow fast, but not at one bound.
         let factor = (SLICE.as_secs_f64() / elapsed.as_secs_f64().max(1e-6)).min(4.0);
-        self.steps = ((self.steps as f64 * factor) as u64).max(LEAST_STEPS);
+        self.steps = ((self.steps as f64 * factor) as u64).max(1);
     }
 }
 
@@ -148,16 +171,10 @@ impl Simulation {
     #[pyo3(signature = (steps, progress = None))]
     fn run(&self, py: Python<'_>, steps: u64, progress: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
         self.stop.store(false, Ordering::Relaxed);
-        let mut pace = Pace { steps: LEAST_STEPS };
-        let mut done = 0;
-        while done < steps && !self.stop.load(Ordering::Relaxed) {
-            done += self.slice(py, steps - done, &mut pace).map_err(|error| to_python(py, &error))?;
-            py.check_signals()?;
-            if let Some(progress) = progress {
-                progress.call1((self.step(py),))?;
-            }
-        }
-        Ok(())
+        let outcome = self.run_until(py, self.step(py).saturating_add(steps), progress);
+        // Whatever ended it, the particles are left up to date.
+        let arrived = self.under_way(py, Core::arrive).map_err(|error| to_python(py, &error));
+        outcome.and(arrived)
     }
 
     fn stop(&self) {

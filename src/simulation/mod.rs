@@ -1,5 +1,6 @@
 //! `Simulation`: configuration, state and scratch; it steps, guards and records.
 
+mod accounts;
 mod fixed;
 mod views;
 
@@ -18,11 +19,11 @@ use crate::order;
 use crate::packing::pack;
 use crate::particles::Particles;
 use crate::patch::PatchMotion;
-use crate::recorder::{Frames, Series, Snapshot, columns};
+use crate::recorder::{Frames, Series, columns};
 use crate::start::{self, InitialState};
 use crate::state::State;
 use crate::threads::Threads;
-use crate::vector::{Rotation, Vec2, dot};
+use crate::vector::Rotation;
 
 /// A drum with its load, at some step.
 #[derive(Debug)]
@@ -39,7 +40,7 @@ pub struct Simulation {
     integrator: Integrator,
     forces: ForcePass,
     threads: Threads,
-    /// Where the drift of the next step is done, the drum's turn in it [rad] and its sums; never between two runs.
+    /// Where the drift of the next step is done, the drum's turn in it [rad] and its sums.
     ahead: Option<(f64, DriftSums)>,
     failure: Option<Error>,
 }
@@ -181,29 +182,52 @@ impl Simulation {
     /// further run with the same error.
     pub fn run(&mut self, steps: u64) -> Result<(), Error> {
         let threads = self.threads.clone();
-        threads.enter(self.state.particles.len(), || self.run_here(steps))
+        threads.enter(self.state.particles.len(), || {
+            self.run_here(steps, true)?;
+            // A step sees positions alone, and those of the step before; who looks now gets numbers throughout.
+            if let Some(particle) = self.state.particles.first_non_finite() {
+                self.failure =
+                    Some(Error::NonFinite { step: self.state.step, particle: self.id_of(particle) });
+            }
+            self.failure.clone().map_or(Ok(()), Err)
+        })
     }
 
-    fn run_here(&mut self, steps: u64) -> Result<(), Error> {
+    /// The same for a slice of a longer run, but does not bring the particles up to date at its end, which costs as much as a
+    /// few steps. Who looks at them must `arrive` before.
+    ///
+    /// # Errors
+    /// As `run`.
+    pub fn run_on(&mut self, steps: u64) -> Result<(), Error> {
+        let threads = self.threads.clone();
+        threads.enter(self.state.particles.len(), || self.run_here(steps, false))
+    }
+
+    /// Brings the particles up to date, if slices of a run have left them behind, by one more step.
+    ///
+    /// # Errors
+    /// As `run`.
+    pub fn arrive(&mut self) -> Result<(), Error> {
+        if self.ahead.is_some() { self.run(1) } else { Ok(()) }
+    }
+
+    /// Does steps. `seen` says that somebody looks at the particles after the last.
+    fn run_here(&mut self, steps: u64, seen: bool) -> Result<(), Error> {
         for left in (0..steps).rev() {
             if let Some(failure) = &self.failure {
                 return Err(failure.clone());
             }
-            if let Err(failure) = self.step(left == 0) {
+            if let Err(failure) = self.step(seen && left == 0) {
                 self.integrator.show(&mut self.state.particles);
                 self.failure = Some(failure);
             }
         }
-        // A step sees positions alone, and those of the step before; who looks now gets numbers throughout.
-        if let (None, Some(particle)) = (&self.failure, self.state.particles.first_non_finite()) {
-            self.failure = Some(Error::NonFinite { step: self.state.step, particle: self.id_of(particle) });
-        }
         self.failure.clone().map_or(Ok(()), Err)
     }
 
-    /// One step. Where nobody looks in between, the drift of the next step goes along with its forces; `last` says that
+    /// One step. Where nobody looks in between, the drift of the next step goes along with its forces; `seen` says that
     /// somebody will.
-    fn step(&mut self, last: bool) -> Result<(), Error> {
+    fn step(&mut self, seen: bool) -> Result<(), Error> {
         if self.is_sort_due() {
             self.sort();
         }
@@ -217,7 +241,7 @@ impl Simulation {
         let rotation = self.keep_list(sums.longest_way, turn);
         let angular_velocity = self.config.rotation.angular_velocity(self.time());
         let instant = Instant { rotation, angular_velocity, time_step: self.fixed.time_step, turn };
-        if last || self.is_to_be_seen(sums.longest_way) {
+        if seen || self.is_to_be_seen(sums.longest_way) {
             self.evaluate(instant);
             self.integrator.finish(&mut self.state.particles, &self.forces.loads, &self.threads);
         } else {
@@ -318,28 +342,6 @@ impl Simulation {
         self.ahead = Some((turn, self.integrator.end_drift()));
     }
 
-    fn charge(&mut self, mass_moment: Vec2, turn: f64) {
-        let steady = self.fixed.steady_speed.is_some();
-        let mut balance = self.balance(mass_moment);
-        if !steady {
-            balance.angular_momentum = self.state.particles.angular_momentum();
-        }
-        let ledger = &mut self.state.ledger;
-        ledger.charge(&self.forces.flows, &self.forces.surfaces, turn, self.fixed.time_step);
-        ledger.charge_balance(balance, turn, self.fixed.time_step, steady);
-    }
-
-    /// The balance of moments now, but for the angular momentum.
-    fn balance(&self, mass_moment: Vec2) -> Balance {
-        let gravity = self.fixed.gravity;
-        let mut outer_moment = mass_moment.x * gravity.y - mass_moment.y * gravity.x;
-        if self.config.load.spin_locked {
-            // What holds the spins takes the contacts' moments out of the load.
-            outer_moment -= self.forces.loads.iter().fold(0.0, |sum, load| sum + load.moment());
-        }
-        Balance { mass_moment, outer_moment, angular_momentum: 0.0 }
-    }
-
     fn guard(&mut self) -> Result<(), Error> {
         let limit = self.config.run.overlap_limit;
         if self.forces.flows.overlap_ratio <= limit {
@@ -357,55 +359,6 @@ impl Simulation {
 
     fn id_of(&self, place: usize) -> usize {
         self.state.particles.ids[place] as usize
-    }
-
-    fn record(&mut self) {
-        let (step, time) = (self.state.step, self.time());
-        if step.is_multiple_of(self.fixed.sample_steps) {
-            self.sample(time);
-        }
-        if step.is_multiple_of(self.fixed.frame_steps) {
-            let angle = self.config.rotation.angle(time);
-            self.state.frames.push(time, angle, &self.state.particles);
-        }
-    }
-
-    fn sample(&mut self, time: f64) {
-        let stored = self.stored();
-        let angular_momentum = self.state.particles.angular_momentum();
-        let state = &mut self.state;
-        state.ledger.note(&stored);
-        let snapshot = Snapshot {
-            time,
-            angle: self.config.rotation.angle(time),
-            angular_velocity: self.config.rotation.angular_velocity(time),
-            ledger: &state.ledger,
-            stored,
-            angular_momentum,
-            balance_work: state.ledger.balance_work(angular_momentum, self.fixed.steady_speed),
-            mass: self.fixed.mass,
-            contacts: self.table.counts(),
-            count: state.particles.len(),
-            interval: time - state.series.last_time().unwrap_or(time),
-            earlier: &state.series.earlier().clone(),
-        };
-        state.series.push(&snapshot);
-        state.ledger.overlap_ratio = 0.0;
-    }
-
-    /// Energy stored now.
-    pub fn stored(&self) -> StoredEnergy {
-        let particles = &self.state.particles;
-        let (kinetic_translation, kinetic_rotation) = particles.kinetic_energies(0.5 * self.fixed.time_step);
-        let (elastic_normal, elastic_tangential) = start::elastic_energies(&self.table, &self.fixed.laws);
-        let moment = start::mass_moment(particles);
-        StoredEnergy {
-            kinetic_translation,
-            kinetic_rotation,
-            gravitational: -dot(moment, self.fixed.gravity),
-            elastic_normal,
-            elastic_tangential,
-        }
     }
 
     fn time_at(&self, step: u64) -> f64 {
