@@ -18,8 +18,8 @@ use crate::lanes::{
     EIGHT_IN_FRONT, LANES, Lanes, ROW, Row, Vec2Lanes, WholeRow, align_stack, lanes, transpose,
 };
 
-/// Candidates of a patch that are looked at together at most; a power of two.
-const MOST_DUE: usize = 256;
+/// Candidates that are looked at together at most; a power of two.
+const MOST_DUE: usize = 512;
 
 /// Blocks of contacts that go through the stages of a step together: so many that the stages' latencies overlap, so few
 /// that they stay in the cache.
@@ -31,8 +31,12 @@ const LONGEST_SLEEP: f64 = 1e6;
 /// What the work on a chunk writes before it reads; kept, since clearing it costs small loads a twentieth.
 #[derive(Debug, Clone)]
 pub struct Scratch {
+    /// Candidates that are due, in fours of one patch.
     due: [u32; MOST_DUE + ROW],
     bodies: [Candidate; MOST_DUE + ROW],
+    /// The patches of the fours.
+    patches: [u32; MOST_DUE / LANES + 1],
+    fours: usize,
     met: [Met; GROUP],
     loads: [[Lanes; LANES]; GROUP],
 }
@@ -42,6 +46,8 @@ impl Default for Scratch {
         Self {
             due: [0; MOST_DUE + ROW],
             bodies: [Candidate { owner: 0, other: 0 }; MOST_DUE + ROW],
+            patches: [0; MOST_DUE / LANES + 1],
+            fours: 0,
             met: [Met::none(); GROUP],
             loads: [[Lanes::ZERO; LANES]; GROUP],
         }
@@ -122,29 +128,46 @@ fn open_contacts(
     scratch: &mut Scratch,
 ) {
     slots.candidates.follow(scene.patches, |clock, most| clock.advance(most.change + scene.round_off));
-    let Scratch { due, bodies, .. } = scratch;
+    scratch.fours = 0;
     for patch in 0..slots.candidates.patches() {
         debug_assert!(sleepers_are_apart(scene, &slots.candidates, patch), "two bodies touch unseen");
         let mut rows = slots.candidates.rows(patch);
         while !rows.is_empty() {
+            if LANES * scratch.fours + ROW > MOST_DUE {
+                look_at_due(scene, slots, ahead, scratch);
+            }
             ahead.ask();
-            let some = rows.start..rows.end.min(rows.start + MOST_DUE / ROW);
+            let room = (MOST_DUE - LANES * scratch.fours) / ROW;
+            let some = rows.start..rows.end.min(rows.start + room);
             rows.start = some.end;
-            let count = find_due(&slots.candidates, patch, some, due);
-            // The last four are filled up with the last one.
-            let last = due[count.saturating_sub(1)];
-            due[count..count + LANES].fill(last);
-            let due = &due.as_chunks().0[..count.div_ceil(LANES)];
-            // All are fetched before any is looked at: where they have left the cache, many reads are then under way at once.
-            let bodies = &mut bodies.as_chunks_mut().0[..due.len()];
-            for (bodies, due) in bodies.iter_mut().zip(due) {
-                *bodies = due.map(|candidate| *slots.candidates.bodies(candidate as usize));
-            }
-            for (bodies, due) in bodies.iter().zip(due) {
-                look_at(scene, slots, patch, (due, bodies));
-            }
+            find_due(&slots.candidates, patch, some, scratch);
         }
     }
+    look_at_due(scene, slots, ahead, scratch);
+}
+
+/// Looks at the candidates that have been found due.
+fn look_at_due(
+    scene: Scene<impl Motions>,
+    slots: &mut Slots<StepClock>,
+    ahead: &mut Ahead<impl Motions>,
+    scratch: &mut Scratch,
+) {
+    let Scratch { due, patches, bodies, .. } = scratch;
+    let due = &due.as_chunks().0[..scratch.fours];
+    // All are fetched before any is looked at: where they have left the cache, many reads are then under way at once.
+    let bodies = &mut bodies.as_chunks_mut().0[..due.len()];
+    for (bodies, due) in bodies.iter_mut().zip(due) {
+        *bodies = due.map(|candidate| *slots.candidates.bodies(candidate as usize));
+    }
+    let fours = bodies.iter().zip(due).zip(&*patches);
+    for (index, ((bodies, due), &patch)) in fours.enumerate() {
+        if index.is_multiple_of(GROUP) {
+            ahead.ask();
+        }
+        look_at(scene, slots, patch as usize, (due, bodies));
+    }
+    scratch.fours = 0;
 }
 
 /// Whether none of a patch's candidates that sleep touch. Only asked in tests: not to look is what sleep is for.
@@ -166,14 +189,11 @@ fn sleepers_are_apart(scene: Scene<impl Motions>, candidates: &Candidates<StepCl
 
 /// Finds the candidates that are due in some rows of a patch, without a branch that a CPU could not foretell.
 #[inline(always)]
-fn find_due(
-    candidates: &Candidates<StepClock>,
-    patch: usize,
-    rows: Range<usize>,
-    due: &mut [u32; MOST_DUE + ROW],
-) -> usize {
+fn find_due(candidates: &Candidates<StepClock>, patch: usize, rows: Range<usize>, scratch: &mut Scratch) {
+    let Scratch { due, patches, fours, .. } = scratch;
     let waking = Row::splat(candidates.waking(patch));
-    let (mut count, mut first) = (0, WholeRow::splat((ROW * rows.start) as u32));
+    let mut first = WholeRow::splat((ROW * rows.start) as u32);
+    let mut count = LANES * *fours;
     for &wakes in candidates.wakes(rows) {
         let set = Row::new(wakes).simd_le(waking).to_bitmask() as usize & (EIGHT_IN_FRONT.len() - 1);
         // The whole row is written, those that are due in front; the next row overwrites the others.
@@ -182,7 +202,12 @@ fn find_due(
         count += set.count_ones() as usize;
         first += WholeRow::splat(ROW as u32);
     }
-    count
+    // The last four of a patch are filled up with the last one.
+    let last = due[count.saturating_sub(1)];
+    due[count..count + LANES].fill(last);
+    let end = count.div_ceil(LANES);
+    patches[*fours..end].fill(patch as u32);
+    *fours = end;
 }
 
 /// Looks at four candidates of a patch.

@@ -86,8 +86,9 @@ impl Drift<'_> {
         let motions = &mut motions.as_chunks_mut().0[..quads];
         for (patch, most) in self.patches.iter_mut().enumerate() {
             let first = patch * (PATCH / LANES);
-            let of_patch = (first..quads).zip(motions[first.min(quads)..].iter_mut()).take(PATCH / LANES);
-            for (quad, four) in of_patch {
+            let of_patch = first..quads.min(first + PATCH / LANES);
+            let motions = motions.get_mut(of_patch.clone()).unwrap_or_default();
+            for (quad, four) in of_patch.zip(motions) {
                 let pulls = pull.of(quad, quads, inertia);
                 let positions = advance::<P>(four, pulls, self.setting.time_step, sums);
                 sums.weigh::<I>(positions, inertia.of(quad, quads).masses);
