@@ -7,8 +7,7 @@ use super::block::{Block, Ends, Traits, TraitsBlock};
 use super::shift::{close_gap, open_gap};
 use crate::cache::{ask_for, share_of};
 use crate::lanes::LANES;
-use crate::patch::PATCH;
-use crate::threads::CHUNK;
+use crate::patch::{PATCHES, patch_of};
 
 /// One contact with all that its list keeps of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -51,14 +50,6 @@ pub struct ContactList {
     traits: ListTraits,
     /// Numbers of contacts, by patch.
     counts: [u32; PATCHES],
-}
-
-/// Patches in a chunk.
-const PATCHES: usize = CHUNK / PATCH;
-
-/// The patch of a chunk that a particle belongs to.
-fn patch_of(particle: u32) -> usize {
-    particle as usize % CHUNK / PATCH
 }
 
 impl Default for ContactList {

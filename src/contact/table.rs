@@ -12,7 +12,7 @@ use super::clock::{Clock, StepClock, WayClock};
 use super::list::{ContactList, Entry};
 use crate::cache::{ask_for, share_of};
 use crate::lanes::ROW;
-use crate::patch::{PATCH, PatchMotion};
+use crate::patch::{PATCH, PatchMotion, patch_of};
 use crate::threads::{CHUNK, chunk_count};
 
 /// Two bodies near each other.
@@ -196,8 +196,12 @@ impl<C: Clock> Candidates<C> {
     }
 
     /// Wakes the candidate of a contact that has ended, if the list still holds it.
-    pub fn wake(&mut self, (owner, other): (u32, u32)) {
-        if let Some(candidate) = self.of(owner).find(|&candidate| self.bodies[candidate].other == other) {
+    pub fn wake(&mut self, key: (u32, u32)) {
+        let rows = self.rows(patch_of(key.0));
+        let (first, end) = (ROW * rows.start, ROW * rows.end);
+        let before = |pair: &Candidate| (pair.owner, pair.other) < key;
+        let candidate = first + self.bodies[first..end].partition_point(before);
+        if candidate < end && self.key(candidate) == key {
             self.sleep(candidate, 0.0);
         }
     }
@@ -329,6 +333,7 @@ mod tests {
 
     fn slots(candidates: &[(u32, u32)]) -> Slots<StepClock> {
         let mut slots = Slots::default();
+        slots.candidates.begin(0);
         for &(owner, other) in candidates {
             slots.candidates.push(Candidate { owner, other });
         }

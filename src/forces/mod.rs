@@ -12,6 +12,7 @@ mod stretches;
 mod sweep;
 mod walls;
 
+use crate::contact::block::Traits;
 use crate::contact::laws::Laws;
 use crate::contact::table::ContactTable;
 use crate::drum::Drum;
@@ -91,6 +92,8 @@ pub struct Matter<'a> {
     pub radii: &'a [f64],
     /// The radius [m] where all have the same.
     pub radius: Option<f64>,
+    /// What contacts between them follow from, where all are equal.
+    pub pair: Option<Traits>,
 }
 
 impl Matter<'_> {
@@ -98,6 +101,16 @@ impl Matter<'_> {
     #[inline(always)]
     pub fn radius_of(&self, particle: u32) -> f64 {
         self.radius.unwrap_or_else(|| self.radii[particle as usize])
+    }
+
+    /// What a contact between two particles follows from.
+    #[inline(always)]
+    fn pair(&self, laws: &Laws, one: u32, other: u32) -> Traits {
+        self.pair.unwrap_or_else(|| {
+            let body = |id: u32| (self.materials[id as usize], self.masses[id as usize]);
+            let radii = [self.radii[one as usize], self.radii[other as usize]];
+            Traits { law: laws.pair_slot(body(one), body(other)), radii }
+        })
     }
 }
 

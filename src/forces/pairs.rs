@@ -8,7 +8,7 @@ use super::ahead::Ahead;
 use super::bodies::{FlowLanes, Met, Pairs, settle};
 use super::motions::Motions;
 use super::post::Sink;
-use crate::contact::block::{Block, Ends, Traits, TraitsLanes};
+use crate::contact::block::{Block, Ends, TraitsLanes};
 use crate::contact::clock::StepClock;
 use crate::contact::linear::LinearLanes;
 use crate::contact::list::ListTraits;
@@ -266,11 +266,7 @@ fn steps_to_touch(gap: Lanes, approach: Lanes, limit: Lanes) -> Lanes {
 #[cold]
 fn open(scene: Scene<impl Motions>, slots: &mut Slots<StepClock>, candidate: usize) {
     let (owner, other) = slots.candidates.key(candidate);
-    let (i, j) = (owner as usize, other as usize);
-    let matter = scene.matter;
-    let body = |id: usize| (matter.materials[id], matter.masses[id]);
-    let law = scene.laws.pair_slot(body(i), body(j));
-    slots.open(candidate, Traits { law, radii: [matter.radii[i], matter.radii[j]] });
+    slots.open(candidate, scene.matter.pair(scene.laws, owner, other));
 }
 
 /// Gathers the bodies of a block.

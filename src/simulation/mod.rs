@@ -325,7 +325,7 @@ impl Simulation {
 
     fn evaluate(&mut self, instant: Instant) {
         let Particles { materials, masses, radii, .. } = &self.state.particles;
-        let matter = Matter { materials, masses, radii, radius: self.fixed.radius };
+        let matter = Matter { materials, masses, radii, radius: self.fixed.radius, pair: self.fixed.pair };
         let (motions, patches) = (&self.integrator.motions, &self.integrator.patches);
         let scene = scene(&self.fixed, &self.list, self.inverse_reach, (matter, patches), instant);
         self.forces.evaluate(scene, motions, &mut self.table, &self.threads);
@@ -335,7 +335,7 @@ impl Simulation {
     fn evaluate_and_move(&mut self, instant: Instant) {
         let turn = self.next_turn();
         let Particles { materials, masses, radii, .. } = &self.state.particles;
-        let matter = Matter { materials, masses, radii, radius: self.fixed.radius };
+        let matter = Matter { materials, masses, radii, radius: self.fixed.radius, pair: self.fixed.pair };
         let (drift, motions, patches) = self.integrator.drift(turn);
         let scene = scene(&self.fixed, &self.list, self.inverse_reach, (matter, patches), instant);
         self.forces.evaluate_and_move(scene, &mut self.table, (drift, motions), &self.threads);
