@@ -52,6 +52,12 @@ pub struct ContactList {
     counts: [u32; PATCHES],
 }
 
+/// A key as one number, in the same order: comparing two at once leaves no branch that a CPU could not foretell.
+#[inline]
+pub(super) fn rank((owner, other): (u32, u32)) -> u64 {
+    u64::from(owner) << 32 | u64::from(other)
+}
+
 impl Default for ContactList {
     fn default() -> Self {
         let traits = ListTraits::Same(Traits::default());
@@ -177,16 +183,11 @@ impl ContactList {
 
     /// Where among the `count` contacts from lane `first` on one with this key comes.
     fn place_of(&self, key: (u32, u32), first: usize, count: usize) -> usize {
-        let (mut low, mut high) = (first, first + count);
-        while low < high {
-            let middle = usize::midpoint(low, high);
-            if self.key(middle) < key {
-                low = middle + 1;
-            } else {
-                high = middle;
-            }
-        }
-        low
+        let ends = &self.ends[first / LANES..][..count.div_ceil(LANES)];
+        let before = ends.partition_point(|ends| rank(ends.key(0)) < rank(key)).saturating_sub(1);
+        let from = LANES * before;
+        let lanes = from..count.min(from + LANES);
+        first + from + lanes.filter(|&lane| rank(self.key(first + lane)) < rank(key)).count()
     }
 
     /// Takes the contact of lane `index` out.

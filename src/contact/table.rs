@@ -9,7 +9,7 @@ use std::ops::Range;
 use super::Contact;
 use super::block::Traits;
 use super::clock::{Clock, StepClock, WayClock};
-use super::list::{ContactList, Entry};
+use super::list::{ContactList, Entry, rank};
 use crate::cache::{ask_for, share_of};
 use crate::lanes::ROW;
 use crate::patch::{PATCH, PatchMotion, patch_of};
@@ -199,7 +199,7 @@ impl<C: Clock> Candidates<C> {
     pub fn wake(&mut self, key: (u32, u32)) {
         let rows = self.rows(patch_of(key.0));
         let (first, end) = (ROW * rows.start, ROW * rows.end);
-        let before = |pair: &Candidate| (pair.owner, pair.other) < key;
+        let before = |pair: &Candidate| rank((pair.owner, pair.other)) < rank(key);
         let candidate = first + self.bodies[first..end].partition_point(before);
         if candidate < end && self.key(candidate) == key {
             self.sleep(candidate, 0.0);
