@@ -175,46 +175,50 @@ impl Chunked for Start<'_> {
 /// Kicks and moves four particles. Returns where they come, as two rows.
 #[inline(always)]
 fn advance<P: Pull>(
-    motions: &mut [Motion; LANES],
+    [a, b, c, d]: &mut [Motion; LANES],
     (accelerations, spin_rates): Pulls,
     time_step: f64,
     sums: &mut QuadSums,
 ) -> [Lanes; 2] {
-    let (step, half) = (Lanes::splat(time_step), Lanes::splat(0.5 * time_step));
-    let to_angles = Lanes::new([0.0, time_step, 0.0, time_step]);
-    let moved = [0, 1].map(|pair| {
-        let [one, other] = [2 * pair, 2 * pair + 1];
-        let (kick, twist) = (accelerations[pair] * half, spin_rates[pair] * half);
-        let [before, mut velocities] = halves(motions[one].place, motions[other].place);
-        let [_, mut spins] = halves(motions[one].pace, motions[other].pace);
-        if P::UNFINISHED {
-            velocities += kick;
-            spins += twist;
-        }
-        velocities += kick;
-        spins += twist;
-        let displacements = velocities * step;
-        let positions = before + displacements;
-        // Angular velocities stay as they are, angles grow.
-        let [a, _, b, _] = spins.to_array();
-        spins += Lanes::new([a, a, b, b]) * to_angles;
-        [motions[one].place, motions[other].place] = halves(positions, velocities);
-        [motions[one].pace, motions[other].pace] = halves(velocities + kick, spins);
-        (before, displacements, positions, kick)
-    });
-    sums.note(moved.map(|pair| pair.0), moved.map(|pair| pair.1));
-    sums.note_kicks(moved.map(|pair| pair.3));
-    moved.map(|pair| pair.2)
+    let one = advance_two::<P>([a, b], (accelerations[0], spin_rates[0]), time_step, sums);
+    let other = advance_two::<P>([c, d], (accelerations[1], spin_rates[1]), time_step, sums);
+    [one, other]
+}
+
+#[inline(always)]
+fn advance_two<P: Pull>(
+    [one, other]: [&mut Motion; 2],
+    (acceleration, spin_rate): (Lanes, Lanes),
+    time_step: f64,
+    sums: &mut QuadSums,
+) -> Lanes {
+    let half = 0.5 * time_step;
+    let (kick, twist) = (acceleration * half, spin_rate * half);
+    let [before, mut velocity] = halves(one.place, other.place);
+    let [_, mut spin] = halves(one.pace, other.pace);
+    if P::UNFINISHED {
+        velocity += kick;
+        spin += twist;
+    }
+    velocity += kick;
+    spin += twist;
+    // Angular velocities stay as they are, angles grow.
+    let [a, _, b, _] = spin.to_array();
+    spin += Lanes::new([a, a, b, b]) * Lanes::new([0.0, time_step, 0.0, time_step]);
+    [one.pace, other.pace] = halves(velocity + kick, spin);
+    let way = velocity * time_step;
+    let position = before + way;
+    [one.place, other.place] = halves(position, velocity);
+    sums.note(before, way, kick);
+    position
 }
 
 /// Sums over the quads of a chunk.
 struct QuadSums {
     /// Σ m x and Σ m y of the particles with even, then with odd numbers.
     mass_moment: Lanes,
-    /// The squares of the longest ways.
-    longest_squared: Lanes,
-    /// The squares of the greatest half kicks.
-    greatest_squared: Lanes,
+    /// The squares of the longest way and the greatest half kick, of the particles with even, then with odd numbers.
+    most_squared: Lanes,
     /// The angle by which the drum turns, as the factors of y and x.
     turns: Lanes,
     time_step: f64,
@@ -224,23 +228,18 @@ impl QuadSums {
     fn new(turn: f64, time_step: f64) -> Self {
         let turns = Lanes::new([-turn, turn, -turn, turn]);
         let zero = Lanes::ZERO;
-        Self { mass_moment: zero, longest_squared: zero, greatest_squared: zero, turns, time_step }
+        Self { mass_moment: zero, most_squared: zero, turns, time_step }
     }
 
-    /// Takes note of the ways as seen from the drum.
+    /// Takes note of the ways of two particles, as seen from the drum, and of half kicks.
     #[inline(always)]
-    fn note(&mut self, positions: [Lanes; 2], displacements: [Lanes; 2]) {
-        let ways = std::array::from_fn(|two| {
-            let [a, b, c, d] = positions[two].to_array();
-            displacements[two] - Lanes::new([b, a, d, c]) * self.turns
-        });
-        self.longest_squared = squared_lengths(ways).fast_max(self.longest_squared);
-    }
-
-    /// Takes note of half kicks.
-    #[inline(always)]
-    fn note_kicks(&mut self, kicks: [Lanes; 2]) {
-        self.greatest_squared = squared_lengths(kicks).fast_max(self.greatest_squared);
+    fn note(&mut self, before: Lanes, way: Lanes, kick: Lanes) {
+        let [a, b, c, d] = before.to_array();
+        let seen = way - Lanes::new([b, a, d, c]) * self.turns;
+        let ([a, b, c, d], [e, f, g, h]) = ((seen * seen).to_array(), (kick * kick).to_array());
+        // In the order in which CPUs add neighbors.
+        let squares = Lanes::new([a, e, c, g]) + Lanes::new([b, f, d, h]);
+        self.most_squared = squares.fast_max(self.most_squared);
     }
 
     /// Adds particles to Σ m x, which stays without m where it is the same for all.
@@ -265,18 +264,9 @@ impl QuadSums {
 
     /// The most that anyone did since it was last taken.
     fn take_most(&mut self) -> PatchMotion {
-        let most = |squares: &mut Lanes| {
-            std::mem::replace(squares, Lanes::ZERO).to_array().into_iter().fold(0.0, larger).sqrt()
-        };
-        let kick = 2.0 * most(&mut self.greatest_squared);
-        PatchMotion { way: most(&mut self.longest_squared), change: kick * self.time_step }
+        let [way, kick, other_way, other_kick] =
+            std::mem::replace(&mut self.most_squared, Lanes::ZERO).to_array();
+        let change = 2.0 * larger(kick, other_kick).sqrt() * self.time_step;
+        PatchMotion { way: larger(way, other_way).sqrt(), change }
     }
-}
-
-/// The squared lengths of four vectors in two rows, in any order.
-#[inline(always)]
-fn squared_lengths(rows: [Lanes; 2]) -> Lanes {
-    let [[a, b, c, d], [e, f, g, h]] = rows.map(|row| (row * row).to_array());
-    // In the order in which CPUs add neighbors.
-    Lanes::new([a, e, c, g]) + Lanes::new([b, f, d, h])
 }
