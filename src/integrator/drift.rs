@@ -14,9 +14,17 @@ use crate::vector::{Vec2, larger};
 pub(super) struct Setting<'a> {
     pub(super) constants: &'a Constants,
     pub(super) time_step: f64,
-    /// The angle by which the drum turns [rad].
-    pub(super) turn: f64,
     pub(super) gravity: Vec2,
+    pub(super) ways: Ways<'a>,
+}
+
+/// How the longest ways are known.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Ways<'a> {
+    /// Measured, while the drum turns by so much [rad].
+    Measured { turn: f64 },
+    /// No longer than they were by patch, and the greatest change of a displacement, and `more` [m].
+    Bounded { before: &'a [PatchMotion], more: f64 },
 }
 
 /// The drift of whole chunks of particles.
@@ -59,22 +67,29 @@ impl Drift<'_> {
         self.run(motions, Known { accelerations, spin_rates });
     }
 
-    fn run(mut self, motions: &mut [Motion], mut pull: impl Pull) {
-        let mut sums = QuadSums::new(self.setting.turn, self.setting.time_step);
+    fn run(self, motions: &mut [Motion], pull: impl Pull) {
+        match self.setting.ways {
+            Ways::Measured { .. } => self.run_with::<true>(motions, pull),
+            Ways::Bounded { .. } => self.run_with::<false>(motions, pull),
+        }
+    }
+
+    fn run_with<const MEASURES: bool>(mut self, motions: &mut [Motion], mut pull: impl Pull) {
+        let mut sums = QuadSums::new(&self.setting);
         let each = self.setting.constants.of(self.first, motions.len());
         match self.setting.constants.same() {
-            Some(same) => self.move_quads(motions, &mut pull, same, &mut sums),
-            None => self.move_quads(motions, &mut pull, each, &mut sums),
+            Some(same) => self.move_quads::<_, _, MEASURES>(motions, &mut pull, same, &mut sums),
+            None => self.move_quads::<_, _, MEASURES>(motions, &mut pull, each, &mut sums),
         }
         if !motions.len().is_multiple_of(LANES) {
-            each.with_rest(|each| self.move_rest(motions, &mut pull, each, &mut sums));
+            each.with_rest(|each| self.move_rest::<_, MEASURES>(motions, &mut pull, each, &mut sums));
         }
         if let Some(chunk) = self.mass_moments.first_mut() {
             *chunk = sums.mass_moment();
         }
     }
 
-    fn move_quads<P: Pull, I: Inertia>(
+    fn move_quads<P: Pull, I: Inertia, const MEASURES: bool>(
         &mut self,
         motions: &mut [Motion],
         pull: &mut P,
@@ -84,21 +99,22 @@ impl Drift<'_> {
         let quads = motions.len() / LANES;
         // Slices of one known length let the compiler drop the bounds checks.
         let motions = &mut motions.as_chunks_mut().0[..quads];
+        let (own, ways) = (self.first / PATCH, self.setting.ways);
         for (patch, most) in self.patches.iter_mut().enumerate() {
             let first = patch * (PATCH / LANES);
             let of_patch = first..quads.min(first + PATCH / LANES);
             let motions = motions.get_mut(of_patch.clone()).unwrap_or_default();
             for (quad, four) in of_patch.zip(motions) {
                 let pulls = pull.of(quad, quads, inertia);
-                let positions = advance::<P>(four, pulls, self.setting.time_step, sums);
+                let positions = advance::<P, MEASURES>(four, pulls, self.setting.time_step, sums);
                 sums.weigh::<I>(positions, inertia.of(quad, quads).masses);
             }
-            *most = sums.take_most();
+            *most = sums.take_most(ways, own + patch);
         }
         sums.end_weighing(inertia);
     }
 
-    fn move_rest<P: Pull>(
+    fn move_rest<P: Pull, const MEASURES: bool>(
         &mut self,
         motions: &mut [Motion],
         pull: &mut P,
@@ -108,11 +124,12 @@ impl Drift<'_> {
         let pulls = pull.of_rest(inertia);
         let (_, rest) = motions.as_chunks_mut::<LANES>();
         let mut last = std::array::from_fn(|lane| rest[lane.min(rest.len() - 1)]);
-        let positions = advance::<P>(&mut last, pulls, self.setting.time_step, sums);
+        let positions = advance::<P, MEASURES>(&mut last, pulls, self.setting.time_step, sums);
         sums.weigh::<Each>(positions, inertia.of(0, 1).masses);
         put_rest(motions, &last);
+        let last = self.first / PATCH + self.patches.len() - 1;
         if let Some(most) = self.patches.last_mut() {
-            *most = most.and(sums.take_most());
+            *most = most.and(sums.take_most(self.setting.ways, last));
         }
     }
 }
@@ -174,15 +191,41 @@ impl Chunked for Start<'_> {
 
 /// Kicks and moves four particles. Returns where they come, as two rows.
 #[inline(always)]
-fn advance<P: Pull>(
+fn advance<P: Pull, const MEASURES: bool>(
     [a, b, c, d]: &mut [Motion; LANES],
     (accelerations, spin_rates): Pulls,
     time_step: f64,
     sums: &mut QuadSums,
 ) -> [Lanes; 2] {
-    let one = advance_two::<P>([a, b], (accelerations[0], spin_rates[0]), time_step, sums);
-    let other = advance_two::<P>([c, d], (accelerations[1], spin_rates[1]), time_step, sums);
-    [one, other]
+    let one = advance_two::<P>([a, b], (accelerations[0], spin_rates[0]), time_step);
+    if MEASURES {
+        sums.note(one.seen_way(sums.turns), one.kick);
+    }
+    let other = advance_two::<P>([c, d], (accelerations[1], spin_rates[1]), time_step);
+    if MEASURES {
+        sums.note(other.seen_way(sums.turns), other.kick);
+    } else {
+        sums.note(one.kick, other.kick);
+    }
+    [one.position, other.position]
+}
+
+/// What two particles did, as rows of x and y.
+struct Moved {
+    before: Lanes,
+    way: Lanes,
+    position: Lanes,
+    /// Half a kick.
+    kick: Lanes,
+}
+
+impl Moved {
+    /// The ways as seen from the drum, which turns by the factors of y and x.
+    #[inline(always)]
+    fn seen_way(&self, turns: Lanes) -> Lanes {
+        let [a, b, c, d] = self.before.to_array();
+        self.way - Lanes::new([b, a, d, c]) * turns
+    }
 }
 
 #[inline(always)]
@@ -190,8 +233,7 @@ fn advance_two<P: Pull>(
     [one, other]: [&mut Motion; 2],
     (acceleration, spin_rate): (Lanes, Lanes),
     time_step: f64,
-    sums: &mut QuadSums,
-) -> Lanes {
+) -> Moved {
     let half = 0.5 * time_step;
     let (kick, twist) = (acceleration * half, spin_rate * half);
     let [before, mut velocity] = halves(one.place, other.place);
@@ -209,15 +251,14 @@ fn advance_two<P: Pull>(
     let way = velocity * time_step;
     let position = before + way;
     [one.place, other.place] = halves(position, velocity);
-    sums.note(before, way, kick);
-    position
+    Moved { before, way, position, kick }
 }
 
 /// Sums over the quads of a chunk.
 struct QuadSums {
     /// Σ m x and Σ m y of the particles with even, then with odd numbers.
     mass_moment: Lanes,
-    /// The squares of the longest way and the greatest half kick, of the particles with even, then with odd numbers.
+    /// The squares of the greatest lengths noted, which alternate: of one row and of the other.
     most_squared: Lanes,
     /// The angle by which the drum turns, as the factors of y and x.
     turns: Lanes,
@@ -225,18 +266,16 @@ struct QuadSums {
 }
 
 impl QuadSums {
-    fn new(turn: f64, time_step: f64) -> Self {
-        let turns = Lanes::new([-turn, turn, -turn, turn]);
-        let zero = Lanes::ZERO;
-        Self { mass_moment: zero, most_squared: zero, turns, time_step }
+    fn new(setting: &Setting) -> Self {
+        let turn = if let Ways::Measured { turn } = setting.ways { turn } else { 0.0 };
+        let (turns, zero) = (Lanes::new([-turn, turn, -turn, turn]), Lanes::ZERO);
+        Self { mass_moment: zero, most_squared: zero, turns, time_step: setting.time_step }
     }
 
-    /// Takes note of the ways of two particles, as seen from the drum, and of half kicks.
+    /// Takes note of the lengths of vectors, two in each row: ways and half kicks, or half kicks alone.
     #[inline(always)]
-    fn note(&mut self, before: Lanes, way: Lanes, kick: Lanes) {
-        let [a, b, c, d] = before.to_array();
-        let seen = way - Lanes::new([b, a, d, c]) * self.turns;
-        let ([a, b, c, d], [e, f, g, h]) = ((seen * seen).to_array(), (kick * kick).to_array());
+    fn note(&mut self, one: Lanes, other: Lanes) {
+        let ([a, b, c, d], [e, f, g, h]) = ((one * one).to_array(), (other * other).to_array());
         // In the order in which CPUs add neighbors.
         let squares = Lanes::new([a, e, c, g]) + Lanes::new([b, f, d, h]);
         self.most_squared = squares.fast_max(self.most_squared);
@@ -262,11 +301,16 @@ impl QuadSums {
         Vec2::new(x + more_x, y + more_y)
     }
 
-    /// The most that anyone did since it was last taken.
-    fn take_most(&mut self) -> PatchMotion {
-        let [way, kick, other_way, other_kick] =
-            std::mem::replace(&mut self.most_squared, Lanes::ZERO).to_array();
-        let change = 2.0 * larger(kick, other_kick).sqrt() * self.time_step;
-        PatchMotion { way: larger(way, other_way).sqrt(), change }
+    /// The most that anyone of patch `patch` did since this was last taken.
+    fn take_most(&mut self, ways: Ways, patch: usize) -> PatchMotion {
+        let [a, b, c, d] = std::mem::replace(&mut self.most_squared, Lanes::ZERO).to_array();
+        let (one, other) = (larger(a, c).sqrt(), larger(b, d).sqrt());
+        match ways {
+            Ways::Measured { .. } => PatchMotion { way: one, change: 2.0 * other * self.time_step },
+            Ways::Bounded { before, more } => {
+                let change = 2.0 * larger(one, other) * self.time_step;
+                PatchMotion { way: before[patch].way + change + more, change }
+            }
+        }
     }
 }

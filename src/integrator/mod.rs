@@ -16,7 +16,7 @@ use crate::threads::{CHUNK, Threads, chunk_count};
 use crate::vector::Vec2;
 use constants::Constants;
 pub use drift::Drift;
-use drift::{Setting, Start};
+use drift::{Setting, Start, Ways};
 use kick::Kick;
 
 /// Where a particle is and how it moves, as two rows that load at once; one cache line.
@@ -120,7 +120,14 @@ pub struct Integrator {
     constants: Constants,
     time_step: f64,
     gravity: Vec2,
+    /// Steps since the ways of all were measured.
+    unmeasured: u32,
+    /// The angle by which the drum turned in the last step [rad], and the longest way in it [m].
+    last: (f64, f64),
 }
+
+/// Steps from one measurement of all ways to the next; in between they are bounded by how much displacements change.
+const MEASURED_EVERY: u32 = 16;
 
 impl Integrator {
     /// For these particles, which have not moved yet.
@@ -133,25 +140,43 @@ impl Integrator {
             constants: Constants::new(particles),
             time_step,
             gravity,
+            unmeasured: MEASURED_EVERY,
+            last: (0.0, 0.0),
         }
     }
 
-    /// A drift of all particles, while the drum turns by `turn` [rad], still to be run chunk by chunk; what it moves; and by
-    /// patch, the most that anyone did in the last step.
-    pub fn drift(&mut self, turn: f64) -> (Drift<'_>, &mut [Motion], &[PatchMotion]) {
+    /// A drift of all particles, none of which is farther than `farthest` from the axis [m], while the drum turns by `turn`
+    /// [rad], still to be run chunk by chunk; what it moves; and by patch, the most that anyone did in the last step.
+    pub fn drift(&mut self, turn: f64, farthest: f64) -> (Drift<'_>, &mut [Motion], &[PatchMotion]) {
         let (constants, time_step, gravity) = (&self.constants, self.time_step, self.gravity);
+        self.unmeasured += 1;
+        let ways = if self.unmeasured >= MEASURED_EVERY {
+            self.unmeasured = 0;
+            Ways::Measured { turn }
+        } else {
+            // As seen from the drum a displacement also changes as it is turned, and with the drum's speed.
+            let (last_turn, way) = self.last;
+            let turned = turn.abs() * (way + last_turn.abs() * farthest);
+            Ways::Bounded { before: &self.patches, more: turned + (turn - last_turn).abs() * farthest }
+        };
+        self.last.0 = turn;
         let drift = Drift {
             first: 0,
             patches: &mut self.next_patches,
             mass_moments: &mut self.mass_moments,
-            setting: Setting { constants, time_step, turn, gravity },
+            setting: Setting { constants, time_step, gravity, ways },
         };
         (drift, &mut self.motions, &self.patches)
     }
 
     /// Half a kick with the accelerations that the particles carry, then the drift; the motions must be up to date.
-    pub fn start(&mut self, particles: &Particles, turn: f64, threads: &Threads) -> DriftSums {
-        let (drift, motions, _) = self.drift(turn);
+    pub fn start(
+        &mut self,
+        particles: &Particles,
+        (turn, farthest): (f64, f64),
+        threads: &Threads,
+    ) -> DriftSums {
+        let (drift, motions, _) = self.drift(turn, farthest);
         let (accelerations, spin_rates) = (&particles.accelerations, &particles.angular_accelerations);
         let work = Start { drift, motions, accelerations, spin_rates };
         threads.for_each_chunk(accelerations.len(), work, &Start::run);
@@ -163,6 +188,7 @@ impl Integrator {
         std::mem::swap(&mut self.patches, &mut self.next_patches);
         let mass_moment = self.mass_moments.iter().fold(Vec2::zeros(), |sum, part| sum + part);
         let longest_way = self.patches.iter().fold(0.0, |most: f64, patch| most.max(patch.way));
+        self.last.1 = longest_way;
         DriftSums { mass_moment, longest_way }
     }
 
@@ -207,5 +233,50 @@ impl Integrator {
                 particles.angular_accelerations[particle] = load.moment() * constants.inverse_inertias[i];
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::vector::perpendicular;
+
+    /// Particles that are kicked about while the drum starts, turns and stops: as seen from it, nobody goes farther than is
+    /// said of their patch, nor than everybody.
+    #[test]
+    fn ways_are_measured_or_bounded() {
+        let wave = |k: usize, pace: usize| (k * pace % 1009) as f64 / 504.5 - 1.0;
+        let place = |i: usize| Vec2::new(wave(i, 577), wave(i, 911));
+        let count = 2 * PATCH + 3;
+        let mut particles =
+            Particles::at_rest((0..count).map(place).collect(), vec![0.01; count], 1.0, false);
+        particles.velocities = (0..count).map(|i| Vec2::new(wave(i, 313), wave(i, 717)) * 0.3).collect();
+        let (time_step, farthest) = (1e-3, 2.0);
+        let mut integrator = Integrator::new(&particles, time_step, Vec2::new(0.0, -9.81));
+        let mut exact = 0;
+        for step in 0..200 {
+            let turn = if step < 100 { 1e-4 * wave(step, 7) } else { 2e-3 };
+            let before: Vec<Vec2> = integrator.motions.iter().map(Motion::position).collect();
+            let push = |i: usize| Lanes::new([wave(i + step, 17), wave(i, 29 + step), 0.0, 0.0]) * 0.01;
+            let mut loads: Vec<Load> = (0..count).map(|i| Load(push(i))).collect();
+            let (drift, motions, _) = integrator.drift(turn, farthest);
+            drift.kick_and_run(motions, &mut loads);
+            let longest = integrator.end_drift().longest_way;
+            let way = |i: usize| {
+                let motion: &Motion = &integrator.motions[i];
+                (motion.velocity() * time_step - perpendicular(before[i]) * turn).norm()
+            };
+            for (patch, most) in integrator.patches.iter().enumerate() {
+                let members = patch * PATCH..count.min((patch + 1) * PATCH);
+                let farthest_gone = members.map(way).fold(0.0, f64::max);
+                assert!(farthest_gone <= most.way * (1.0 + 1e-12), "step {step}, patch {patch}");
+                assert!(most.way <= longest);
+                exact += usize::from(most.way <= farthest_gone * (1.0 + 1e-12));
+            }
+        }
+        assert!(
+            exact >= 2 * 200 / MEASURED_EVERY as usize,
+            "whole patches are measured now and then: {exact}"
+        );
     }
 }

@@ -53,10 +53,15 @@ impl VerletList {
         self.budget <= 0.0 || self.budget.is_nan()
     }
 
+    /// A distance from the axis that nobody goes beyond while the list holds [m].
+    pub fn farthest(&self) -> f64 {
+        self.farthest + self.skin
+    }
+
     /// How far at most a way departs from its measure along the tangent while the drum turns by `turn` [rad]:
     /// |x| turn² / 2 [m].
     pub fn arc(&self, turn: f64) -> f64 {
-        0.5 * turn * turn * (self.farthest + self.skin)
+        0.5 * turn * turn * self.farthest()
     }
 
     /// 1 / (distance + reach) for particles of at most `largest_radius` that the list holds, taken slightly low to cover
@@ -69,7 +74,7 @@ impl VerletList {
 
     /// More than round-off of positions changes a displacement by from one step to the next [m].
     pub fn round_off(&self) -> f64 {
-        8.0 * f64::EPSILON * (self.farthest + self.skin)
+        8.0 * f64::EPSILON * self.farthest()
     }
 
     /// Whether the list still holds for sure: nobody has moved half the skin, or close to it.

@@ -299,7 +299,8 @@ impl Simulation {
     fn start_drift(&mut self) -> (f64, DriftSums) {
         let turn = self.next_turn();
         self.forces.loads.fill(Load::default());
-        (turn, self.integrator.start(&self.state.particles, turn, &self.threads))
+        let farthest = self.list.farthest();
+        (turn, self.integrator.start(&self.state.particles, (turn, farthest), &self.threads))
     }
 
     /// The angle by which the drum turns in the step after the last [rad].
@@ -336,7 +337,7 @@ impl Simulation {
         let turn = self.next_turn();
         let Particles { materials, masses, radii, .. } = &self.state.particles;
         let matter = Matter { materials, masses, radii, radius: self.fixed.radius, pair: self.fixed.pair };
-        let (drift, motions, patches) = self.integrator.drift(turn);
+        let (drift, motions, patches) = self.integrator.drift(turn, self.list.farthest());
         let scene = scene(&self.fixed, &self.list, self.inverse_reach, (matter, patches), instant);
         self.forces.evaluate_and_move(scene, &mut self.table, (drift, motions), &self.threads);
         self.ahead = Some((turn, self.integrator.end_drift()));
