@@ -126,11 +126,10 @@ def compare_sweeps(repeats: int) -> None:
     if len(cores) < 2:  # noqa: PLR2004
         print("not measured: there is one core only")
         return
-    ratios = []
-    for _ in range(repeats):
-        one, two = (_sweep_seconds(jobs) for jobs in (1, 2))
-        ratios.append(one / two)
-    print(spread(ratios, 2))
+    rounds = [(_sweep_seconds(1), _sweep_seconds(2)) for _ in range(repeats)]
+    least_one, least_two = (min(times) for times in zip(*rounds, strict=True))
+    ratios = [one / two for one, two in rounds]
+    print(f"{spread(ratios, 2)}; {least_one / least_two:.2f} by the least time of each")
 
 
 def _sweep_seconds(jobs: int) -> float:
