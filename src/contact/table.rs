@@ -191,8 +191,8 @@ impl<C: Clock> Candidates<C> {
 
     /// Lets a candidate sleep until its clock shows `until`.
     #[inline]
-    pub fn sleep(&mut self, candidate: usize, until: f64) {
-        self.wake[candidate] = until as f32;
+    pub fn sleep(&mut self, candidate: usize, until: f32) {
+        self.wake[candidate] = until;
     }
 
     /// Wakes the candidate of a contact that has ended, if the list still holds it.
@@ -220,7 +220,7 @@ impl<C: Clock> Slots<C> {
     /// Makes a contact, still without history, of candidate `index`.
     pub fn open(&mut self, index: usize, traits: Traits) {
         let (particle, other) = self.candidates.key(index);
-        self.candidates.sleep(index, f64::INFINITY);
+        self.candidates.sleep(index, f32::INFINITY);
         let contact = Contact { particle, other, ..Contact::default() };
         self.contacts.insert(Entry { contact, traits });
     }
@@ -236,7 +236,7 @@ impl<C: Clock> Slots<C> {
         let key = self.contacts.key(index);
         let mut entry = self.contacts.remove(index);
         self.candidates.wake(key);
-        self.candidates.sleep(heir, f64::INFINITY);
+        self.candidates.sleep(heir, f32::INFINITY);
         entry.contact.other = self.candidates.key(heir).1;
         self.contacts.insert(entry);
     }
@@ -249,7 +249,7 @@ impl<C: Clock> Slots<C> {
                 candidate += 1;
             }
             if candidate < self.candidates.len() && self.candidates.key(candidate) == key {
-                self.candidates.sleep(candidate, f64::INFINITY);
+                self.candidates.sleep(candidate, f32::INFINITY);
             }
         }
     }

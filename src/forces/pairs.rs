@@ -153,6 +153,7 @@ fn look_at_due(
     ahead: &mut Ahead<impl Motions>,
     scratch: &mut Scratch,
 ) {
+    align_stack();
     let Scratch { due, patches, bodies, .. } = scratch;
     let due = &due.as_chunks().0[..scratch.fours];
     // All are fetched before any is looked at: where they have left the cache, many reads are then under way at once.
@@ -240,7 +241,9 @@ fn look_at(
     let approach = -between.dot(apart).fast_min(Lanes::ZERO) * share;
     let sleep = steps_to_touch(gap, approach, Lanes::splat(clock.limit()));
     let sleep = Lanes::splat(clock.steps()) + sleep.fast_min(Lanes::splat(LONGEST_SLEEP));
-    for (&candidate, until) in due.iter().zip(sleep.to_array()) {
+    // All are rounded before any is written: that takes one instruction.
+    let until = sleep.to_array().map(|until| until as f32);
+    for (&candidate, until) in due.iter().zip(until) {
         candidates.sleep(candidate as usize, until);
     }
     if !excess.simd_lt(Lanes::ZERO).any() {

@@ -66,7 +66,7 @@ fn open_contacts(scene: Scene<impl Motions>, slots: &mut Slots<WayClock>) {
             // Only the particle moves, as seen from the drum. Slightly less than the gap covers round-off.
             match gap(scene, id, feature) {
                 Some(gap) if gap >= 0.0 => {
-                    slots.candidates.sleep(candidate, way + (1.0 - 1e-6) * gap);
+                    slots.candidates.sleep(candidate, (way + (1.0 - 1e-6) * gap) as f32);
                 }
                 Some(_) => open(scene, slots, candidate),
                 None => {}

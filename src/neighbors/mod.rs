@@ -9,7 +9,7 @@ use cells::CellGrid;
 
 use crate::contact::table::{Candidate, ChunkSlots, ContactTable};
 use crate::drum::{Drum, RIM};
-use crate::lanes::{FOUR_IN_FRONT, LANES, Lanes, WholeFour, lanes};
+use crate::lanes::{FOUR_IN_FRONT, LANES, Lanes, WholeFour, align_stack, lanes};
 use crate::particles::Particles;
 use crate::patch::PATCH;
 use crate::threads::{CHUNK, Chunked, Threads};
@@ -126,6 +126,7 @@ struct Search<'a> {
 impl Search<'_> {
     fn run(self, around: Surroundings, grid: &CellGrid, anchors: &[Vec2], (skin, same): (f64, Option<f64>)) {
         let Some(ChunkSlots { pairs, walls }) = self.chunks.first_mut() else { return };
+        align_stack();
         pairs.candidates.clear();
         walls.candidates.clear();
         let (mut found, mut room) = (Vec::new(), Vec::new());
