@@ -1,19 +1,9 @@
 //! Patches: particles in a row, neighbors in large loads, whose motion is followed together.
 
-use crate::threads::CHUNK;
 use crate::vector::larger;
 
 /// Particles per patch; a chunk has several.
 pub const PATCH: usize = 128;
-
-/// Patches in a chunk.
-pub const PATCHES: usize = CHUNK / PATCH;
-
-/// The patch of its chunk that a particle belongs to.
-#[inline]
-pub fn patch_of(particle: u32) -> usize {
-    particle as usize % CHUNK / PATCH
-}
 
 /// The most that a particle of some patch did in a step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

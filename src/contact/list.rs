@@ -7,7 +7,8 @@ use super::block::{Block, Ends, Traits, TraitsBlock};
 use super::shift::{close_gap, open_gap};
 use crate::cache::{ask_for, share_of};
 use crate::lanes::LANES;
-use crate::patch::{PATCHES, patch_of};
+use crate::patch::PATCH;
+use crate::threads::CHUNK;
 
 /// One contact with all that its list keeps of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -50,6 +51,15 @@ pub struct ContactList {
     traits: ListTraits,
     /// Numbers of contacts, by patch.
     counts: [u32; PATCHES],
+}
+
+/// Patches in a chunk.
+const PATCHES: usize = CHUNK / PATCH;
+
+/// The patch of its chunk that a particle belongs to.
+#[inline]
+pub(super) fn patch_of(particle: u32) -> usize {
+    particle as usize % CHUNK / PATCH
 }
 
 /// A key as one number, in the same order: comparing two at once leaves no branch that a CPU could not foretell.

@@ -9,10 +9,10 @@ use std::ops::Range;
 use super::Contact;
 use super::block::Traits;
 use super::clock::{Clock, StepClock, WayClock};
-use super::list::{ContactList, Entry, rank};
+use super::list::{ContactList, Entry, patch_of, rank};
 use crate::cache::{ask_for, share_of};
 use crate::lanes::ROW;
-use crate::patch::{PATCH, PatchMotion, patch_of};
+use crate::patch::{PATCH, PatchMotion};
 use crate::threads::{CHUNK, chunk_count};
 
 /// Two bodies near each other.
