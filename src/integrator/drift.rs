@@ -228,6 +228,7 @@ impl Moved {
     }
 }
 
+/// Kicks and moves two particles.
 #[inline(always)]
 fn advance_two<P: Pull>(
     [one, other]: [&mut Motion; 2],
