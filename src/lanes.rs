@@ -5,7 +5,7 @@
 
 use std::ops::{Add, Mul, Neg, Sub};
 
-use wide::{f32x8, f64x4, u32x4, u32x8};
+use wide::{f32x8, f64x4, u32x8};
 
 use crate::vector::Vec2;
 
@@ -24,21 +24,13 @@ pub const ROW: usize = 8;
 /// As many whole numbers.
 pub type WholeRow = u32x8;
 
-/// Four whole numbers.
-pub type WholeFour = u32x4;
-
-/// For each set of four lanes, as bits: its lanes in front, in their order.
-pub const FOUR_IN_FRONT: [[u32; LANES]; 1 << LANES] = in_front();
-
-/// The same of eight.
-pub const EIGHT_IN_FRONT: [[u32; ROW]; 1 << ROW] = in_front();
-
-const fn in_front<const N: usize, const SETS: usize>() -> [[u32; N]; SETS] {
-    let mut table = [[0; N]; SETS];
+/// For each set of eight lanes, as bits: its lanes in front, in their order.
+pub const EIGHT_IN_FRONT: [[u32; ROW]; 1 << ROW] = {
+    let mut table = [[0; ROW]; 1 << ROW];
     let mut set = 0;
-    while set < SETS {
+    while set < table.len() {
         let (mut lane, mut count) = (0, 0);
-        while lane < N {
+        while lane < ROW {
             if set >> lane & 1 == 1 {
                 table[set][count] = lane as u32;
                 count += 1;
@@ -48,6 +40,23 @@ const fn in_front<const N: usize, const SETS: usize>() -> [[u32; N]; SETS] {
         set += 1;
     }
     table
+};
+
+/// The numbers in the lanes of a set, given as bits, in front, in their order; what comes after them means nothing.
+#[inline(always)]
+pub fn in_front(numbers: WholeRow, set: usize) -> WholeRow {
+    let lanes = EIGHT_IN_FRONT[set & (EIGHT_IN_FRONT.len() - 1)];
+    #[cfg(target_feature = "avx2")]
+    {
+        use safe_arch::{m256i, shuffle_av_i32_all_m256i};
+        let moved = shuffle_av_i32_all_m256i(m256i::from(numbers.to_array()), m256i::from(lanes));
+        WholeRow::new(moved.into())
+    }
+    #[cfg(not(target_feature = "avx2"))]
+    {
+        let numbers = numbers.to_array();
+        WholeRow::new(lanes.map(|lane| numbers[lane as usize]))
+    }
 }
 
 /// Aligns the stack of the function that calls it, where compilers would spill rows of numbers at any multiple of 16 bytes:

@@ -23,6 +23,44 @@ pub trait Chunked: Sized + Send {
     fn split(self, chunks: usize) -> (Self, Self);
 }
 
+impl<A: Chunked, B: Chunked> Chunked for (A, B) {
+    fn chunks(&self) -> usize {
+        self.0.chunks()
+    }
+
+    fn split(self, chunks: usize) -> (Self, Self) {
+        let ((left, right), (more_left, more_right)) = (self.0.split(chunks), self.1.split(chunks));
+        ((left, more_left), (right, more_right))
+    }
+}
+
+/// Some values of the particles of whole chunks, one each.
+#[derive(Debug)]
+pub struct Values<'a, T> {
+    /// The first of the particles.
+    pub first: usize,
+    /// Their values.
+    pub values: &'a mut [T],
+}
+
+impl<'a, T> Values<'a, T> {
+    /// Those of all particles.
+    pub fn of_all(values: &'a mut [T]) -> Self {
+        Self { first: 0, values }
+    }
+}
+
+impl<T: Send> Chunked for Values<'_, T> {
+    fn chunks(&self) -> usize {
+        chunk_count(self.values.len())
+    }
+
+    fn split(self, chunks: usize) -> (Self, Self) {
+        let (values, more) = self.values.split_at_mut(chunks * CHUNK);
+        (Self { first: self.first, values }, Self { first: self.first + chunks * CHUNK, values: more })
+    }
+}
+
 /// The threads that one simulation may use.
 ///
 /// A forked process has none of them. There the simulation goes on with the one thread that there is, with the same bits.
@@ -111,6 +149,33 @@ impl Threads {
         } else {
             in_turn(work).for_each(kernel);
         }
+    }
+
+    /// Sets each of `values`, one a particle, to what `value` gives for its number.
+    pub fn set_each<T: Send>(&self, values: &mut [T], value: &(impl Fn(usize) -> T + Sync)) {
+        self.for_each_chunk(values.len(), Values::of_all(values), &|part: Values<T>| {
+            for (i, own) in part.values.iter_mut().enumerate() {
+                *own = value(part.first + i);
+            }
+        });
+    }
+
+    /// The greatest of each of the numbers that `numbers` gives for `count` particles, −∞ for none; what is not a number does
+    /// not count.
+    pub fn greatest<const N: usize>(
+        &self,
+        count: usize,
+        numbers: &(impl Fn(usize) -> [f64; N] + Sync),
+    ) -> [f64; N] {
+        let none = [f64::NEG_INFINITY; N];
+        let larger = |most: [f64; N], other: [f64; N]| std::array::from_fn(|k| most[k].max(other[k]));
+        let mut most = vec![none; chunk_count(count)];
+        let starts = (0..count).step_by(CHUNK);
+        let chunks = starts.zip(&mut most).collect();
+        self.for_each(count, chunks, &|(start, most): (usize, &mut [f64; N])| {
+            *most = (start..count.min(start + CHUNK)).map(numbers).fold(none, larger);
+        });
+        most.into_iter().fold(none, larger)
     }
 
     /// Runs `kernel` on each of `pieces`, on several threads where that pays for `count` particles.

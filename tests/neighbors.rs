@@ -16,19 +16,20 @@ use proptest::prelude::*;
 proptest! {
     #![proptest_config(ProptestConfig { cases: 128, failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// For any load of mixed sizes at any angle of the drum, the list holds exactly the pairs within reach, and every
-    /// part of the drum within reach.
+    /// For any load of mixed sizes at any angle of the drum, the list holds the pairs within reach, and every part of the
+    /// drum within reach; of other pairs only those that round-off could have brought there.
     #[test]
     fn the_list_is_brute_force(
         bundles in proptest::collection::vec((-0.22..0.22_f64, -0.22..0.22_f64, 0.002..0.02_f64), 1..700),
         skin in 0.0..0.02_f64,
         angle in -7.0..7.0_f64,
         threads in 1..3_usize,
+        same in any::<bool>(),
     ) {
         let config = baseline(1, 3);
         let drum = Drum::new(&config.drum).unwrap();
         let positions: Vec<Vec2> = bundles.iter().map(|b| Vec2::new(b.0, b.1)).collect();
-        let radii: Vec<f64> = bundles.iter().map(|b| b.2).collect();
+        let radii: Vec<f64> = bundles.iter().map(|b| if same { 0.01 } else { b.2 }).collect();
         let particles = Particles::at_rest(positions.clone(), radii.clone(), 1000.0, false);
         let mut table = ContactTable::empty(particles.len());
         let mut list = VerletList::new(skin);
@@ -37,14 +38,18 @@ proptest! {
         list.rebuild(around, &mut table, &Threads::new(threads).unwrap());
 
         for i in 0..particles.len() {
-            let expected: Vec<u32> = (i + 1..particles.len())
-                .filter(|&j| (positions[j] - positions[i]).norm() < radii[i] + radii[j] + skin)
-                .map(|j| j as u32)
-                .collect();
+            let (positions, radii) = (&positions, &radii);
+            let within = |part: f64| {
+                let gap = move |j: usize| (positions[j] - positions[i]).norm() - radii[i] - radii[j];
+                (i + 1..particles.len()).filter(move |&j| gap(j) < skin + part * DRUM_RADIUS).map(|j| j as u32)
+            };
             let slots = &table.chunks[i / CHUNK];
             let pairs = &slots.pairs.candidates;
             let listed: Vec<u32> = pairs.of(i as u32).map(|candidate| pairs.key(candidate).1).collect();
-            prop_assert_eq!(listed, expected);
+            prop_assert!(listed.windows(2).all(|two| two[0] < two[1]));
+            prop_assert!(within(0.0).all(|other| listed.contains(&other)));
+            let could_be: Vec<u32> = within(1e-5).collect();
+            prop_assert!(listed.iter().all(|other| could_be.contains(other)));
 
             let walls = &slots.walls.candidates;
             let listed: Vec<u32> = walls.of(i as u32).map(|candidate| walls.key(candidate).1).collect();

@@ -11,6 +11,7 @@
 //! Fₜ = kₛ ξ. Slip is positive where ξ grows; displacements along the normal are positive where bodies part.
 
 pub mod block;
+pub mod candidates;
 pub mod clock;
 pub mod laws;
 pub mod linear;

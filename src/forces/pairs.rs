@@ -9,10 +9,11 @@ use super::bodies::{FlowLanes, Met, Pairs, settle};
 use super::motions::Motions;
 use super::post::Sink;
 use crate::contact::block::{Block, Ends, TraitsLanes};
+use crate::contact::candidates::{Candidate, Candidates};
 use crate::contact::clock::StepClock;
 use crate::contact::linear::LinearLanes;
 use crate::contact::list::ListTraits;
-use crate::contact::table::{Candidate, Candidates, Slots};
+use crate::contact::table::Slots;
 use crate::energy::StepFlows;
 use crate::lanes::{
     EIGHT_IN_FRONT, LANES, Lanes, ROW, Row, Vec2Lanes, WholeRow, align_stack, lanes, transpose,

@@ -5,19 +5,17 @@
 
 mod constants;
 mod drift;
-mod kick;
 mod pull;
 mod quad;
 
 use crate::lanes::Lanes;
 use crate::particles::Particles;
 use crate::patch::{PATCH, PatchMotion};
-use crate::threads::{CHUNK, Threads, chunk_count};
+use crate::threads::{CHUNK, Threads, Values, chunk_count};
 use crate::vector::Vec2;
 use constants::Constants;
 pub use drift::Drift;
 use drift::{Setting, Start, Ways};
-use kick::Kick;
 
 /// Where a particle is and how it moves, as two rows that load at once; one cache line.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -126,6 +124,12 @@ pub struct Integrator {
     last: (f64, f64),
 }
 
+/// What the particles of some chunks are told: centers and velocities; angular velocities and angles.
+type Shown<'a> = ((Values<'a, Vec2>, Values<'a, Vec2>), (Values<'a, f64>, Values<'a, f64>));
+
+/// What a step brings up to date at its end, if somebody looks: motions; accelerations and angular accelerations.
+type Kicked<'a> = (Values<'a, Motion>, (Values<'a, Vec2>, Values<'a, f64>));
+
 /// Steps from one measurement of all ways to the next; in between they are bounded by how much displacements change.
 const MEASURED_EVERY: u32 = 16;
 
@@ -195,32 +199,43 @@ impl Integrator {
     /// Accelerations from the loads and gravity, then the second half of the kick: motions and particles are up to date.
     pub fn finish(&mut self, particles: &mut Particles, loads: &[Load], threads: &Threads) {
         let (constants, half_step, gravity) = (&self.constants, 0.5 * self.time_step, self.gravity);
-        let work = Kick {
-            first: 0,
-            motions: &mut self.motions,
-            accelerations: &mut particles.accelerations,
-            spin_rates: &mut particles.angular_accelerations,
-            loads,
-        };
-        threads.for_each_chunk(loads.len(), work, &|chunk: Kick| chunk.run(constants, half_step, gravity));
-        self.show(particles);
+        let Particles { accelerations, angular_accelerations, .. } = particles;
+        let rates = (Values::of_all(accelerations), Values::of_all(angular_accelerations));
+        let work = (Values::of_all(&mut self.motions), rates);
+        threads.for_each_chunk(loads.len(), work, &|(motions, rates): Kicked| {
+            let (accelerations, spin_rates) = rates;
+            let own = constants.of(motions.first, motions.values.len());
+            for (i, motion) in motions.values.iter_mut().enumerate() {
+                let load = loads[motions.first + i];
+                let acceleration = load.force() * own.inverse_masses[i] + gravity;
+                let spin_rate = load.moment() * own.inverse_inertias[i];
+                motion.kick(acceleration * half_step, spin_rate * half_step);
+                (accelerations.values[i], spin_rates.values[i]) = (acceleration, spin_rate);
+            }
+        });
+        self.show(particles, threads);
     }
 
     /// Tells the particles where they are and how they move.
-    pub fn show(&self, particles: &mut Particles) {
-        self.place(&mut particles.positions);
-        for (i, motion) in self.motions.iter().enumerate() {
-            particles.velocities[i] = motion.velocity();
-            particles.angular_velocities[i] = motion.spin();
-            particles.angles[i] = motion.angle();
-        }
+    pub fn show(&self, particles: &mut Particles, threads: &Threads) {
+        let Particles { positions, velocities, angular_velocities, angles, .. } = particles;
+        let centers = (Values::of_all(positions), Values::of_all(velocities));
+        let turns = (Values::of_all(angular_velocities), Values::of_all(angles));
+        threads.for_each_chunk(self.motions.len(), (centers, turns), &|(centers, turns): Shown| {
+            let ((positions, velocities), (spins, angles)) = (centers, turns);
+            let motions = &self.motions[positions.first..];
+            for (i, (position, motion)) in positions.values.iter_mut().zip(motions).enumerate() {
+                *position = motion.position();
+                velocities.values[i] = motion.velocity();
+                spins.values[i] = motion.spin();
+                angles.values[i] = motion.angle();
+            }
+        });
     }
 
     /// Tells the particles where they are.
-    pub fn place(&self, positions: &mut [Vec2]) {
-        for (position, motion) in positions.iter_mut().zip(&self.motions) {
-            *position = motion.position();
-        }
+    pub fn place(&self, positions: &mut [Vec2], threads: &Threads) {
+        threads.set_each(positions, &|i| self.motions[i].position());
     }
 
     /// Accelerations from the loads and gravity alone: the start of a simulation, before the first kick.

@@ -1,7 +1,8 @@
 //! A uniform grid of cells, filled by counting sort.
 
-use crate::lanes::LANES;
-use crate::vector::{Vec2, bounds};
+use crate::lanes::{ROW, Row, WholeRow};
+use crate::threads::Threads;
+use crate::vector::Vec2;
 
 /// Particles by cell; within a cell in id order. A rim of empty cells spares those inside the bounds.
 #[derive(Debug, Clone, Default)]
@@ -12,40 +13,24 @@ pub struct CellGrid {
     rows: usize,
     /// Cell `c` holds the members `starts[c]..starts[c + 1]`.
     starts: Vec<u32>,
-    /// The members and their positions: a search reads four in a row, which may be past the last one.
+    /// By cell: the first member of the one before and the end of the one after it.
+    spans: Vec<[u32; 2]>,
+    /// The members and where they are, as seen from the origin [cells]: a search reads eight in a row, which may be past the
+    /// last one.
     members: Vec<u32>,
-    x: Vec<f64>,
-    y: Vec<f64>,
+    x: Vec<f32>,
+    y: Vec<f32>,
     /// The cell of each particle.
     cells: Vec<u32>,
 }
 
-/// The members of some cells in a row, four at a time.
-#[derive(Debug, Clone, Copy)]
-pub struct Fours<'a> {
-    /// The place of the first.
-    pub first: usize,
-    /// How many there are; what comes after the last means nothing.
-    pub count: usize,
-    /// The particles.
-    pub members: &'a [[u32; LANES]],
-    /// Their positions.
-    pub x: &'a [[f64; LANES]],
-    /// The same.
-    pub y: &'a [[f64; LANES]],
-}
-
 impl CellGrid {
-    /// Sorts `positions` into cells wider than `size` by more than round-off; finite positions and a positive size are the
-    /// caller's care.
+    /// Sorts `positions`, which are within the corners (left and low, right and high), into cells wider than `size` by more
+    /// than round-off; finite positions and a positive size are the caller's care.
     ///
     /// Where a few particles are far from the rest, the cells grow instead of their number, so that memory stays in
     /// proportion to the particles.
-    pub fn fill(&mut self, positions: &[Vec2], size: f64) {
-        let Some((low, high)) = bounds(positions) else {
-            *self = Self::default();
-            return;
-        };
+    pub fn fill(&mut self, positions: &[Vec2], (low, high): (Vec2, Vec2), size: f64, threads: &Threads) {
         let most = 4 * positions.len() + 16;
         let mut size = size * (1.0 + 1e-6);
         let (columns, rows) = loop {
@@ -57,63 +42,88 @@ impl CellGrid {
         };
         (self.columns, self.rows) = (columns as usize, rows as usize);
         (self.origin, self.inverse_size) = (low, 1.0 / size);
+        let mut cells = std::mem::take(&mut self.cells);
+        cells.resize(positions.len(), 0);
+        threads.set_each(&mut cells, &|i| self.cell_of(positions[i]));
+        self.cells = cells;
         self.sort(positions);
     }
 
     fn sort(&mut self, positions: &[Vec2]) {
         self.starts.clear();
         self.starts.resize(self.columns * self.rows + 1, 0);
-        let mut cells = std::mem::take(&mut self.cells);
-        cells.clear();
-        cells.extend(positions.iter().map(|&position| self.cell_of(position)));
-        for &cell in &cells {
+        for &cell in &self.cells {
             self.starts[cell as usize + 1] += 1;
         }
         for cell in 0..self.columns * self.rows {
             self.starts[cell + 1] += self.starts[cell];
         }
-        self.members.resize(positions.len() + LANES, 0);
-        self.x.resize(positions.len() + LANES, 0.0);
-        self.y.resize(positions.len() + LANES, 0.0);
+        self.members.resize(positions.len() + ROW, 0);
+        self.x.resize(positions.len() + ROW, 0.0);
+        self.y.resize(positions.len() + ROW, 0.0);
         // Filling from the back turns each cell's end into its start without a second array of cursors.
-        for (id, (&cell, &position)) in cells.iter().zip(positions).enumerate().rev() {
+        for (id, (&cell, &position)) in self.cells.iter().zip(positions).enumerate().rev() {
             let start = &mut self.starts[cell as usize + 1];
             *start -= 1;
             let place = *start as usize;
             self.members[place] = id as u32;
-            (self.x[place], self.y[place]) = (position.x, position.y);
+            (self.x[place], self.y[place]) = self.seen(position);
         }
         self.starts.remove(0);
         self.starts.push(positions.len() as u32);
-        self.cells = cells;
+        self.spans.clear();
+        self.spans.push([0; 2]);
+        self.spans.extend(self.starts.windows(4).map(|starts| [starts[0], starts[3]]));
+        self.spans.resize(self.starts.len(), [0; 2]);
+    }
+
+    /// Where a position is as seen from the origin, in cells.
+    #[inline(always)]
+    fn place(&self, position: Vec2) -> Vec2 {
+        (position - self.origin) * self.inverse_size
     }
 
     fn cell_of(&self, position: Vec2) -> u32 {
-        let place = (position - self.origin) * self.inverse_size;
+        let place = self.place(position);
         (place.y as u32 + 1) * self.columns as u32 + place.x as u32 + 1
     }
 
-    /// The particles in their places, cell by cell.
-    pub fn members(&self) -> &[u32] {
-        &self.members
+    /// The same as `place`, in half the precision.
+    #[inline(always)]
+    pub fn seen(&self, position: Vec2) -> (f32, f32) {
+        let place = self.place(position);
+        (place.x as f32, place.y as f32)
     }
 
-    /// Calls `visit` with the members of the cell of a particle and of its neighbors, row of cells by row.
-    #[inline]
-    pub fn for_each_near(&self, particle: usize, mut visit: impl FnMut(Fours)) {
-        let cell = self.cells[particle] as usize;
-        for row in [cell - self.columns, cell, cell + self.columns] {
-            let (start, end) = (self.starts[row - 1] as usize, self.starts[row + 2] as usize);
-            let fours = start..start + (end - start).next_multiple_of(LANES);
-            visit(Fours {
-                first: start,
-                count: end - start,
-                members: self.members[fours.clone()].as_chunks().0,
-                x: self.x[fours.clone()].as_chunks().0,
-                y: self.y[fours].as_chunks().0,
-            });
-        }
+    /// More than the square of the distance [cells] that two particles are seen at where it is `distance` [m].
+    #[inline(always)]
+    pub fn seen_squared(&self, distance: f64) -> f32 {
+        let round_off = 4.0 * f64::from(f32::EPSILON) * self.columns.max(self.rows) as f64;
+        ((distance * self.inverse_size + round_off).powi(2) * (1.0 + 1e-5)) as f32
     }
+
+    /// The places of the members of the cell of a particle and of its neighbors, row of cells by row: the first, and that
+    /// after the last.
+    #[inline(always)]
+    pub fn near(&self, particle: usize) -> [[u32; 2]; 3] {
+        let cell = self.cells[particle] as usize;
+        [cell - self.columns, cell, cell + self.columns].map(|middle| self.spans[middle])
+    }
+
+    /// Eight members from a place on, and where they are seen; what comes after the last means nothing.
+    #[inline(always)]
+    pub fn eight_from(&self, place: u32) -> (WholeRow, Row, Row) {
+        let place = place as usize;
+        let (members, x, y) = (eight(&self.members, place), eight(&self.x, place), eight(&self.y, place));
+        (WholeRow::new(members), Row::new(x), Row::new(y))
+    }
+}
+
+#[inline(always)]
+fn eight<T: Copy + Default>(values: &[T], place: usize) -> [T; ROW] {
+    let mut eight = [T::default(); ROW];
+    eight.copy_from_slice(&values[place..place + ROW]);
+    eight
 }
 
 /// Columns or rows beyond those that the extent of the particles fills: the last one that they begin, and one on each side.
@@ -128,7 +138,8 @@ mod tests {
         let positions: Vec<Vec2> =
             (0..50).map(|k| Vec2::new(f64::from(k * 7 % 13), f64::from(k * 5 % 11))).collect();
         let mut grid = CellGrid::default();
-        grid.fill(&positions, 2.0);
+        let bounds = (Vec2::zeros(), Vec2::new(12.0, 10.0));
+        grid.fill(&positions, bounds, 2.0, &Threads::new(1).unwrap());
         let mut members = grid.members[..50].to_vec();
         members.sort_unstable();
         assert_eq!(members, (0..50).collect::<Vec<u32>>());
@@ -144,7 +155,8 @@ mod tests {
     #[test]
     fn far_particles_do_not_cost_memory() {
         let mut grid = CellGrid::default();
-        grid.fill(&[Vec2::zeros(), Vec2::new(1e9, 1e9)], 1e-3);
+        let far = Vec2::new(1e9, 1e9);
+        grid.fill(&[Vec2::zeros(), far], (Vec2::zeros(), far), 1e-3, &Threads::new(1).unwrap());
         assert!(grid.starts.len() < 32);
     }
 }

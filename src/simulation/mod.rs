@@ -218,7 +218,7 @@ impl Simulation {
                 return Err(failure.clone());
             }
             if let Err(failure) = self.step(seen && left == 0) {
-                self.integrator.show(&mut self.state.particles);
+                self.integrator.show(&mut self.state.particles, &self.threads);
                 self.failure = Some(failure);
             }
         }
@@ -234,7 +234,7 @@ impl Simulation {
         let (turn, sums) = self.ahead.take().unwrap_or_else(|| self.start_drift());
         self.state.step += 1;
         if !(sums.mass_moment.x + sums.mass_moment.y).is_finite() {
-            self.integrator.show(&mut self.state.particles);
+            self.integrator.show(&mut self.state.particles, &self.threads);
             let particle = self.id_of(self.state.particles.first_non_finite().unwrap_or(0));
             return Err(Error::NonFinite { step: self.state.step, particle });
         }
@@ -261,11 +261,10 @@ impl Simulation {
             return Rotation::IDENTITY;
         }
         let rotation = Rotation::new(self.config.rotation.angle(self.time()));
-        if look {
-            self.integrator.place(&mut self.state.particles.positions);
-            if !self.list.still_holds(&self.state.particles.positions, rotation) {
-                self.rebuild(rotation);
-            }
+        let motions = &self.integrator.motions;
+        if look && !self.list.still_holds(&|i| motions[i].position(), rotation, &self.threads) {
+            self.integrator.place(&mut self.state.particles.positions, &self.threads);
+            self.rebuild(rotation);
         }
         rotation
     }
@@ -298,7 +297,7 @@ impl Simulation {
 
     fn start_drift(&mut self) -> (f64, DriftSums) {
         let turn = self.next_turn();
-        self.forces.loads.fill(Load::default());
+        self.threads.set_each(&mut self.forces.loads, &|_| Load::default());
         let farthest = self.list.farthest();
         (turn, self.integrator.start(&self.state.particles, (turn, farthest), &self.threads))
     }
@@ -348,7 +347,7 @@ impl Simulation {
         if self.forces.flows.overlap_ratio <= limit {
             return Ok(());
         }
-        self.integrator.place(&mut self.state.particles.positions);
+        self.integrator.place(&mut self.state.particles.positions, &self.threads);
         let step = self.state.step;
         let (place, ratio) = start::deepest_overlap(&self.table, &self.state.particles);
         let particle = self.id_of(place);
