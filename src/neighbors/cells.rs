@@ -153,6 +153,20 @@ mod tests {
     }
 
     #[test]
+    fn who_is_within_a_distance_is_seen_within_it() {
+        let far = Vec2::new(900.0, 1100.0);
+        let mut grid = CellGrid::default();
+        grid.fill(&vec![far; 300_000], (Vec2::zeros(), far), 2.0, &Threads::new(1).unwrap());
+        for k in 0..2000_i32 {
+            let one = far * (f64::from(k * 7 % 1999) / 2000.0);
+            let (sin, cos) = libm::sincos(f64::from(k));
+            let ((x, y), (other_x, other_y)) = (grid.seen(one), grid.seen(one + Vec2::new(cos, sin) * 0.9));
+            let (dx, dy) = (other_x - x, other_y - y);
+            assert!(dx * dx + dy * dy < grid.seen_squared(0.9), "{k}");
+        }
+    }
+
+    #[test]
     fn far_particles_do_not_cost_memory() {
         let mut grid = CellGrid::default();
         let far = Vec2::new(1e9, 1e9);
