@@ -3,6 +3,7 @@
 //! A chunk always holds the same particles and is always worked through in the same order by one thread; sums are kept
 //! per chunk and added up in chunk order afterwards. That is why the number of threads never shows in a result.
 
+use std::ops::Range;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use crate::error::Error;
@@ -79,7 +80,9 @@ struct Pool {
 
 impl Pool {
     fn is_at_home(&self) -> bool {
-        std::process::id() == self.home
+        // To ask for the process takes a call of the system; who is one of the threads knows.
+        let is_one = |threads: &rayon::ThreadPool| threads.current_thread_index().is_some();
+        self.threads.as_ref().is_some_and(is_one) || std::process::id() == self.home
     }
 }
 
@@ -171,20 +174,22 @@ impl Threads {
         let larger = |most: [f64; N], other: [f64; N]| std::array::from_fn(|k| most[k].max(other[k]));
         let mut most = vec![none; chunk_count(count)];
         let starts = (0..count).step_by(CHUNK);
-        let chunks = starts.zip(&mut most).collect();
-        self.for_each(count, chunks, &|(start, most): (usize, &mut [f64; N])| {
+        self.for_each(count, starts.zip(&mut most), &|(start, most): (usize, &mut [f64; N])| {
             *most = (start..count.min(start + CHUNK)).map(numbers).fold(none, larger);
         });
         most.into_iter().fold(none, larger)
     }
 
     /// Runs `kernel` on each of `pieces`, on several threads where that pays for `count` particles.
-    pub fn for_each<W: Send>(&self, count: usize, pieces: Vec<W>, kernel: &(impl Fn(W) + Sync)) {
+    pub fn for_each<W: Send>(
+        &self,
+        count: usize,
+        pieces: impl Iterator<Item = W> + Send,
+        kernel: &(impl Fn(W) + Sync),
+    ) {
         match self.pool_for(count) {
-            Some(pool) if pieces.len() > 1 => {
-                pool.install(|| share(pieces, kernel, pool.current_num_threads()));
-            }
-            _ => pieces.into_iter().for_each(kernel),
+            Some(pool) => pool.install(|| share(pieces, kernel, pool.current_num_threads())),
+            None => pieces.for_each(kernel),
         }
     }
 }
@@ -199,43 +204,47 @@ pub const PIECES: usize = 16;
 
 /// Gives each thread as many pieces in a row, the same in every pass, so that it finds in its own cache what it left there.
 /// Who is done takes what others have not come to: a thread whose CPU is busy with something else holds nobody up.
-fn share<W: Send>(pieces: Vec<W>, kernel: &(impl Fn(W) + Sync), threads: usize) {
+fn share<W: Send>(pieces: impl Iterator<Item = W>, kernel: &(impl Fn(W) + Sync), threads: usize) {
+    let pieces: Vec<_> = pieces.map(|piece| Mutex::new(Some(piece))).collect();
     let members = threads.min(pieces.len());
-    let pieces: Vec<_> = pieces.into_iter().map(|piece| Mutex::new(Some(piece))).collect();
-    let pieces = &pieces[..];
-    let own =
-        move |number: usize| &pieces[pieces.len() * number / members..pieces.len() * (number + 1) / members];
+    let own = |number: usize| &pieces[pieces.len() * number / members..pieces.len() * (number + 1) / members];
     let take = |piece: &Mutex<Option<W>>| {
         let taken = piece.lock().unwrap_or_else(PoisonError::into_inner).take();
         taken.into_iter().for_each(kernel);
     };
-    let help = move |number: usize| {
+    in_company(0..members, &|number| {
         own(number).iter().for_each(take);
         for other in (1..members).map(|turn| (number + turn) % members) {
             own(other).iter().rev().for_each(take);
         }
-    };
-    rayon::scope(|scope| {
-        (1..members).for_each(|number| scope.spawn(move |_| help(number)));
-        help(0);
     });
 }
 
-/// Cuts `work` into pieces that end before the chunks `ends`, of which the last is the number of chunks.
-pub fn cut<W: Chunked>(work: W, ends: impl IntoIterator<Item = usize>) -> Vec<W> {
-    let chunks = work.chunks();
-    let (mut pieces, mut left, mut start) = (Vec::new(), Some(work), 0);
-    for end in ends {
-        let Some(work) = left.take() else { break };
-        if end < chunks {
-            let (piece, rest) = work.split(end - start);
-            pieces.push(piece);
-            (left, start) = (Some(rest), end);
-        } else {
-            pieces.push(work);
+/// Calls `work` with each of `numbers`, each on a thread of its own if there are as many.
+fn in_company(numbers: Range<usize>, work: &(impl Fn(usize) + Sync)) {
+    match numbers.len() {
+        0 => {}
+        1 => work(numbers.start),
+        len => {
+            let middle = numbers.start + len / 2;
+            rayon::join(|| in_company(numbers.start..middle, work), || in_company(middle..numbers.end, work));
         }
     }
-    pieces
+}
+
+/// Cuts `work` into pieces that end before the chunks `ends`, of which the last is the number of chunks.
+pub fn cut<W: Chunked>(work: W, ends: impl IntoIterator<Item = usize>) -> impl Iterator<Item = W> {
+    let chunks = work.chunks();
+    let (mut left, mut start) = (Some(work), 0);
+    ends.into_iter().map_while(move |end| {
+        let work = left.take()?;
+        if end >= chunks {
+            return Some(work);
+        }
+        let (piece, rest) = work.split(end - start);
+        (left, start) = (Some(rest), end);
+        Some(piece)
+    })
 }
 
 /// The chunks of `work`, one by one.
@@ -263,7 +272,7 @@ mod tests {
             let threads = Threads::new(threads).unwrap();
             for pieces in [0, 1, 2, 3, 40] {
                 let done: Vec<AtomicUsize> = (0..pieces).map(|_| AtomicUsize::new(0)).collect();
-                threads.for_each(PARALLEL_THRESHOLD, done.iter().collect(), &|piece: &AtomicUsize| {
+                threads.for_each(PARALLEL_THRESHOLD, done.iter(), &|piece: &AtomicUsize| {
                     piece.fetch_add(1, Ordering::Relaxed);
                 });
                 assert!(done.into_iter().all(|piece| piece.into_inner() == 1), "{pieces} pieces");

@@ -88,7 +88,7 @@ impl Stretches {
             return kernel(work, scratch);
         }
         let count = work.chunks() * CHUNK;
-        let pieces = cut(work, self.plan.ends.iter().copied()).into_iter().zip(scratches).collect();
+        let pieces = cut(work, self.plan.ends.iter().copied()).zip(scratches);
         threads.for_each(count, pieces, &|(work, scratch): (W, &mut S)| kernel(work, scratch));
     }
 
@@ -162,15 +162,13 @@ impl Plan {
     }
 
     /// Those of `work` that wait, one by one.
-    pub fn waiting<W: Chunked>(&self, work: W) -> Vec<W> {
-        if self.cuts.is_empty() {
-            return Vec::new();
-        }
-        let chunks = work.chunks();
-        let mut pieces = cut(work, self.cuts.iter().copied().chain([chunks]));
-        let mut starts = [0].into_iter().chain(self.cuts.iter().copied());
-        pieces.retain(|_| starts.next().is_some_and(|chunk| self.waits.get(chunk) == Some(&true)));
-        pieces
+    pub fn waiting<W: Chunked>(&self, work: W) -> impl Iterator<Item = W> {
+        let ends = self.cuts.iter().copied().chain([work.chunks()]);
+        let starts = [0].into_iter().chain(self.cuts.iter().copied());
+        cut(work, ends)
+            .zip(starts)
+            .filter(|&(_, chunk)| self.waits.get(chunk) == Some(&true))
+            .map(|(part, _)| part)
     }
 }
 
