@@ -122,6 +122,12 @@ impl<C: Clock> Candidates<C> {
         ask_for(share_of(&self.wake, share));
     }
 
+    /// Asks memory for the patches and what they watch.
+    pub fn ask_for_patches(&self) {
+        ask_for(&self.patches);
+        ask_for(&self.watched);
+    }
+
     /// Number of patches.
     pub fn patches(&self) -> usize {
         self.patches.len()

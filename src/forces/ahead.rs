@@ -3,6 +3,7 @@
 
 use super::motions::Motions;
 use super::post::Outbox;
+use super::stretches::LARGE;
 use crate::cache::{SHARES, ask, ask_for, share_of};
 use crate::contact::table::ChunkSlots;
 
@@ -17,8 +18,33 @@ pub struct Needs<'a, M> {
     pub first: usize,
     /// Where its post goes.
     pub outbox: &'a Outbox,
-    /// Whether all of it has left the cache, not just the first levels of it.
-    pub is_far: bool,
+    /// Where all of it is.
+    pub place: Place,
+}
+
+/// Where in the machine a load has its place.
+#[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
+pub enum Place {
+    /// The first levels of the cache.
+    Near,
+    /// The second level: asking for motions pays.
+    Second,
+    /// The last level: asking for all that makes up much pays.
+    Last,
+    /// Memory: asking for every list pays.
+    Memory,
+}
+
+impl Place {
+    /// That of a load of `count` particles.
+    pub fn of(count: usize) -> Self {
+        match count {
+            131_072.. => Self::Memory,
+            LARGE.. => Self::Last,
+            8192.. => Self::Second,
+            _ => Self::Near,
+        }
+    }
 }
 
 /// What is still to be asked for.
@@ -57,13 +83,22 @@ impl<'a, M: Motions> Ahead<'a, M> {
 fn ask_for_share(needs: &Needs<impl Motions>, share: usize) {
     // Contacts read motions in an order that no CPU foresees.
     ask_for(share_of(needs.motions.of_chunk(needs.first), share));
-    if !needs.is_far {
+    let Needs { slots, outbox, place, .. } = needs;
+    if *place < Place::Last {
         return;
     }
-    let pairs = &needs.slots.pairs;
+    if *place == Place::Memory {
+        if share == 0 {
+            slots.pairs.candidates.ask_for_patches();
+            slots.walls.candidates.ask_for_patches();
+            outbox.ask_for_lists();
+        }
+        outbox.ask_for(share);
+    }
+    let pairs = &slots.pairs;
     pairs.candidates.ask_for(share);
     pairs.contacts.ask_for(share);
-    for &particle in share_of(needs.outbox.abroad(), share) {
+    for &particle in share_of(outbox.abroad(), share) {
         needs.motions.get(particle).into_iter().for_each(ask);
     }
 }

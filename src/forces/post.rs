@@ -3,6 +3,7 @@
 //! A chunk adds its contacts, in key order, to its own particles and posts the reactions on particles of later chunks.
 //! Then every chunk collects its post in the order of the chunks that sent it. Neither order depends on threads or lists.
 
+use crate::cache::ask_for;
 use crate::contact::table::ContactTable;
 use crate::integrator::Load;
 use crate::lanes::Lanes;
@@ -44,6 +45,21 @@ impl Outbox {
     /// The particles of other chunks that contacts may be with.
     pub fn abroad(&self) -> &[u32] {
         &self.abroad
+    }
+
+    /// Asks memory for lists that are too short for it to foresee that they are needed.
+    pub fn ask_for_lists(&self) {
+        ask_for(&self.abroad);
+        ask_for(&self.targets);
+        ask_for(&self.posts);
+    }
+
+    /// Asks memory for a share of the room where the last step's post is, which the next one's will take.
+    #[inline(always)]
+    pub fn ask_for(&self, share: usize) {
+        if let Some(posts) = self.posts.get(share) {
+            ask_for(posts);
+        }
     }
 
     /// Throws the last step's post away.

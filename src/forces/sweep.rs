@@ -1,18 +1,15 @@
 //! Chunks on their way through a step: their contacts evaluated, their post collected, their particles moved on.
 
 use super::Scene;
-use super::ahead::{Ahead, Needs};
+use super::ahead::{Ahead, Needs, Place};
 use super::motions::{Copies, Elsewhere, Held, Motions, Nobody, Others};
 use super::post::{Outbox, PostOffice, Sink, collect};
-use super::stretches::{LARGE, Stretches};
+use super::stretches::Stretches;
 use super::{pairs, walls};
 use crate::contact::table::ChunkSlots;
 use crate::energy::{StepFlows, SurfaceLoad};
 use crate::integrator::{Drift, Load, Motion};
 use crate::threads::{CHUNK, Chunked, in_turn};
-
-/// Particles from which on a load does not stay in the first levels of the cache, so that asking for motions ahead pays.
-const FAR: usize = 8192;
 
 /// What the work on a chunk writes before it reads; kept, since clearing it costs small loads a twentieth.
 #[derive(Debug, Clone)]
@@ -63,14 +60,14 @@ impl Chunks<'_> {
             return;
         };
         let first = (self.first + index) * CHUNK;
-        let count = scene.matter.masses.len();
-        let next = later.first().zip(later_outboxes.first()).filter(|_| count >= FAR);
+        let place = Place::of(scene.matter.masses.len());
+        let next = later.first().zip(later_outboxes.first()).filter(|_| place > Place::Near);
         let next = next.map(|(slots, outbox)| Needs {
             slots,
             motions: scene.motions,
             first: first + CHUNK,
             outbox,
-            is_far: count >= LARGE,
+            place,
         });
         outbox.clear();
         let mut sink = Sink { first, loads, outbox };
