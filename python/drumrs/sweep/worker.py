@@ -29,36 +29,38 @@ class Running:
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
-        self._simulations: dict[Simulation, int] = {}
+        self._particle_steps: dict[Simulation, float] = {}
         self._stopped = False
 
     def begin(self, simulation: Simulation) -> Callable[[int], None]:
         """Add a simulation; the function returned is to be called with its step number."""
+        # Asked for now: once it runs, a simulation answers after a slice of its run only, and the others would wait for it.
+        count = simulation.count
         with self._lock:
-            self._simulations[simulation] = 0
+            self._particle_steps[simulation] = 0.0
             if self._stopped:
                 simulation.stop()
 
         def report(step: int) -> None:
-            self._simulations[simulation] = step
+            self._particle_steps[simulation] = float(count * step)
 
         return report
 
     def end(self, simulation: Simulation) -> None:
         """Take a simulation out."""
         with self._lock:
-            self._simulations.pop(simulation, None)
+            self._particle_steps.pop(simulation, None)
 
     def particle_steps(self) -> float:
         """Return the particle-steps that the simulations under way have done."""
         with self._lock:
-            return float(sum(simulation.count * step for simulation, step in self._simulations.items()))
+            return sum(self._particle_steps.values())
 
     def stop(self) -> None:
         """Stop all, those to come included."""
         with self._lock:
             self._stopped = True
-            for simulation in self._simulations:
+            for simulation in self._particle_steps:
                 simulation.stop()
 
 
