@@ -31,8 +31,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 SIZES = (100, 200, 300, 1_000, 3_000, 10_000, 30_000, 100_000, 300_000, 1_000_000)
-# From here on a code has one turn: runs are long, and vary little.
-LARGE = 300_000
 # Each code with the largest load that it is given: the others need too long or too much memory for more.
 CODES: tuple[tuple[Code, int], ...] = (
     (Drumrs(), 1_000_000),
@@ -53,7 +51,7 @@ def measure(sizes: Sequence[int], repeats: int, seconds: float, beds: Path) -> "
         for count in sizes:
             case = settled(count, beds)
             costs: dict[str, list[float]] = {}
-            for _ in range(repeats if count < LARGE else 1):
+            for _ in range(repeats):
                 for code, largest in CODES:
                     if count > largest or code.name in missing:
                         continue
