@@ -34,7 +34,7 @@ class Running:
 
     def begin(self, simulation: Simulation) -> Callable[[int], None]:
         """Add a simulation; the function returned is to be called with its step number."""
-        # Asked for now: once it runs, a simulation answers after a slice of its run only, and the others would wait for it.
+        # Asked for now: once it runs, a simulation answers after a slice of its run only, and others would wait.
         count = simulation.count
         with self._lock:
             self._particle_steps[simulation] = 0.0
