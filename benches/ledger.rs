@@ -5,8 +5,8 @@ mod scenes;
 use std::hint::black_box;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use drumrs::energy::{Balance, EnergyLedger, StepFlows, StoredEnergy, SurfaceLoad};
-use drumrs::vector::Vec2;
+use drumrs::physics::energy::{Balance, EnergyLedger, StepFlows, StoredEnergy, SurfaceLoad};
+use drumrs::physics::vector::Vec2;
 
 fn accounts(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("ledger");

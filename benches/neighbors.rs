@@ -4,8 +4,8 @@ mod scenes;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use drumrs::neighbors::{Surroundings, VerletList};
+use drumrs::physics::vector::Rotation;
 use drumrs::threads::Threads;
-use drumrs::vector::Rotation;
 
 fn rebuilds(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("rebuild");

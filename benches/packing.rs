@@ -3,8 +3,8 @@
 mod scenes;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use drumrs::drum::Drum;
-use drumrs::packing::pack;
+use drumrs::physics::drum::Drum;
+use drumrs::physics::load::packing::pack;
 
 fn beds(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("packing");

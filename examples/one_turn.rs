@@ -1,10 +1,10 @@
 //! One turn of the paper's drum, from Rust: 100 bundles, three baffles. Run it with
 //! `cargo run --release --example one_turn`.
 
-use drumrs::config::SimulationConfig;
 use drumrs::error::Error;
+use drumrs::io::config::SimulationConfig;
+use drumrs::observe::summary::summarize;
 use drumrs::simulation::Simulation;
-use drumrs::summary::summarize;
 
 /// Table 1 of Park & Wassgren (the baffles' size is an assumption), SI, 54 rpm.
 const CONFIG: &str = r#"{

@@ -7,7 +7,7 @@ use std::ops::{Add, Mul, Neg, Sub};
 
 use wide::{f32x8, f64x4, u32x8};
 
-use crate::vector::Vec2;
+use crate::physics::vector::Vec2;
 
 /// Four numbers.
 pub type Lanes = f64x4;

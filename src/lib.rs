@@ -18,7 +18,7 @@
 //! A drum that speeds up to 5 rad/s within a second, and the angle it has turned after two, in closed form:
 //!
 //! ```
-//! use drumrs::drum::rotation::RotationSchedule;
+//! use drumrs::physics::rotation::RotationSchedule;
 //!
 //! let washing = RotationSchedule { knots: vec![[0.0, 0.0], [1.0, 5.0]] };
 //! assert_eq!(washing.angle(2.0), 7.5);
@@ -27,29 +27,28 @@
 //! `examples/one_turn.rs` runs a whole drum.
 
 pub mod cache;
-pub mod checkpoint;
-pub mod config;
+
 pub mod contact;
-pub mod drum;
-pub mod energy;
+pub mod io;
+pub mod observe;
+pub mod physics;
+
 pub mod error;
 pub mod forces;
 pub mod integrator;
 pub mod lanes;
 pub mod neighbors;
 pub mod order;
-pub mod packing;
-pub mod particles;
+
 pub mod patch;
 #[cfg(feature = "python")]
 mod python;
-pub mod recorder;
+
 pub mod simulation;
 pub mod start;
 pub mod state;
-pub mod summary;
+
 pub mod threads;
-pub mod vector;
 
 /// Changes whenever the same configuration and seed give other numbers; part of every result's identity.
 pub const PHYSICS_VERSION: u32 = 2;

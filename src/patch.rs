@@ -1,6 +1,6 @@
 //! Patches: particles in a row, neighbors in large loads, whose motion is followed together.
 
-use crate::vector::larger;
+use crate::physics::vector::larger;
 
 /// Particles per patch; a chunk has several.
 pub const PATCH: usize = 128;

@@ -3,13 +3,13 @@
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
-use crate::config::SimulationConfig;
 use crate::contact::laws::Laws;
 use crate::contact::table::ContactTable;
-use crate::drum::Drum;
 use crate::error::Error;
-use crate::particles::Particles;
-use crate::vector::Vec2;
+use crate::io::config::SimulationConfig;
+use crate::physics::drum::Drum;
+use crate::physics::particles::Particles;
+use crate::physics::vector::Vec2;
 
 /// A given initial state; what is left out is zero, radii that are left out are the configured one.
 #[derive(Debug, Clone, PartialEq, Default)]

@@ -3,9 +3,9 @@
 use serde::{Deserialize, Serialize};
 
 use crate::contact::Contact;
-use crate::energy::EnergyLedger;
-use crate::particles::Particles;
-use crate::recorder::{Frames, Series};
+use crate::observe::recorder::{Frames, Series};
+use crate::physics::energy::EnergyLedger;
+use crate::physics::particles::Particles;
 
 /// Everything from which a simulation goes on bit for bit. Contacts live in the table while it runs; a checkpoint holds
 /// those that have a history.

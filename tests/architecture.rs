@@ -80,13 +80,13 @@ fn libraries_stay_where_they_belong() {
     let owners: &[(&str, &[&str])] = &[
         ("pyo3", &["python"]),
         ("numpy", &["python"]),
-        ("parry2d", &["drum"]),
+        ("parry2d", &["physics::drum"]),
         ("rayon", &["threads"]),
-        ("std::fs", &["checkpoint"]),
+        ("std::fs", &["io::checkpoint"]),
         ("std::time", &["python"]),
         ("std::env", &["python"]),
         ("HashMap", &[]),
-        ("sha2", &["checkpoint"]),
+        ("sha2", &["io::checkpoint"]),
     ];
     for path in sources(Path::new("src"), "rs") {
         let module = module_of(&path);

@@ -7,8 +7,8 @@ mod common;
 use common::*;
 use drumrs::contact::History;
 use drumrs::contact::linear::{LinearLaw, Tension};
+use drumrs::physics::vector::cross;
 use drumrs::simulation::Simulation;
-use drumrs::vector::cross;
 
 /// Head-on impact of two bundles; returns the ratio of the speeds after and before. `phase` in [0, 1) says where
 /// within a step they first touch.
@@ -75,7 +75,7 @@ fn prescribed_restitution_is_met_with_either_tension() {
     }
 }
 
-fn head_on(config: &drumrs::config::SimulationConfig, phase: f64) -> f64 {
+fn head_on(config: &drumrs::io::config::SimulationConfig, phase: f64) -> f64 {
     let half = RADIUS + 0.5 * (3.0 + phase) * TIME_STEP;
     let mut simulation =
         start(config, several(&[([-half, 0.0], [0.5, 0.0], 0.0), ([half, 0.0], [-0.5, 0.0], 0.0)]));

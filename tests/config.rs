@@ -4,8 +4,8 @@
 mod common;
 
 use common::*;
-use drumrs::config::SimulationConfig;
-use drumrs::drum::baffle::BaffleShape;
+use drumrs::io::config::SimulationConfig;
+use drumrs::physics::drum::baffle::BaffleShape;
 use serde_json::Value;
 
 /// Every key of a configuration; `knots`, `walls`, `points` and `gravity` are lists.

@@ -3,14 +3,14 @@
 mod common;
 
 use common::*;
-use drumrs::checkpoint;
-use drumrs::config::SimulationConfig;
 use drumrs::forces::LARGE;
+use drumrs::io::checkpoint;
+use drumrs::io::config::SimulationConfig;
 use drumrs::order;
+use drumrs::physics::vector::Vec2;
 use drumrs::simulation::Simulation;
 use drumrs::start::InitialState;
 use drumrs::threads::Threads;
-use drumrs::vector::Vec2;
 use proptest::prelude::*;
 
 /// Long enough for bundles to roll over each other, the rim and baffles once they lie in a bed.

@@ -3,8 +3,8 @@
 mod common;
 
 use common::*;
-use drumrs::drum::RIM;
-use drumrs::drum::baffle::BaffleShape;
+use drumrs::physics::drum::RIM;
+use drumrs::physics::drum::baffle::BaffleShape;
 use drumrs::simulation::Simulation;
 
 /// A disc pressed onto the tip of a wedge and rolling over it: the contact passes from edge to vertex to edge; force
@@ -41,7 +41,8 @@ fn force_and_spring_survive_a_tip() {
         }
         assert_eq!(touching.len(), 1, "a corner counts once");
         let (feature, history) = (touching[0].other, touching[0].history);
-        let jump = last_force.map_or(0.0, |force: drumrs::vector::Vec2| (history.force() - force).norm());
+        let jump =
+            last_force.map_or(0.0, |force: drumrs::physics::vector::Vec2| (history.force() - force).norm());
         assert!(jump < bend, "the force jumps by {jump} at feature {feature}, {bend} allowed");
         if features.last() != Some(&feature) {
             if !features.is_empty() {
@@ -140,7 +141,7 @@ fn a_bundle_never_sits_inside_a_baffle() {
     let mut simulation = Simulation::new(baseline(150, 3), 5, 1).unwrap();
     for _ in 0..40 {
         run(&mut simulation, 0.02);
-        let rotation = drumrs::vector::Rotation::new(simulation.drum_angle());
+        let rotation = drumrs::physics::vector::Rotation::new(simulation.drum_angle());
         for &position in &simulation.state().particles.positions {
             let clearance = simulation.drum().clearance(rotation.apply_inverse(position));
             assert!(clearance > 0.97 * RADIUS, "{clearance}");

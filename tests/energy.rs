@@ -3,8 +3,8 @@
 mod common;
 
 use common::*;
-use drumrs::config::SimulationConfig;
 use drumrs::contact::linear::Tension;
+use drumrs::io::config::SimulationConfig;
 use drumrs::simulation::Simulation;
 
 fn tumbled(config: &SimulationConfig, seconds: f64) -> Simulation {

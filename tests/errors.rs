@@ -4,11 +4,11 @@ mod common;
 
 use common::*;
 use drumrs::error::Error;
+use drumrs::physics::vector::Vec2;
 use drumrs::simulation::Simulation;
 use drumrs::start::InitialState;
-use drumrs::vector::Vec2;
 
-fn refusal(config: &drumrs::config::SimulationConfig, initial: InitialState) -> String {
+fn refusal(config: &drumrs::io::config::SimulationConfig, initial: InitialState) -> String {
     Simulation::with_state(config.clone(), 1, 1, initial).unwrap_err().to_string()
 }
 

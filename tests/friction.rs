@@ -7,7 +7,7 @@ use common::*;
 use drumrs::contact::linear::Tension;
 
 /// A floor whose contacts are stiff enough that the overlap under gravity hardly matters, and damped strongly.
-fn calm_floor(gravity: [f64; 2]) -> drumrs::config::SimulationConfig {
+fn calm_floor(gravity: [f64; 2]) -> drumrs::io::config::SimulationConfig {
     let mut config = floor(gravity);
     config.contact.drum.tension = Tension::Clipped;
     config.run.time_step = Some(1e-5);

@@ -5,7 +5,7 @@ mod hostile;
 use std::fs;
 use std::path::Path;
 
-use drumrs::config::SimulationConfig;
+use drumrs::io::config::SimulationConfig;
 use drumrs::simulation::Simulation;
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;

@@ -8,12 +8,12 @@
 mod common;
 
 use common::*;
-use drumrs::config::SimulationConfig;
 use drumrs::contact::History;
 use drumrs::contact::linear::LinearLaw;
+use drumrs::io::config::SimulationConfig;
+use drumrs::physics::vector::Vec2;
 use drumrs::simulation::Simulation;
 use drumrs::start::InitialState;
-use drumrs::vector::Vec2;
 
 const FRICTION: f64 = 0.15;
 const CLOSING: f64 = 0.5;

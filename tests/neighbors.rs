@@ -3,14 +3,14 @@
 mod common;
 
 use common::*;
-use drumrs::config::SimulationConfig;
 use drumrs::contact::table::ContactTable;
-use drumrs::drum::{Drum, RIM};
+use drumrs::io::config::SimulationConfig;
 use drumrs::neighbors::{Surroundings, VerletList};
-use drumrs::particles::Particles;
+use drumrs::physics::drum::{Drum, RIM};
+use drumrs::physics::particles::Particles;
+use drumrs::physics::vector::{Rotation, Vec2};
 use drumrs::start::InitialState;
 use drumrs::threads::{CHUNK, Threads};
-use drumrs::vector::{Rotation, Vec2};
 use proptest::prelude::*;
 
 proptest! {

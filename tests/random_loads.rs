@@ -5,8 +5,8 @@
 mod random;
 
 use drumrs::error::Error;
+use drumrs::physics::vector::{Rotation, Vec2};
 use drumrs::simulation::Simulation;
-use drumrs::vector::{Rotation, Vec2};
 use proptest::prelude::*;
 use proptest::test_runner::FileFailurePersistence;
 use random::{Drawn, drawn};

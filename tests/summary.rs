@@ -3,8 +3,8 @@
 mod common;
 
 use common::*;
+use drumrs::observe::summary::{Spread, summarize};
 use drumrs::simulation::Simulation;
-use drumrs::summary::{Spread, summarize};
 
 fn tumbled(seconds: f64) -> Simulation {
     let mut simulation = Simulation::new(baseline(40, 3), 2, 1).unwrap();

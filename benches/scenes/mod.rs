@@ -9,11 +9,11 @@ use std::time::Duration;
 
 use criterion::BenchmarkGroup;
 use criterion::measurement::WallTime;
-use drumrs::config::SimulationConfig;
-use drumrs::drum::Drum;
+use drumrs::io::config::SimulationConfig;
+use drumrs::physics::drum::Drum;
+use drumrs::physics::vector::{Vec2, perpendicular};
 use drumrs::simulation::Simulation;
 use drumrs::start::InitialState;
-use drumrs::vector::{Vec2, perpendicular};
 
 /// Whether this is `cargo bench`, and not a test that only sees each bench run once.
 pub fn measuring() -> bool {

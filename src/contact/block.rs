@@ -4,7 +4,7 @@ use super::laws::SlotLaw;
 use super::{History, HistoryLanes};
 use crate::cache::ask;
 use crate::lanes::{LANES, Lanes, Vec2Lanes};
-use crate::vector::Vec2;
+use crate::physics::vector::Vec2;
 
 /// What a contact follows from its bodies alone.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

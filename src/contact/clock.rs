@@ -1,6 +1,6 @@
 //! Until when candidates may sleep: clocks that go with what the particles of a patch do.
 
-use crate::vector::larger;
+use crate::physics::vector::larger;
 
 /// What the wakes of candidates are compared with.
 pub trait Clock: Clone + Copy + Default {

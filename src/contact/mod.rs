@@ -22,7 +22,7 @@ pub mod table;
 use serde::{Deserialize, Serialize};
 
 use crate::lanes::{Lanes, Vec2Lanes, lanes};
-use crate::vector::{Vec2, perpendicular};
+use crate::physics::vector::{Vec2, perpendicular};
 
 /// What must survive a step, and nothing else: the tangential spring, and the force with the frame it acted in,
 /// which the next step's work needs. All zero while the bodies do not touch.

@@ -2,9 +2,9 @@
 
 use crate::contact::linear::LinearLanes;
 use crate::contact::{Displacement, Encounter, HistoryLanes};
-use crate::energy::StepFlows;
 use crate::integrator::Motion;
 use crate::lanes::{LANES, Lanes, Vec2Lanes, lanes, transpose};
+use crate::physics::energy::StepFlows;
 
 /// Where bodies meet now.
 #[derive(Debug, Clone, Copy)]

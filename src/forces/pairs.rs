@@ -14,10 +14,10 @@ use crate::contact::clock::StepClock;
 use crate::contact::linear::LinearLanes;
 use crate::contact::list::ListTraits;
 use crate::contact::table::Slots;
-use crate::energy::StepFlows;
 use crate::lanes::{
     EIGHT_IN_FRONT, LANES, Lanes, ROW, Row, Vec2Lanes, WholeRow, align_stack, lanes, transpose,
 };
+use crate::physics::energy::StepFlows;
 
 /// Candidates that are looked at together at most; a power of two.
 const MOST_DUE: usize = 512;

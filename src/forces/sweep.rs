@@ -7,8 +7,8 @@ use super::post::{Outbox, PostOffice, Sink, collect};
 use super::stretches::Stretches;
 use super::{pairs, walls};
 use crate::contact::table::ChunkSlots;
-use crate::energy::{StepFlows, SurfaceLoad};
 use crate::integrator::{Drift, Load, Motion};
+use crate::physics::energy::{StepFlows, SurfaceLoad};
 use crate::threads::{CHUNK, Chunked, in_turn};
 
 /// What the work on a chunk writes before it reads; kept, since clearing it costs small loads a twentieth.

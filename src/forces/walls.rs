@@ -9,10 +9,10 @@ use crate::contact::clock::{Clock, WayClock};
 use crate::contact::linear::LinearLanes;
 use crate::contact::list::ListTraits;
 use crate::contact::table::Slots;
-use crate::drum::{FeatureId, RIM};
-use crate::energy::{StepFlows, SurfaceLoad};
 use crate::lanes::{LANES, ROW, Vec2Lanes, lanes, transpose};
-use crate::vector::{Vec2, cross, dot};
+use crate::physics::drum::{FeatureId, RIM};
+use crate::physics::energy::{StepFlows, SurfaceLoad};
+use crate::physics::vector::{Vec2, cross, dot};
 
 /// Evaluates the contacts of one chunk with the drum in key order and adds the loads by surface.
 pub fn evaluate(

@@ -2,7 +2,7 @@
 
 use super::quad::rest_of;
 use crate::lanes::{LANES, Lanes};
-use crate::particles::Particles;
+use crate::physics::particles::Particles;
 use crate::threads::CHUNK;
 
 /// Masses, and the inverses that turn loads into accelerations. Where all particles are equal, a chunk of each is kept.

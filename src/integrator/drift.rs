@@ -6,8 +6,8 @@ use super::quad::{halves, put_rest};
 use super::{Load, Motion};
 use crate::lanes::{LANES, Lanes};
 use crate::patch::{PATCH, PatchMotion};
+use crate::physics::vector::{Vec2, larger};
 use crate::threads::{CHUNK, Chunked};
-use crate::vector::{Vec2, larger};
 
 /// What is the same for all particles in one drift.
 #[derive(Debug, Clone, Copy)]

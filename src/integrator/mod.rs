@@ -9,10 +9,10 @@ mod pull;
 mod quad;
 
 use crate::lanes::Lanes;
-use crate::particles::Particles;
 use crate::patch::{PATCH, PatchMotion};
+use crate::physics::particles::Particles;
+use crate::physics::vector::Vec2;
 use crate::threads::{CHUNK, Threads, Values, chunk_count};
-use crate::vector::Vec2;
 use constants::Constants;
 pub use drift::Drift;
 use drift::{Setting, Start, Ways};
@@ -254,7 +254,7 @@ impl Integrator {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::vector::perpendicular;
+    use crate::physics::vector::perpendicular;
 
     /// Particles that are kicked about while the drum starts, turns and stops: as seen from it, nobody goes farther than is
     /// said of their patch, nor than everybody.

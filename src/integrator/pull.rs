@@ -4,7 +4,7 @@ use super::Load;
 use super::constants::{Inertia, QuadConstants, before_zeros};
 use super::quad::{halves, rest_of, two_by_two};
 use crate::lanes::{LANES, Lanes};
-use crate::vector::Vec2;
+use crate::physics::vector::Vec2;
 
 /// The accelerations of four particles: x and y of the first two, of the last two; about their centers, each before a zero, of
 /// the first two, of the last two.

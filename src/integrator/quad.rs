@@ -1,7 +1,7 @@
 //! Particles in fours: whole quads of a slice, the rest filled up, the rows of two particles taken apart and put together.
 
 use crate::lanes::{LANES, Lanes};
-use crate::vector::Vec2;
+use crate::physics::vector::Vec2;
 
 /// What comes after the last whole quad, filled up with zeros.
 pub(super) fn rest_of<T: Copy + Default>(values: &[T]) -> [T; LANES] {

@@ -1,8 +1,8 @@
 //! A uniform grid of cells, filled by counting sort.
 
 use crate::lanes::{ROW, Row, WholeRow};
+use crate::physics::vector::Vec2;
 use crate::threads::Threads;
-use crate::vector::Vec2;
 
 /// Particles by cell; within a cell in id order. A rim of empty cells spares those inside the bounds.
 #[derive(Debug, Clone, Default)]

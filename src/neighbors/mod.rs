@@ -10,10 +10,10 @@ use cells::CellGrid;
 use search::{Places, Search};
 
 use crate::contact::table::ContactTable;
-use crate::drum::Drum;
-use crate::particles::Particles;
+use crate::physics::drum::Drum;
+use crate::physics::particles::Particles;
+use crate::physics::vector::{Rotation, Vec2};
 use crate::threads::Threads;
-use crate::vector::{Rotation, Vec2};
 
 /// Decides when to rebuild, and rebuilds.
 #[derive(Debug, Clone)]

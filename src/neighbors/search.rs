@@ -6,12 +6,12 @@ use super::Surroundings;
 use super::cells::CellGrid;
 use crate::contact::candidates::Candidate;
 use crate::contact::table::ChunkSlots;
-use crate::drum::{Drum, RIM};
 use crate::lanes::{ROW, Row, WholeRow, align_stack, in_front};
-use crate::particles::Particles;
 use crate::patch::PATCH;
+use crate::physics::drum::{Drum, RIM};
+use crate::physics::particles::Particles;
+use crate::physics::vector::Vec2;
 use crate::threads::{CHUNK, Chunked};
-use crate::vector::Vec2;
 
 /// Slots of whole chunks, for which candidates are to be found.
 pub struct Search<'a> {

@@ -16,12 +16,12 @@ use pyo3::types::{PyBytes, PyDict};
 use super::arrays;
 use super::error::to_python;
 use super::gate::Inside;
-use crate::config::SimulationConfig;
 use crate::error::Error;
-use crate::particles::Particles;
-use crate::recorder::{Column, columns};
+use crate::io::config::SimulationConfig;
+use crate::observe::recorder::{Column, columns};
+use crate::observe::summary::summarize;
+use crate::physics::particles::Particles;
 use crate::simulation::Simulation as Core;
-use crate::summary::summarize;
 
 /// How long a run keeps the interpreter waiting for signals at most, but for the least number of steps.
 const SLICE: Duration = Duration::from_millis(30);

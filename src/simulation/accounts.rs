@@ -1,10 +1,10 @@
 //! What a simulation charges to its ledger after each step, and what it records now and then.
 
 use super::Simulation;
-use crate::energy::{Balance, StoredEnergy};
-use crate::recorder::Snapshot;
+use crate::observe::recorder::Snapshot;
+use crate::physics::energy::{Balance, StoredEnergy};
+use crate::physics::vector::{Vec2, dot};
 use crate::start;
-use crate::vector::{Vec2, dot};
 
 impl Simulation {
     /// Charges one step, in which the drum turned by `turn` [rad].

@@ -1,13 +1,13 @@
 //! What follows from the configuration and the particles' sizes, and never changes.
 
-use crate::config::SimulationConfig;
 use crate::contact::block::Traits;
 use crate::contact::laws::Laws;
-use crate::drum::Drum;
 use crate::error::Error;
-use crate::particles::Particles;
+use crate::io::config::SimulationConfig;
+use crate::physics::drum::Drum;
+use crate::physics::particles::Particles;
+use crate::physics::vector::Vec2;
 use crate::start;
-use crate::vector::Vec2;
 
 /// What follows from the configuration and the particles' sizes.
 #[derive(Debug)]

@@ -6,24 +6,24 @@ mod views;
 
 use fixed::Fixed;
 
-use crate::config::SimulationConfig;
 use crate::contact::laws::Laws;
 use crate::contact::table::ContactTable;
-use crate::drum::Drum;
-use crate::energy::{Balance, EnergyLedger, StoredEnergy};
 use crate::error::Error;
 use crate::forces::{ForcePass, Matter, Scene};
 use crate::integrator::{DriftSums, Integrator, Load};
+use crate::io::config::SimulationConfig;
 use crate::neighbors::{Surroundings, VerletList};
+use crate::observe::recorder::{Frames, Series, columns};
 use crate::order;
-use crate::packing::pack;
-use crate::particles::Particles;
 use crate::patch::PatchMotion;
-use crate::recorder::{Frames, Series, columns};
+use crate::physics::drum::Drum;
+use crate::physics::energy::{Balance, EnergyLedger, StoredEnergy};
+use crate::physics::load::packing::pack;
+use crate::physics::particles::Particles;
+use crate::physics::vector::Rotation;
 use crate::start::{self, InitialState};
 use crate::state::State;
 use crate::threads::Threads;
-use crate::vector::Rotation;
 
 /// A drum with its load, at some step.
 #[derive(Debug)]

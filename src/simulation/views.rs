@@ -1,10 +1,10 @@
 //! What a simulation shows of itself.
 
 use super::Simulation;
-use crate::config::SimulationConfig;
 use crate::contact::table::ContactTable;
-use crate::drum::Drum;
 use crate::error::Error;
+use crate::io::config::SimulationConfig;
+use crate::physics::drum::Drum;
 use crate::start;
 use crate::state::State;
 

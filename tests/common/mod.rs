@@ -2,17 +2,17 @@
 
 #![allow(dead_code)] // Each test binary uses its own part.
 
-use drumrs::config::{ContactParameters, LoadParameters, RunParameters, SimulationConfig};
 use drumrs::contact::linear::{LinearLanes, LinearLaw, LinearParameters, Tension};
 use drumrs::contact::{Displacement, Encounter, History, HistoryLanes};
-use drumrs::drum::DrumParameters;
-use drumrs::drum::baffle::{BaffleParameters, BaffleShape};
-use drumrs::drum::rotation::RotationSchedule;
+use drumrs::io::config::{ContactParameters, LoadParameters, RunParameters, SimulationConfig};
 use drumrs::lanes::Lanes;
+use drumrs::observe::summary::summarize;
+use drumrs::physics::drum::DrumParameters;
+use drumrs::physics::drum::baffle::{BaffleParameters, BaffleShape};
+use drumrs::physics::rotation::RotationSchedule;
+use drumrs::physics::vector::Vec2;
 use drumrs::simulation::Simulation;
 use drumrs::start::InitialState;
-use drumrs::summary::summarize;
-use drumrs::vector::Vec2;
 
 pub const DRUM_RADIUS: f64 = 0.2375;
 pub const RADIUS: f64 = 0.011_875;
@@ -174,7 +174,8 @@ pub fn bits(simulation: &Simulation) -> Vec<u64> {
     all.extend(vectors(&particles.accelerations));
     all.extend(numbers(&particles.angles));
     all.extend(numbers(&particles.angular_velocities));
-    let columns = drumrs::recorder::columns(simulation.drum().baffle_count(), simulation.drum().wall_count());
+    let columns =
+        drumrs::observe::recorder::columns(simulation.drum().baffle_count(), simulation.drum().wall_count());
     for index in 0..columns.len() {
         all.extend(numbers(&simulation.state().series.column(index)));
     }
@@ -195,7 +196,8 @@ pub fn last(simulation: &Simulation, name: &str) -> f64 {
 
 /// All values of a recorded quantity.
 pub fn column(simulation: &Simulation, name: &str) -> Vec<f64> {
-    let columns = drumrs::recorder::columns(simulation.drum().baffle_count(), simulation.drum().wall_count());
+    let columns =
+        drumrs::observe::recorder::columns(simulation.drum().baffle_count(), simulation.drum().wall_count());
     let index = columns.iter().position(|column| column.0 == name).expect("a recorded quantity");
     simulation.state().series.column(index)
 }

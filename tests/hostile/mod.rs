@@ -1,11 +1,11 @@
 //! What must hold for any bytes: shared by the fuzz targets (`fuzz/`) and, over kept bytes, by the ordinary tests.
 
-use drumrs::config::SimulationConfig;
-use drumrs::drum::rotation::RotationSchedule;
-use drumrs::drum::{Drum, DrumParameters};
 use drumrs::error::Error;
+use drumrs::io::config::SimulationConfig;
+use drumrs::physics::drum::{Drum, DrumParameters};
+use drumrs::physics::rotation::RotationSchedule;
+use drumrs::physics::vector::Vec2;
 use drumrs::simulation::Simulation;
-use drumrs::vector::Vec2;
 
 /// More bundles are a large simulation, not a hostile one.
 const MOST_BUNDLES: usize = 300;
@@ -38,7 +38,7 @@ pub fn resealed(bytes: &[u8]) -> Vec<u8> {
     use sha2::{Digest, Sha256};
     let body = bytes.get(44..).unwrap_or_default();
     let mut sealed = b"DRUMRS\r\n".to_vec();
-    sealed.extend_from_slice(&drumrs::checkpoint::FORMAT_VERSION.to_le_bytes());
+    sealed.extend_from_slice(&drumrs::io::checkpoint::FORMAT_VERSION.to_le_bytes());
     sealed.extend_from_slice(&Sha256::digest(body));
     sealed.extend_from_slice(body);
     sealed

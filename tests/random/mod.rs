@@ -2,12 +2,12 @@
 
 use std::f64::consts::PI;
 
-use drumrs::config::{ContactParameters, LoadParameters, RunParameters, SimulationConfig};
 use drumrs::contact::laws::Laws;
 use drumrs::contact::linear::{LinearParameters, Tension};
-use drumrs::drum::DrumParameters;
-use drumrs::drum::baffle::{BaffleParameters, BaffleShape};
-use drumrs::drum::rotation::RotationSchedule;
+use drumrs::io::config::{ContactParameters, LoadParameters, RunParameters, SimulationConfig};
+use drumrs::physics::drum::DrumParameters;
+use drumrs::physics::drum::baffle::{BaffleParameters, BaffleShape};
+use drumrs::physics::rotation::RotationSchedule;
 use proptest::collection::vec;
 use proptest::prelude::*;
 

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use serde::{Deserialize, Serialize};
 
 use super::polygon::signed_area;
-use crate::vector::{Rotation, Vec2};
+use crate::physics::vector::{Rotation, Vec2};
 
 /// The baffles of a drum: `count` copies of one shape, every 2π/`count`, the first at angle `phase`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

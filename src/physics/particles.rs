@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
-use crate::vector::Vec2;
+use crate::physics::vector::Vec2;
 
 /// Equal-length vectors of everything that a particle is.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -150,7 +150,7 @@ impl Particles {
     /// Σ m (x × v) + I ω about the drum's axis [kg m/s].
     pub fn angular_momentum(&self) -> f64 {
         (0..self.len()).fold(0.0, |sum, i| {
-            let moment = crate::vector::cross(self.positions[i], self.velocities[i]);
+            let moment = crate::physics::vector::cross(self.positions[i], self.velocities[i]);
             sum + self.masses[i] * moment + self.inertias[i] * self.angular_velocities[i]
         })
     }

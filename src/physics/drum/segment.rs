@@ -1,17 +1,17 @@
 //! One straight side of an outline, and the bridge between parry2d's vectors and ours.
 
 use parry2d::query::PointQueryWithLocation;
-use parry2d::shape::{Segment, SegmentPointLocation};
+use parry2d::shape::{Segment as ParrySegment, SegmentPointLocation};
 
-use crate::vector::{Vec2, cross, dot};
+use crate::physics::vector::{Vec2, cross, dot};
 
 /// A directed straight side from its start to its end, of non-zero length.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Side(Segment);
+pub(super) struct Segment(ParrySegment);
 
 /// Where on a side the closest point lies.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Place {
+pub(super) enum SegmentRegion {
     /// At the start; the projection falls on it or before it.
     Start,
     /// Between the ends, at this fraction of the way from the start.
@@ -26,12 +26,12 @@ pub(super) struct Projection {
     /// The closest point.
     pub(super) point: Vec2,
     /// Where on the side it lies.
-    pub(super) place: Place,
+    pub(super) place: SegmentRegion,
 }
 
-impl Side {
+impl Segment {
     pub(super) fn new(start: Vec2, end: Vec2) -> Self {
-        Self(Segment::new(to_parry(start), to_parry(end)))
+        Self(ParrySegment::new(to_parry(start), to_parry(end)))
     }
 
     #[inline]
@@ -58,9 +58,9 @@ impl Side {
     pub(super) fn project(&self, point: Vec2) -> Projection {
         let (projection, location) = self.0.project_local_point_and_get_location(to_parry(point), false);
         let place = match location {
-            SegmentPointLocation::OnVertex(0) => Place::Start,
-            SegmentPointLocation::OnVertex(_) => Place::End,
-            SegmentPointLocation::OnEdge([_, fraction]) => Place::Between(fraction),
+            SegmentPointLocation::OnVertex(0) => SegmentRegion::Start,
+            SegmentPointLocation::OnVertex(_) => SegmentRegion::End,
+            SegmentPointLocation::OnEdge([_, fraction]) => SegmentRegion::Between(fraction),
         };
         Projection { point: from_parry(projection.point), place }
     }
@@ -122,17 +122,17 @@ fn from_parry(v: parry2d::math::Vector) -> Vec2 {
 mod tests {
     use super::*;
 
-    fn side(start: [f64; 2], end: [f64; 2]) -> Side {
-        Side::new(start.into(), end.into())
+    fn side(start: [f64; 2], end: [f64; 2]) -> Segment {
+        Segment::new(start.into(), end.into())
     }
 
     #[test]
     fn projection_names_its_place() {
         let side = side([1.0, 1.0], [5.0, 1.0]);
-        assert_eq!(side.project(Vec2::new(1.0, 3.0)).place, Place::Start);
-        assert_eq!(side.project(Vec2::new(5.0, 0.0)).place, Place::End);
+        assert_eq!(side.project(Vec2::new(1.0, 3.0)).place, SegmentRegion::Start);
+        assert_eq!(side.project(Vec2::new(5.0, 0.0)).place, SegmentRegion::End);
         let between = side.project(Vec2::new(2.0, 3.0));
-        assert_eq!((between.point, between.place), (Vec2::new(2.0, 1.0), Place::Between(0.25)));
+        assert_eq!((between.point, between.place), (Vec2::new(2.0, 1.0), SegmentRegion::Between(0.25)));
         assert_eq!(side.distance_squared(Vec2::new(8.0, 5.0)), 25.0);
     }
 

@@ -2,7 +2,7 @@
 
 use rand::Rng;
 
-use crate::vector::Vec2;
+use crate::physics::vector::Vec2;
 
 /// A random number of [0, 1), a multiple of 2⁻⁵³.
 pub(super) fn unit(random: &mut impl Rng) -> f64 {

@@ -1,7 +1,7 @@
 //! Means over a window of samples, with the uncertainty of the power.
 
 use crate::error::Error;
-use crate::recorder::{QUANTITIES, Series};
+use crate::observe::recorder::{QUANTITIES, Series};
 
 /// A named statistic; none where it is not defined.
 pub type Statistic = (&'static str, Option<f64>);

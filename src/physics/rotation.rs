@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, require_finite};
-use crate::vector::Rotation;
+use crate::physics::vector::Rotation;
 
 /// The drum's angular velocity over time: linear between knots, constant before the first and after the last.
 ///

@@ -4,7 +4,7 @@ mod proximity;
 
 use super::baffle::BaffleShape;
 use super::*;
-use crate::vector::dot;
+use crate::physics::vector::dot;
 
 /// The default drum: three triangles, 0.05 m high on a base of 0.06 m, in a rim of 0.475 m diameter.
 fn triangles() -> DrumParameters {

@@ -6,7 +6,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::vector::Vec2;
+use crate::physics::vector::Vec2;
 
 /// A sum whose rounding errors are kept and added back (Neumaier's compensated summation).
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]

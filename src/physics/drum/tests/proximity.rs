@@ -1,7 +1,7 @@
 //! Which features answer, and how far away they are.
 
 use super::*;
-use crate::vector::{cross, perpendicular};
+use crate::physics::vector::{cross, perpendicular};
 
 #[test]
 fn closest_answer_is_the_distance_to_the_outlines() {

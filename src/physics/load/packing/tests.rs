@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::*;
-use crate::vector::{Rotation, cross};
+use crate::physics::vector::{Rotation, cross};
 
 /// Radius of the bundles of the paper [m]: a drum twenty times as wide.
 const RADIUS: f64 = 0.011_875;

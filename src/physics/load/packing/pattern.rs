@@ -7,7 +7,7 @@ use rand_pcg::Pcg64;
 
 use super::draws::unit;
 use super::{FreeSpace, GAP, Room};
-use crate::vector::{Rotation, Vec2};
+use crate::physics::vector::{Rotation, Vec2};
 
 /// Height of a row of a triangular lattice over its spacing, √3/2.
 const ROW: f64 = 0.866_025_403_784_438_6;

@@ -5,7 +5,7 @@ use rand::Rng;
 use super::cells::Cells;
 use super::draws::{below, in_square};
 use super::{FreeSpace, Room};
-use crate::vector::Vec2;
+use crate::physics::vector::Vec2;
 
 /// Tries of random insertion, per disc and in all, after which a bed counts as too dense for it.
 const TRIES_PER_DISC: usize = 30;

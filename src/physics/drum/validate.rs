@@ -2,9 +2,9 @@
 
 use super::baffle::{BaffleParameters, BaffleShape, half_chord};
 use super::polygon::{contains, empty_side, first_crossing, length, sides};
-use super::side::Side;
+use super::segment::Segment;
 use crate::error::{Error, require_finite, require_non_negative, require_positive};
-use crate::vector::Vec2;
+use crate::physics::vector::Vec2;
 
 /// The most baffles a drum may have; each has columns of its own in the recorded series.
 const MOST: usize = 1000;
@@ -113,7 +113,7 @@ impl BaffleParameters {
 }
 
 /// Refuses a polygon on the axis or wholly outside the rim.
-fn validate_place(sides: &[Side], radius: f64) -> Result<(), Error> {
+fn validate_place(sides: &[Segment], radius: f64) -> Result<(), Error> {
     let axis = Vec2::zeros();
     if contains(sides, axis) || sides.iter().any(|side| side.holds(axis)) {
         return refuse_points("a polygon that covers the drum's axis", "a polygon beside the axis");

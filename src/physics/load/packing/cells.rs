@@ -1,7 +1,7 @@
 //! The discs placed so far, on a square grid that finds the neighbors of a point.
 
 use super::Room;
-use crate::vector::{Vec2, dot};
+use crate::physics::vector::{Vec2, dot};
 
 /// Ends the list of a cell.
 const NONE: u32 = u32::MAX;

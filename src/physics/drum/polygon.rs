@@ -1,13 +1,13 @@
 //! Plane geometry of closed polygons and open polylines, given as lists of points.
 
-use super::side::Side;
-use crate::vector::{Vec2, cross, dot};
+use super::segment::Segment;
+use crate::physics::vector::{Vec2, cross, dot};
 
 /// The sides of a polyline in order; a closed one ends with the side from the last point to the first.
-pub(super) fn sides(points: &[Vec2], closed: bool) -> Vec<Side> {
+pub(super) fn sides(points: &[Vec2], closed: bool) -> Vec<Segment> {
     let closing = points.last().zip(points.first()).filter(|_| closed);
     let pairs = points.windows(2).map(|pair| (&pair[0], &pair[1]));
-    pairs.chain(closing).map(|(start, end)| Side::new(*start, *end)).collect()
+    pairs.chain(closing).map(|(start, end)| Segment::new(*start, *end)).collect()
 }
 
 /// The area [m²] inside a closed polygon: positive when its points run counter-clockwise.
@@ -19,7 +19,7 @@ pub(super) fn signed_area(points: &[Vec2]) -> f64 {
 
 /// Whether `point` lies inside the closed polygon with these sides: a ray from it towards +x crosses an odd
 /// number.
-pub(super) fn contains(sides: &[Side], point: Vec2) -> bool {
+pub(super) fn contains(sides: &[Segment], point: Vec2) -> bool {
     let crossed = sides.iter().filter(|side| {
         let upwards = side.start().y <= point.y && side.end().y > point.y;
         let downwards = side.end().y <= point.y && side.start().y > point.y;
@@ -29,17 +29,17 @@ pub(super) fn contains(sides: &[Side], point: Vec2) -> bool {
 }
 
 /// The index of the first side without length.
-pub(super) fn empty_side(sides: &[Side]) -> Option<usize> {
+pub(super) fn empty_side(sides: &[Segment]) -> Option<usize> {
     sides.iter().position(|side| dot(side.vector(), side.vector()) == 0.0)
 }
 
 /// Whether `next`, which starts where `side` ends, runs straight back over it.
-pub(super) fn folds_back(side: &Side, next: &Side) -> bool {
+pub(super) fn folds_back(side: &Segment, next: &Segment) -> bool {
     cross(side.vector(), next.vector()) == 0.0 && dot(side.vector(), next.vector()) < 0.0
 }
 
 /// The first two sides of a closed polygon that share more than the corner between them.
-pub(super) fn first_crossing(sides: &[Side]) -> Option<(usize, usize)> {
+pub(super) fn first_crossing(sides: &[Segment]) -> Option<(usize, usize)> {
     let last = sides.len().saturating_sub(1);
     let pairs = (0..sides.len()).flat_map(|i| (i + 1..sides.len()).map(move |j| (i, j)));
     let touch = |i: usize, j: usize| match (i, j) {
@@ -64,7 +64,7 @@ mod tests {
         list.iter().map(|&p| p.into()).collect()
     }
 
-    fn closed(list: &[[f64; 2]]) -> Vec<Side> {
+    fn closed(list: &[[f64; 2]]) -> Vec<Segment> {
         sides(&points(list), true)
     }
 

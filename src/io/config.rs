@@ -7,9 +7,9 @@
 use serde::{Deserialize, Serialize};
 
 use crate::contact::linear::LinearParameters;
-use crate::drum::DrumParameters;
-use crate::drum::rotation::RotationSchedule;
 use crate::error::{Error, require_finite, require_non_negative, require_positive};
+use crate::physics::drum::DrumParameters;
+use crate::physics::rotation::RotationSchedule;
 
 /// A complete simulation, as it crosses the border from Python in JSON.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -7,9 +7,9 @@
 
 use super::Proximity;
 use super::polygon::{contains, length, sides};
-use super::side::{Place, Side};
-use super::sight::{blockers, overhangs};
-use crate::vector::{Vec2, cross, dot, perpendicular};
+use super::segment::{Segment, SegmentRegion};
+use super::visibility::{occluders, overhangs};
+use crate::physics::vector::{Vec2, cross, dot, perpendicular};
 
 /// What an outline bounds.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,12 +25,12 @@ pub(super) enum Kind {
 pub(super) struct Outline {
     kind: Kind,
     points: Vec<Vec2>,
-    sides: Vec<Side>,
+    sides: Vec<Segment>,
     corners: Vec<Corner>,
     /// For each edge the fractions that the edges before it (from its start) and after it (from its end) overhang.
     overhangs: Vec<[f64; 2]>,
     /// For each feature the far sides that may hide it.
-    blockers: Vec<Vec<usize>>,
+    occluders: Vec<Vec<usize>>,
     /// The bounding box.
     low: Vec2,
     high: Vec2,
@@ -58,8 +58,8 @@ impl Outline {
         let low = points.iter().copied().reduce(|a, b| a.inf(&b)).unwrap_or_default();
         let high = points.iter().copied().reduce(|a, b| a.sup(&b)).unwrap_or_default();
         let overhangs = overhangs(&sides, &corners);
-        let blockers = blockers(kind, &sides, &corners);
-        Self { kind, points, sides, corners, overhangs, blockers, low, high }
+        let occluders = occluders(kind, &sides, &corners);
+        Self { kind, points, sides, corners, overhangs, occluders, low, high }
     }
 
     /// The points as given: a baffle's first point is not repeated at the end, a closed wall's is.
@@ -129,13 +129,13 @@ impl Outline {
         let corner = &self.corners[vertex];
         let (before, after) =
             (corner.before.map(|edge| &self.sides[edge]), corner.after.map(|edge| &self.sides[edge]));
-        if before.is_some_and(|side| side.project(center).place != Place::End)
-            || after.is_some_and(|side| side.project(center).place != Place::Start)
+        if before.is_some_and(|side| side.project(center).place != SegmentRegion::End)
+            || after.is_some_and(|side| side.project(center).place != SegmentRegion::Start)
         {
             return None;
         }
         // Both edges clamp to a concave vertex only inside the solid, or by round-off where it is all but straight.
-        let inside = |side: &Side| side.left_of(center) > 0.0;
+        let inside = |side: &Segment| side.left_of(center) > 0.0;
         let concave = self.kind == Kind::Solid && corner.turn < 0.0;
         if concave && (before.is_some_and(inside) || after.is_some_and(inside)) {
             return None;
@@ -147,7 +147,7 @@ impl Outline {
     fn edge_proximity(&self, edge: usize, center: Vec2) -> Option<Proximity> {
         let side = &self.sides[edge];
         let projection = side.project(center);
-        let Place::Between(fraction) = projection.place else { return None };
+        let SegmentRegion::Between(fraction) = projection.place else { return None };
         let left = side.left_of(center);
         if (self.kind == Kind::Solid && left > 0.0)
             || self.yields_to_previous(edge, fraction, left, center)
@@ -169,7 +169,7 @@ impl Outline {
         if corner.turn * left > 0.0 {
             fraction < self.overhangs[edge][0]
         } else {
-            matches!(previous.project(center).place, Place::Between(_))
+            matches!(previous.project(center).place, SegmentRegion::Between(_))
         }
     }
 
@@ -184,9 +184,9 @@ impl Outline {
     /// Whether nothing but neighbors stands between `center` and a point of the feature at `index`.
     #[inline]
     fn seen(&self, index: usize, center: Vec2, point: Vec2) -> bool {
-        let blockers = &self.blockers[index];
-        let sight = Side::new(center, point);
-        !blockers.iter().any(|&side| self.sides[side].crosses(&sight))
+        let occluders = &self.occluders[index];
+        let sight = Segment::new(center, point);
+        !occluders.iter().any(|&side| self.sides[side].crosses(&sight))
     }
 
     /// The vertex at which an edge ends.
@@ -197,7 +197,7 @@ impl Outline {
 }
 
 /// The vertices of an outline with these sides.
-pub(super) fn corners(sides: &[Side], closed: bool) -> Vec<Corner> {
+pub(super) fn corners(sides: &[Segment], closed: bool) -> Vec<Corner> {
     let count = if closed { sides.len() } else { sides.len() + 1 };
     let corner = |vertex: usize| {
         let before = if vertex > 0 { Some(vertex - 1) } else { closed.then(|| sides.len() - 1) };
@@ -214,7 +214,7 @@ pub(super) fn corners(sides: &[Side], closed: bool) -> Vec<Corner> {
 
 /// The proximity of `center` to `point`. Where they coincide any normal serves, so the left one of `side` does.
 #[inline]
-fn toward(point: Vec2, center: Vec2, side: &Side) -> Proximity {
+fn toward(point: Vec2, center: Vec2, side: &Segment) -> Proximity {
     let offset = point - center;
     let distance = length(offset);
     if distance > 0.0 {

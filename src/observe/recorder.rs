@@ -4,7 +4,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::energy::{EnergyLedger, StoredEnergy, SurfaceAccount};
+use crate::physics::energy::{EnergyLedger, StoredEnergy, SurfaceAccount};
 
 /// Everything that a sample may look at.
 #[derive(Debug)]
@@ -246,7 +246,7 @@ pub struct Frames {
 
 impl Frames {
     /// Appends a frame.
-    pub fn push(&mut self, time: f64, drum_angle: f64, particles: &crate::particles::Particles) {
+    pub fn push(&mut self, time: f64, drum_angle: f64, particles: &crate::physics::particles::Particles) {
         self.times.push(time);
         self.drum_angles.push(drum_angle);
         let (start, end) = (self.angles.len(), self.angles.len() + particles.len());

@@ -10,15 +10,15 @@ use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
 use crate::PHYSICS_VERSION;
-use crate::config::SimulationConfig;
 use crate::contact::Contact;
 use crate::contact::block::Traits;
 use crate::contact::laws::Laws;
 use crate::contact::table::ContactTable;
-use crate::drum::Drum;
 use crate::error::Error;
-use crate::particles::Particles;
-use crate::recorder::columns;
+use crate::io::config::SimulationConfig;
+use crate::observe::recorder::columns;
+use crate::physics::drum::Drum;
+use crate::physics::particles::Particles;
 use crate::simulation::Simulation;
 use crate::state::{State, TouchingContacts};
 

@@ -5,13 +5,13 @@
 //! the outline alone is found once, here; a convex baffle has nothing left to test.
 
 use super::outline::{Corner, Kind};
-use super::side::Side;
-use crate::vector::{Vec2, dot, perpendicular};
+use super::segment::Segment;
+use crate::physics::vector::{Vec2, dot, perpendicular};
 
 /// For each edge the fraction of it that the edge before it overhangs, counted from its start, and the edge
 /// after it, counted from its end. Up to there a line of sight from behind the neighbor is blocked. Positive
 /// at acute corners only.
-pub(super) fn overhangs(sides: &[Side], corners: &[Corner]) -> Vec<[f64; 2]> {
+pub(super) fn overhangs(sides: &[Segment], corners: &[Corner]) -> Vec<[f64; 2]> {
     let mut fractions = vec![[0.0; 2]; sides.len()];
     for corner in corners {
         if let (Some(before), Some(after)) = (corner.before, corner.after) {
@@ -25,7 +25,7 @@ pub(super) fn overhangs(sides: &[Side], corners: &[Corner]) -> Vec<[f64; 2]> {
 
 /// For each feature the sides that reach into its region, neighbors apart, and so may hide it from a point
 /// there.
-pub(super) fn blockers(kind: Kind, sides: &[Side], corners: &[Corner]) -> Vec<Vec<usize>> {
+pub(super) fn occluders(kind: Kind, sides: &[Segment], corners: &[Corner]) -> Vec<Vec<usize>> {
     let mut lists = Vec::with_capacity(corners.len() + sides.len());
     for (index, corner) in corners.iter().enumerate() {
         lists.push(far_sides(sides, &[corner.before, corner.after], &vertex_region(sides, corner)));
@@ -44,14 +44,14 @@ struct HalfPlane {
 }
 
 /// Where both edges of a vertex clamp to it.
-fn vertex_region(sides: &[Side], corner: &Corner) -> Vec<HalfPlane> {
+fn vertex_region(sides: &[Segment], corner: &Corner) -> Vec<HalfPlane> {
     let beyond = corner.before.map(|edge| sides[edge].vector());
     let ahead = corner.after.map(|edge| -sides[edge].vector());
     beyond.into_iter().chain(ahead).map(|normal| HalfPlane { normal, origin: corner.point }).collect()
 }
 
 /// Where the projection on an edge falls between its ends, outside of a solid.
-fn edge_region(kind: Kind, side: &Side) -> Vec<HalfPlane> {
+fn edge_region(kind: Kind, side: &Segment) -> Vec<HalfPlane> {
     let along = side.vector();
     let mut region = vec![
         HalfPlane { normal: along, origin: side.start() },
@@ -64,12 +64,12 @@ fn edge_region(kind: Kind, side: &Side) -> Vec<HalfPlane> {
 }
 
 /// The sides outside `own` of which some part lies in the region, the intersection of the half planes.
-fn far_sides(sides: &[Side], own: &[Option<usize>], region: &[HalfPlane]) -> Vec<usize> {
+fn far_sides(sides: &[Segment], own: &[Option<usize>], region: &[HalfPlane]) -> Vec<usize> {
     (0..sides.len()).filter(|&index| !own.contains(&Some(index)) && reaches(&sides[index], region)).collect()
 }
 
 /// Whether some part of `side` lies in the region.
-fn reaches(side: &Side, region: &[HalfPlane]) -> bool {
+fn reaches(side: &Segment, region: &[HalfPlane]) -> bool {
     let (mut low, mut high) = (0.0_f64, 1.0_f64);
     for HalfPlane { normal, origin } in region {
         let at_start = dot(*normal, side.start() - origin);
@@ -101,11 +101,11 @@ mod tests {
             HalfPlane { normal: Vec2::new(0.0, -1.0), origin: Vec2::new(3.0, 1.0) },
         ];
         let sides = [
-            Side::new(Vec2::new(-2.0, 0.0), Vec2::new(-1.0, 0.0)),
-            Side::new(Vec2::new(-2.0, 0.0), Vec2::new(1.0, 0.0)),
-            Side::new(Vec2::new(-1.0, 0.5), Vec2::new(1.0, 2.0)),
-            Side::new(Vec2::new(-1.0, -0.5), Vec2::new(1.0, 2.0)),
-            Side::new(Vec2::new(1.0, 0.0), Vec2::new(2.0, 0.0)),
+            Segment::new(Vec2::new(-2.0, 0.0), Vec2::new(-1.0, 0.0)),
+            Segment::new(Vec2::new(-2.0, 0.0), Vec2::new(1.0, 0.0)),
+            Segment::new(Vec2::new(-1.0, 0.5), Vec2::new(1.0, 2.0)),
+            Segment::new(Vec2::new(-1.0, -0.5), Vec2::new(1.0, 2.0)),
+            Segment::new(Vec2::new(1.0, 0.0), Vec2::new(2.0, 0.0)),
         ];
         assert_eq!(far_sides(&sides, &[Some(4), None], &region), [1, 3]);
         assert_eq!(far_sides(&sides, &[], &region), [1, 3, 4]);
@@ -116,9 +116,9 @@ mod tests {
         let points: Vec<Vec2> =
             [[0.2, 0.03], [0.15, 0.01], [0.15, -0.02], [0.2, -0.03]].map(Vec2::from).to_vec();
         let sides = sides(&points, true);
-        assert!(blockers(Kind::Solid, &sides, &corners(&sides, true)).iter().all(Vec::is_empty));
+        assert!(occluders(Kind::Solid, &sides, &corners(&sides, true)).iter().all(Vec::is_empty));
         // Seen from both sides, opposite walls do hide each other.
-        assert!(!blockers(Kind::Wall, &sides, &corners(&sides, true)).iter().all(Vec::is_empty));
+        assert!(!occluders(Kind::Wall, &sides, &corners(&sides, true)).iter().all(Vec::is_empty));
     }
 
     #[test]

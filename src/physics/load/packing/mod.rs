@@ -17,9 +17,9 @@ mod tests;
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
 
-use crate::drum::Drum;
 use crate::error::{Error, require_positive};
-use crate::vector::{Vec2, dot};
+use crate::physics::drum::Drum;
+use crate::physics::vector::{Vec2, dot};
 
 /// The relative gap kept round every disc, so that neither rounding nor a turn of the drum makes two discs overlap.
 const GAP: f64 = 1e-9;

@@ -6,19 +6,18 @@
 //! comparison with each other only, so that a drum four times as large answers with the same bits, scaled.
 
 pub mod baffle;
-mod fit;
 mod outline;
 mod polygon;
-pub mod rotation;
-mod side;
-mod sight;
+mod segment;
 #[cfg(test)]
 mod tests;
+mod validate;
+mod visibility;
 
 use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, require_finite, require_positive};
-use crate::vector::Vec2;
+use crate::physics::vector::Vec2;
 use baffle::BaffleParameters;
 use outline::{Kind, Outline};
 use polygon::length;

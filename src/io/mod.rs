@@ -1,0 +1,4 @@
+//! Configurations and checkpoints.
+
+pub mod checkpoint;
+pub mod config;

@@ -1,0 +1,4 @@
+//! What is recorded of a simulation, and the statistics of it.
+
+pub mod recorder;
+pub mod summary;
