@@ -1,5 +1,7 @@
 //! What can go wrong, as one enum; each message says what was found and what would have been accepted.
 
+use std::fmt;
+
 /// Every failure of the core.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Error {
@@ -28,36 +30,50 @@ pub enum Error {
     },
 
     /// A particle's state stopped being a number.
-    #[error("the state of bundle {particle} is no longer finite at step {step}; shorten run.time_step")]
+    #[error("the state of bundle {} is no longer finite at {}; shorten run.time_step", .incident.particle, .incident.moment())]
     NonFinite {
-        /// Step at which it was seen.
-        step: u64,
-        /// The bundle's id.
-        particle: usize,
+        /// Which particle, when and where.
+        incident: Incident,
     },
 
     /// A contact was pressed deeper than the model can mean.
     #[error(
-        "the overlap of bundle {particle} reached {ratio:.3} of its radius at step {step}, beyond run.overlap_limit = {limit}; shorten run.time_step or raise the stiffness"
+        "the overlap of bundle {} reached {ratio:.3} of its radius at {incident}, beyond run.overlap_limit = {limit}; shorten run.time_step or raise the stiffness",
+        .incident.particle
     )]
     Overlap {
-        /// Step at which it was seen.
-        step: u64,
-        /// The bundle's id.
-        particle: usize,
+        /// Which particle, when and where.
+        incident: Incident,
         /// Overlap over the smaller radius.
         ratio: f64,
         /// The limit of that ratio.
         limit: f64,
     },
 
-    /// A particle's center left the drum.
-    #[error("bundle {particle} left the drum at step {step}; shorten run.time_step")]
+    /// A particle's center is inside a solid.
+    #[error(
+        "bundle {} passed through the {surface} by {incident}; shorten run.time_step or raise the stiffness",
+        .incident.particle
+    )]
     Escaped {
-        /// Step at which it was seen.
-        step: u64,
-        /// The bundle's id.
-        particle: usize,
+        /// Which particle, when and where.
+        incident: Incident,
+        /// What it passed through.
+        surface: String,
+    },
+
+    /// A particle moved so far in a step that it could pass through others unseen.
+    #[error(
+        "bundle {} moved {way:.3e} m in one step at {incident}, as seen from the drum, more than half of the smallest radius, {limit:.3e} m; shorten run.time_step, or start slower",
+        .incident.particle
+    )]
+    TooFast {
+        /// Which particle, when and where.
+        incident: Incident,
+        /// How far it moved [m].
+        way: f64,
+        /// The limit [m].
+        limit: f64,
     },
 
     /// A checkpoint that cannot be used.
@@ -75,6 +91,35 @@ pub enum Error {
         /// What the system answered.
         reason: String,
     },
+}
+
+/// Which particle something happened to, when and where.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Incident {
+    /// The bundle's id.
+    pub particle: usize,
+    /// Step at which it was seen.
+    pub step: u64,
+    /// Time of that step [s].
+    pub time: f64,
+    /// Where the bundle was [m].
+    pub position: [f64; 2],
+    /// Its speed [m/s].
+    pub speed: f64,
+}
+
+impl Incident {
+    /// When it happened.
+    fn moment(&self) -> String {
+        format!("step {} (t = {:.6} s)", self.step, self.time)
+    }
+}
+
+impl fmt::Display for Incident {
+    fn fmt(&self, formatter: &mut fmt::Formatter) -> fmt::Result {
+        let (Self { position: [x, y], speed, .. }, moment) = (self, self.moment());
+        write!(formatter, "{moment} near [{x:.4}, {y:.4}] m at {speed:.3} m/s")
+    }
 }
 
 impl Error {

@@ -26,29 +26,14 @@
 //!
 //! `examples/one_turn.rs` runs a whole drum.
 
-pub mod cache;
-
-pub mod contact;
+pub mod engine;
+pub mod error;
 pub mod io;
 pub mod observe;
 pub mod physics;
-
-pub mod error;
-pub mod forces;
-pub mod integrator;
-pub mod lanes;
-pub mod neighbors;
-pub mod order;
-
-pub mod patch;
 #[cfg(feature = "python")]
 mod python;
-
 pub mod simulation;
-pub mod start;
-pub mod state;
-
-pub mod threads;
 
 /// Changes whenever the same configuration and seed give other numbers; part of every result's identity.
-pub const PHYSICS_VERSION: u32 = 2;
+pub const PHYSICS_VERSION: u32 = 3;

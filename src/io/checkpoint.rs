@@ -10,21 +10,18 @@ use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
 use crate::PHYSICS_VERSION;
-use crate::contact::Contact;
-use crate::contact::block::Traits;
-use crate::contact::laws::Laws;
-use crate::contact::table::ContactTable;
+use crate::engine::contacts::ContactRecord;
+use crate::engine::parallel::chunk_count;
 use crate::error::Error;
 use crate::io::config::SimulationConfig;
 use crate::observe::recorder::columns;
 use crate::physics::drum::Drum;
-use crate::physics::particles::Particles;
 use crate::simulation::Simulation;
-use crate::state::{State, TouchingContacts};
+use crate::simulation::state::{EngineState, State};
 
 const MAGIC: &[u8; 8] = b"DRUMRS\r\n";
 /// Version of the layout below; a checkpoint of another one is refused.
-pub const FORMAT_VERSION: u32 = 3;
+pub const FORMAT_VERSION: u32 = 4;
 /// Beyond this, step × time step is no longer exact to a step.
 const MOST_STEPS: u64 = 1 << 53;
 const HEADER: usize = MAGIC.len() + 4 + 32;
@@ -35,7 +32,7 @@ struct Snapshot {
     config: String,
     seed: u64,
     state: State,
-    contacts: TouchingContacts,
+    engine: EngineState,
 }
 
 fn refuse(reason: impl Into<String>) -> Error {
@@ -56,10 +53,7 @@ impl Simulation {
             config: self.config().to_json(),
             seed: self.seed(),
             state: self.state().clone(),
-            contacts: TouchingContacts {
-                pairs: self.contacts().pairs().map(|entry| entry.contact).collect(),
-                walls: self.contacts().walls().map(|entry| entry.contact).collect(),
-            },
+            engine: self.engine_state(),
         };
         let body = postcard::to_stdvec(&snapshot).map_err(|error| refuse(error.to_string()))?;
         let mut bytes = Vec::with_capacity(HEADER + body.len());
@@ -78,11 +72,8 @@ impl Simulation {
         let snapshot = read(bytes)?;
         let config =
             SimulationConfig::from_json(&snapshot.config).map_err(|error| refuse(error.to_string()))?;
-        let contacts = snapshot.contacts;
-        check(&snapshot.state, &contacts, &config)?;
-        Self::resume(config, snapshot.seed, threads, snapshot.state, move |laws, particles| {
-            restore(&contacts, laws, particles)
-        })
+        check(&snapshot.state, &snapshot.engine, &config)?;
+        Self::resume(config, snapshot.seed, threads, snapshot.state, &snapshot.engine)
     }
 
     /// Writes a checkpoint under a temporary name and renames it, so that `path` always holds a whole one.
@@ -153,47 +144,37 @@ fn read(bytes: &[u8]) -> Result<Snapshot, Error> {
 }
 
 /// Refuses a state whose parts do not belong together, which a matching digest alone does not rule out.
-fn check(state: &State, contacts: &TouchingContacts, config: &SimulationConfig) -> Result<(), Error> {
-    let drum = Drum::new(&config.drum).map_err(|error| refuse(error.to_string()))?;
-    state.particles.validate().map_err(|error| refuse(error.to_string()))?;
-    if state.particles.is_empty() || state.step > MOST_STEPS {
+fn check(state: &State, engine: &EngineState, config: &SimulationConfig) -> Result<(), Error> {
+    let refused = |error: Error| refuse(error.to_string());
+    let drum = Drum::new(&config.drum).map_err(refused)?;
+    let table = config.contact.table().map_err(refused)?;
+    state.particles.validate().map_err(refused)?;
+    if state.particles.is_empty() || state.step > MOST_STEPS || !state.initial_angle.is_finite() {
         return Err(refuse("it holds no bundle, or more steps than a run can have"));
     }
-    let count = state.particles.len() as u32;
+    if state.particles.species.iter().any(|&species| usize::from(species) >= table.count()) {
+        return Err(refuse("a bundle is of a species that is not there"));
+    }
+    let count = state.particles.len();
     let width = columns(drum.baffle_count(), drum.wall_count()).len();
     if state.ledger.surfaces.len() != drum.surface_count() || !state.series.has_width(width) {
         return Err(refuse("its accounts are not those of its drum"));
     }
-    if !state.frames.are_of(count as usize) {
-        return Err(refuse("its frames are not those of its bundles"));
+    if !state.frames.are_of(count) || engine.totals.len() != chunk_count(count) {
+        return Err(refuse("its frames or sums are not those of its bundles"));
     }
-    let known = |contacts: &[Contact], others: u32| {
-        contacts.iter().all(|contact| contact.particle < count && contact.other < others)
-            && contacts.is_sorted_by(|a, b| (a.particle, a.other) < (b.particle, b.other))
-    };
+    let EngineState { contacts, .. } = engine;
     let ordered = contacts.pairs.iter().all(|contact| contact.particle < contact.other);
-    if ordered && known(&contacts.pairs, count) && known(&contacts.walls, drum.feature_count()) {
+    let known = |contacts: &[ContactRecord], others: u32| {
+        let mut keys: Vec<_> = contacts.iter().map(ContactRecord::key).collect();
+        keys.sort_unstable();
+        keys.iter().all(|&(particle, other)| (particle as usize) < count && other < others)
+            && keys.windows(2).all(|two| two[0] != two[1])
+            && contacts.iter().all(|contact| contact.overlap > 0.0)
+    };
+    if ordered && known(&contacts.pairs, count as u32) && known(&contacts.walls, drum.feature_count()) {
         Ok(())
     } else {
         Err(refuse("its contacts are not those of its bundles"))
     }
-}
-
-fn restore(contacts: &TouchingContacts, laws: &Laws, particles: &Particles) -> Result<ContactTable, Error> {
-    if particles.materials.iter().any(|&material| usize::from(material) >= laws.materials()) {
-        return Err(refuse("a bundle is of a material that is not there"));
-    }
-    let body = |id: u32| (particles.materials[id as usize], particles.masses[id as usize]);
-    let radius = |id: u32| particles.radii[id as usize];
-    let mut table = ContactTable::empty(particles.len());
-    for &contact in &contacts.pairs {
-        let Contact { particle, other, .. } = contact;
-        let law = laws.pair_slot(body(particle), body(other));
-        table.add_pair(contact, Traits { law, radii: [radius(particle), radius(other)] });
-    }
-    for &contact in &contacts.walls {
-        let law = laws.wall_slot(body(contact.particle));
-        table.add_wall(contact, Traits { law, radii: [radius(contact.particle), 0.0] });
-    }
-    Ok(table)
 }

@@ -6,7 +6,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::contact::linear::LinearParameters;
+use crate::physics::contact::parameters::ContactParameters;
+use crate::physics::contact::species::SpeciesTable;
 use crate::error::{Error, require_finite, require_non_negative, require_positive};
 use crate::physics::drum::DrumParameters;
 use crate::physics::rotation::RotationSchedule;
@@ -22,7 +23,7 @@ pub struct SimulationConfig {
     /// The bundles.
     pub load: LoadParameters,
     /// The contact laws.
-    pub contact: ContactParameters,
+    pub contact: ContactTables,
     /// Gravity [m/s²], (x, y).
     pub gravity: [f64; 2],
     /// Time step, recording, guards.
@@ -45,14 +46,56 @@ pub struct LoadParameters {
     pub spin_locked: bool,
 }
 
-/// One law for two bundles, one for a bundle and the drum.
+/// One law for two bundles, one for a bundle and the drum; others between species.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct ContactParameters {
+pub struct ContactTables {
     /// Bundle against bundle.
-    pub bundle: LinearParameters,
+    pub bundle: ContactParameters,
     /// Bundle against rim, baffle or wall.
-    pub drum: LinearParameters,
+    pub drum: ContactParameters,
+    /// Number of species.
+    pub species: usize,
+    /// What acts between two species instead of `bundle`.
+    pub pairs: Vec<(u16, u16, ContactParameters)>,
+    /// What acts between a species and the drum instead of `drum`.
+    pub walls: Vec<(u16, ContactParameters)>,
+}
+
+/// The most species that a load may have: the table of laws grows with the square.
+const MOST_SPECIES: usize = 256;
+
+impl ContactTables {
+    /// The table of laws.
+    ///
+    /// # Errors
+    /// `Error::Config` naming the key.
+    pub fn table(&self) -> Result<SpeciesTable, Error> {
+        if self.species == 0 || self.species > MOST_SPECIES {
+            let limit = format!("between 1 and {MOST_SPECIES}");
+            return Err(Error::config("contact.species", self.species, limit));
+        }
+        let mut table = SpeciesTable::new(self.species, &self.bundle, &self.drum);
+        for (one, other, parameters) in &self.pairs {
+            table.set_pair(*one, *other, parameters)?;
+        }
+        for (species, parameters) in &self.walls {
+            table.set_wall(*species, parameters)?;
+        }
+        Ok(table)
+    }
+
+    fn validate(&self) -> Result<(), Error> {
+        self.bundle.validate("contact.bundle")?;
+        self.drum.validate("contact.drum")?;
+        for (one, other, parameters) in &self.pairs {
+            parameters.validate(&format!("contact.pairs[{one}, {other}]"))?;
+        }
+        for (species, parameters) in &self.walls {
+            parameters.validate(&format!("contact.walls[{species}]"))?;
+        }
+        self.table().map(|_| ())
+    }
 }
 
 /// How to run: time step, recording intervals, guards.
@@ -96,8 +139,7 @@ impl SimulationConfig {
         self.drum.validate()?;
         self.rotation.validate()?;
         self.load.validate(self.drum.radius)?;
-        self.contact.bundle.validate("contact.bundle")?;
-        self.contact.drum.validate("contact.drum")?;
+        self.contact.validate()?;
         for component in self.gravity {
             require_finite("gravity", component)?;
         }

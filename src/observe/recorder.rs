@@ -4,6 +4,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::physics::columns::Columns;
+use crate::physics::contact::{Flows, Stored};
 use crate::physics::energy::{EnergyLedger, StoredEnergy, SurfaceAccount};
 
 /// Everything that a sample may look at.
@@ -21,8 +23,6 @@ pub struct Snapshot<'a> {
     pub stored: StoredEnergy,
     /// Angular momentum of the load about the axis [kg m/s].
     pub angular_momentum: f64,
-    /// Third power, integrated [J/m].
-    pub balance_work: f64,
     /// Mass of the load [kg/m].
     pub mass: f64,
     /// Contacts between bundles, and of bundles with the drum.
@@ -56,14 +56,15 @@ pub struct Quantity {
 }
 
 macro_rules! quantities {
-    ($($name:literal, $unit:literal, $meaning:literal, $value:expr;)*) => {
-        /// The quantities that every simulation records; those of rim, baffles and walls follow them.
-        pub const QUANTITIES: &[Quantity] =
+    ($list:ident: $($name:literal, $unit:literal, $meaning:literal, $value:expr;)*) => {
+        const $list: &[Quantity] =
             &[$(Quantity { name: $name, unit: $unit, meaning: $meaning, value: $value }),*];
     };
 }
 
-quantities! {
+// The energies that laws take (`Flows`) come between the first list and the second, those that they hold (`Stored`) between
+// the second and the third.
+quantities! { BEFORE_FLOWS:
     "time", "s", "time of the sample", |s| s.time;
     "drum_angle", "rad", "angle of the drum", |s| s.angle;
     "drum_angular_velocity", "rad/s", "angular velocity of the drum", |s| s.angular_velocity;
@@ -71,17 +72,19 @@ quantities! {
     "specific_power", "W/kg", "drum power over the mass of the load", |s| s.drum_power() / s.mass;
     "drum_torque", "N m/m", "mean torque of the drum on the load about the axis since the last sample", |s| s.drum_torque();
     "work_drum", "J/m", "work of the drum on the load since t = 0", |s| s.ledger.drum_work();
-    "balance_work", "J/m", "the same from the balance of moments, integral of angular velocity x (M g x + dL/dt)", |s| s.balance_work;
-    "work_normal", "J/m", "work into contacts along their normals since t = 0", |s| s.ledger.work_normal.value();
-    "work_tangential", "J/m", "work into contacts along their tangents since t = 0", |s| s.ledger.work_tangential.value();
-    "dissipated_normal", "J/m", "energy taken by dashpots since t = 0", |s| s.ledger.dissipated_normal.value();
-    "dissipated_sliding", "J/m", "energy taken by sliding since t = 0", |s| s.ledger.dissipated_sliding.value();
-    "numerical", "J/m", "contact work that springs, dashpots and sliding do not account for since t = 0", |s| s.ledger.numerical(&s.stored);
+    "balance_work", "J/m", "the same from the balance of moments, integral of angular velocity x (M g x + dL/dt)", |s| s.ledger.moments.work();
+    "work_normal", "J/m", "energy taken by normal dashpots, and held by normal springs, since t = 0", |s| s.work(true);
+    "work_tangential", "J/m", "energy taken by sliding, and held by tangential springs, since t = 0", |s| s.work(false);
+}
+
+quantities! { BEFORE_STORED:
+    "numerical", "J/m", "contact work that contact laws do not account for since t = 0", |s| s.ledger.numerical(&s.stored);
     "kinetic_translation", "J/m", "kinetic energy of translation", |s| s.stored.kinetic_translation;
     "kinetic_rotation", "J/m", "kinetic energy of rotation", |s| s.stored.kinetic_rotation;
     "gravitational", "J/m", "potential energy, zero at the axis", |s| s.stored.gravitational;
-    "elastic_normal", "J/m", "energy of the normal springs", |s| s.stored.elastic_normal;
-    "elastic_tangential", "J/m", "energy of the tangential springs", |s| s.stored.elastic_tangential;
+}
+
+quantities! { AFTER_STORED:
     "residual", "J/m", "stored + dissipated - work of the drum - initial energy: round-off", |s| s.ledger.residual(&s.stored);
     "energy_residual", "1", "the residual over the sum of all flows or the greatest stored energy", |s| s.ledger.relative_residual(&s.stored);
     "center_of_mass_x", "m", "mean horizontal position of the center of mass since the last sample", |s| s.mean_center(0);
@@ -92,7 +95,40 @@ quantities! {
     "max_overlap_ratio", "1", "greatest overlap since the last sample over the smaller radius", |s| s.ledger.overlap_ratio;
 }
 
+/// The quantities that every simulation records, by name, unit and meaning; those of rim, baffles and walls follow them.
+pub fn quantities() -> impl Iterator<Item = (&'static str, &'static str, String)> {
+    let of = |list: &'static [Quantity]| list.iter().map(|q| (q.name, q.unit, q.meaning.to_owned()));
+    let energies = |names: &'static [&'static str], meanings: &'static [&'static str], since: &'static str| {
+        names.iter().zip(meanings).map(move |(&name, meaning)| (name, "J/m", format!("energy{meaning}{since}")))
+    };
+    of(BEFORE_FLOWS)
+        .chain(energies(Flows::NAMES, Flows::MEANINGS, " since t = 0"))
+        .chain(of(BEFORE_STORED))
+        .chain(energies(Stored::NAMES, Stored::MEANINGS, ""))
+        .chain(of(AFTER_STORED))
+}
+
 impl Snapshot<'_> {
+    /// The values of the quantities that every simulation records.
+    fn values(&self) -> impl Iterator<Item = f64> {
+        let of = |list: &'static [Quantity]| list.iter().map(|quantity| (quantity.value)(self));
+        of(BEFORE_FLOWS)
+            .chain((0..Flows::COUNT).map(|flow| self.ledger.flow(flow)))
+            .chain(of(BEFORE_STORED))
+            .chain((0..Stored::COUNT).map(|part| Stored::field(&self.stored.contacts, part)))
+            .chain(of(AFTER_STORED))
+    }
+
+    /// Work into contacts in one direction, as far as laws account for it: what they took and hold more than at the start.
+    fn work(&self, normal: bool) -> f64 {
+        let is_meant = |name: &&str| name.ends_with("normal") == normal;
+        let taken = Flows::NAMES.iter().enumerate().filter(|(_, name)| is_meant(name));
+        let held = self.ledger.stored_since_start(&self.stored);
+        let stored = Stored::NAMES.iter().enumerate().filter(|(_, name)| is_meant(name));
+        taken.map(|(flow, _)| self.ledger.flow(flow)).sum::<f64>()
+            + stored.map(|(part, _)| Stored::field(&held, part)).sum::<f64>()
+    }
+
     fn over_interval(&self, change: f64) -> f64 {
         if self.interval > 0.0 { change / self.interval } else { 0.0 }
     }
@@ -102,11 +138,11 @@ impl Snapshot<'_> {
     }
 
     fn mean_center(&self, axis: usize) -> f64 {
-        let moment = self.ledger.mass_moment[axis].value() - self.earlier.mass_moment[axis];
+        let moment = self.ledger.moments.mass_moment_integral()[axis] - self.earlier.mass_moment[axis];
         if self.interval > 0.0 {
             moment / self.interval / self.mass
         } else {
-            self.ledger.mass_moment_now()[axis] / self.mass
+            self.ledger.moments.mass_moment()[axis] / self.mass
         }
     }
 
@@ -129,7 +165,8 @@ impl Snapshot<'_> {
 
 /// Integrals of force (x, y) and torque of a surface on the load.
 fn impulses(account: &SurfaceAccount) -> [f64; 3] {
-    [account.impulse[0].value(), account.impulse[1].value(), account.angular_impulse.value()]
+    let [x, y] = account.impulse();
+    [x, y, account.angular_impulse()]
 }
 
 /// A column of the series: (name, unit, meaning).
@@ -137,7 +174,7 @@ pub type Column = (String, String, String);
 
 /// The columns of a drum with so many baffles and walls.
 pub fn columns(baffles: usize, walls: usize) -> Vec<Column> {
-    let fixed = QUANTITIES.iter().map(|q| (q.name.into(), q.unit.into(), q.meaning.into()));
+    let fixed = quantities().map(|(name, unit, meaning)| (name.into(), unit.into(), meaning));
     let parts = surface_names(baffles, walls).into_iter().flat_map(|part| {
         let words = part.replace('_', " ");
         [
@@ -210,15 +247,15 @@ impl Series {
 
     /// Appends a row.
     pub fn push(&mut self, snapshot: &Snapshot) {
-        self.values.extend(QUANTITIES.iter().map(|quantity| (quantity.value)(snapshot)));
+        self.values.extend(snapshot.values());
         for (surface, account) in snapshot.ledger.surfaces.iter().enumerate() {
             // Forces are those of the load on the surface, as bearings feel them; torque is that of the drive.
             let [x, y, torque] = snapshot.mean_load(surface);
-            self.values.extend([account.work.value(), torque, 0.0 - x, 0.0 - y]);
+            self.values.extend([account.work(), torque, 0.0 - x, 0.0 - y]);
         }
         self.earlier = Earlier {
             drum_work: snapshot.ledger.drum_work(),
-            mass_moment: snapshot.ledger.mass_moment.map(|axis| axis.value()),
+            mass_moment: snapshot.ledger.moments.mass_moment_integral(),
             impulses: snapshot.ledger.surfaces.iter().map(impulses).collect(),
         };
     }
@@ -294,7 +331,7 @@ mod tests {
         let mut names: Vec<_> = columns.iter().map(|column| &column.0).collect();
         names.sort_unstable();
         names.dedup();
-        assert_eq!(names.len(), QUANTITIES.len() + 4 * 5);
+        assert_eq!(names.len(), quantities().count() + 4 * 5);
         assert!(columns.iter().all(|(_, unit, meaning)| !unit.is_empty() && !meaning.is_empty()));
     }
 }

@@ -1,7 +1,7 @@
 //! Means over a window of samples, with the uncertainty of the power.
 
 use crate::error::Error;
-use crate::observe::recorder::{QUANTITIES, Series};
+use crate::observe::recorder::{Series, quantities};
 
 /// A named statistic; none where it is not defined.
 pub type Statistic = (&'static str, Option<f64>);
@@ -81,7 +81,7 @@ struct Table<'a> {
 
 impl Table<'_> {
     fn column(&self, name: &str) -> Vec<f64> {
-        let index = QUANTITIES.iter().position(|quantity| quantity.name == name);
+        let index = quantities().position(|quantity| quantity.0 == name);
         self.series.column(index.expect("the summary asks for recorded quantities only"))
     }
 

@@ -19,18 +19,18 @@ pub struct Particles {
     pub angles: Vec<f64>,
     /// Angular velocities [rad/s].
     pub angular_velocities: Vec<f64>,
-    /// Accelerations of the last force evaluation [m/s²], gravity included.
-    pub accelerations: Vec<Vec2>,
-    /// Angular accelerations of the last force evaluation [rad/s²].
-    pub angular_accelerations: Vec<f64>,
+    /// Forces of all contacts at the time of the positions [N/m].
+    pub forces: Vec<Vec2>,
+    /// Moments of all contacts about the centers at that time [N m/m].
+    pub torques: Vec<f64>,
     /// Radii [m].
     pub radii: Vec<f64>,
     /// Masses [kg/m].
     pub masses: Vec<f64>,
     /// Moments of inertia I = m r²/2 [kg m]; 0 marks a spin that is locked.
     pub inertias: Vec<f64>,
-    /// Index of the material each particle is made of.
-    pub materials: Vec<u16>,
+    /// Their species.
+    pub species: Vec<u16>,
     /// The ids: where each particle stood at the start.
     pub ids: Vec<u32>,
 }
@@ -46,10 +46,10 @@ impl Particles {
             velocities: vec![Vec2::zeros(); count],
             angles: vec![0.0; count],
             angular_velocities: vec![0.0; count],
-            accelerations: vec![Vec2::zeros(); count],
-            angular_accelerations: vec![0.0; count],
+            forces: vec![Vec2::zeros(); count],
+            torques: vec![0.0; count],
             inertias: masses.iter().zip(&radii).map(inertia).collect(),
-            materials: vec![0; count],
+            species: vec![0; count],
             ids: (0..count as u32).collect(),
             positions,
             radii,
@@ -57,14 +57,14 @@ impl Particles {
         }
     }
 
-    /// Number of particles.
+    /// Number of particles. (While an engine does steps, the arrays that move have a few places more.)
     pub fn len(&self) -> usize {
-        self.positions.len()
+        self.ids.len()
     }
 
     /// Whether there are none.
     pub fn is_empty(&self) -> bool {
-        self.positions.is_empty()
+        self.ids.is_empty()
     }
 
     /// Puts particle `order[k]` at place `k`.
@@ -76,18 +76,18 @@ impl Particles {
         permute(&mut self.velocities, order);
         permute(&mut self.angles, order);
         permute(&mut self.angular_velocities, order);
-        permute(&mut self.accelerations, order);
-        permute(&mut self.angular_accelerations, order);
+        permute(&mut self.forces, order);
+        permute(&mut self.torques, order);
         permute(&mut self.radii, order);
         permute(&mut self.masses, order);
         permute(&mut self.inertias, order);
-        permute(&mut self.materials, order);
+        permute(&mut self.species, order);
         permute(&mut self.ids, order);
     }
 
     /// One of the vectors above in id order.
     pub fn by_id<T: Copy>(&self, values: &[T]) -> Vec<T> {
-        let mut sorted = values.to_vec();
+        let mut sorted = values[..self.len()].to_vec();
         for (&id, &value) in self.ids.iter().zip(values) {
             sorted[id as usize] = value;
         }
@@ -120,13 +120,13 @@ impl Particles {
         })
     }
 
-    /// The first particle whose accelerations, mass or moment of inertia none can have.
+    /// The first particle whose forces, mass or moment of inertia none can have.
     fn first_impossible(&self) -> Option<usize> {
         (0..self.len()).find(|&i| {
-            let accelerations =
-                [self.accelerations[i].x, self.accelerations[i].y, self.angular_accelerations[i]];
+            let forces =
+                [self.forces[i].x, self.forces[i].y, self.torques[i]];
             let (mass, inertia) = (self.masses[i], self.inertias[i]);
-            accelerations.iter().any(|number| !number.is_finite())
+            forces.iter().any(|number| !number.is_finite())
                 || !(mass.is_finite() && mass > 0.0 && inertia.is_finite() && inertia >= 0.0)
         })
     }
@@ -134,25 +134,44 @@ impl Particles {
     /// Kinetic energies (of translation, of rotation) [J/m] in the form ½ m v₋·v₊ over the velocities half a step
     /// before and after: with it, the work of a leapfrog step is exactly the trapezoid of the forces. The half-step
     /// velocities are v ∓ a h with h half the time step, so v₋·v₊ = v² − (a h)².
-    pub fn kinetic_energies(&self, half_step: f64) -> (f64, f64) {
+    pub fn kinetic_energies(&self, half_step: f64, gravity: Vec2) -> (f64, f64) {
         let mut translation = 0.0;
         let mut rotation = 0.0;
         for i in 0..self.len() {
-            let kick = self.accelerations[i] * half_step;
-            let twist = self.angular_accelerations[i] * half_step;
+            let (kick, angular_kick) = self.kick(i, half_step, gravity);
             let speed = self.angular_velocities[i];
             translation += 0.5 * self.masses[i] * (self.velocities[i].norm_squared() - kick.norm_squared());
-            rotation += 0.5 * self.inertias[i] * (speed * speed - twist * twist);
+            rotation += 0.5 * self.inertias[i] * (speed * speed - angular_kick * angular_kick);
         }
         (translation, rotation)
     }
 
+    /// What forces and gravity change velocity and angular velocity of a particle by in half a step.
+    fn kick(&self, i: usize, half_step: f64, gravity: Vec2) -> (Vec2, f64) {
+        let kick = self.forces[i] * (half_step / self.masses[i]) + gravity * half_step;
+        let inertia = self.inertias[i];
+        let angular_kick = if inertia > 0.0 { self.torques[i] * (half_step / inertia) } else { 0.0 };
+        (kick, angular_kick)
+    }
+
     /// Σ m (x × v) + I ω about the drum's axis [kg m/s].
     pub fn angular_momentum(&self) -> f64 {
+        self.angular_momentum_after(0.0, Vec2::zeros())
+    }
+
+    /// The same where the velocities still lack what forces and gravity give in half a step of this length [s].
+    pub fn angular_momentum_after(&self, half_step: f64, gravity: Vec2) -> f64 {
         (0..self.len()).fold(0.0, |sum, i| {
-            let moment = crate::physics::vector::cross(self.positions[i], self.velocities[i]);
-            sum + self.masses[i] * moment + self.inertias[i] * self.angular_velocities[i]
+            let (kick, angular_kick) = self.kick(i, half_step, gravity);
+            let moment = crate::physics::vector::cross(self.positions[i], self.velocities[i] + kick);
+            sum + self.masses[i] * moment + self.inertias[i] * (self.angular_velocities[i] + angular_kick)
         })
+    }
+
+    /// Σ m x [kg].
+    pub fn mass_moment(&self) -> Vec2 {
+        let weighed = self.positions.iter().zip(&self.masses).map(|(position, &mass)| position * mass);
+        weighed.fold(Vec2::zeros(), |sum, part| sum + part)
     }
 
     /// Checks that all vectors have one length and hold usable numbers, as after reading them from outside.
@@ -162,12 +181,12 @@ impl Particles {
             ("velocities", self.velocities.len()),
             ("angles", self.angles.len()),
             ("angular_velocities", self.angular_velocities.len()),
-            ("accelerations", self.accelerations.len()),
-            ("angular_accelerations", self.angular_accelerations.len()),
+            ("forces", self.forces.len()),
+            ("torques", self.torques.len()),
             ("radii", self.radii.len()),
             ("masses", self.masses.len()),
             ("inertias", self.inertias.len()),
-            ("materials", self.materials.len()),
+            ("species", self.species.len()),
             ("ids", self.ids.len()),
         ];
         for (name, length) in lengths {

@@ -2,61 +2,115 @@
 
 use super::Simulation;
 use crate::observe::recorder::Snapshot;
-use crate::physics::energy::{Balance, StoredEnergy};
+use crate::physics::energy::StoredEnergy;
 use crate::physics::vector::{Vec2, dot};
-use crate::start;
 
 impl Simulation {
     /// Charges one step, in which the drum turned by `turn` [rad].
     pub(super) fn charge(&mut self, mass_moment: Vec2, turn: f64) {
-        let steady = self.fixed.steady_speed.is_some();
-        let mut balance = self.balance(mass_moment);
-        if !steady {
-            balance.angular_momentum = self.state.particles.angular_momentum();
-        }
+        let outer_moment = self.outer_moment(mass_moment);
+        let time_step = self.derived.time_step;
         let ledger = &mut self.state.ledger;
-        ledger.charge(&self.forces.flows, &self.forces.surfaces, turn, self.fixed.time_step);
-        ledger.charge_balance(balance, turn, self.fixed.time_step, steady);
+        ledger.charge_surfaces(self.engine.pass().surfaces(), turn, time_step);
+        ledger.moments.charge(mass_moment, outer_moment, turn, time_step);
     }
 
-    /// The balance of moments now, but for the angular momentum.
-    pub(super) fn balance(&self, mass_moment: Vec2) -> Balance {
-        let gravity = self.fixed.gravity;
-        let mut outer_moment = mass_moment.x * gravity.y - mass_moment.y * gravity.x;
-        if self.config.load.spin_locked {
-            // What holds the spins takes the contacts' moments out of the load.
-            outer_moment -= self.forces.loads.iter().fold(0.0, |sum, load| sum + load.moment());
+    /// Moment of gravity about the axis, that of any lock on the spins taken away [N m/m].
+    pub(super) fn outer_moment(&self, mass_moment: Vec2) -> f64 {
+        let gravity = self.derived.gravity;
+        let moment = mass_moment.x * gravity.y - mass_moment.y * gravity.x;
+        if !self.config.load.spin_locked {
+            return moment;
         }
-        Balance { mass_moment, outer_moment, angular_momentum: 0.0 }
+        // What holds the spins takes the contacts' moments out of the load.
+        moment - self.state.particles.torques.iter().fold(0.0, |sum, torque| sum + torque)
+    }
+
+    /// Whether this step's charge needs forces and velocities: where spins are locked, or where the drum's speed changes in
+    /// this step or the next.
+    pub(super) fn needs_moments(&self) -> bool {
+        self.config.load.spin_locked || self.notes_angular_momentum()
+    }
+
+    fn notes_angular_momentum(&self) -> bool {
+        let step = self.state.step;
+        self.derived.steady_speed.is_none() && !(self.is_steady(step) && self.is_steady(step + 1))
+    }
+
+    /// Whether the drum's speed is the same at both ends of a step.
+    fn is_steady(&self, step: u64) -> bool {
+        let speed = |step| self.config.rotation.angular_velocity(self.time_at(step));
+        self.derived.steady_speed.is_some() || speed(step - 1) == speed(step)
+    }
+
+    /// Charges the change of angular momentum where it does not telescope. The velocities still lack half a kick.
+    pub(super) fn charge_moments(&mut self) {
+        if self.notes_angular_momentum() {
+            let (half_step, gravity) = (0.5 * self.derived.time_step, self.derived.gravity);
+            let now = self.state.particles.angular_momentum_after(half_step, gravity);
+            self.note_angular_momentum(now);
+        }
+    }
+
+    fn note_angular_momentum(&mut self, now: f64) {
+        let step = self.state.step;
+        let angular_velocity = match self.derived.steady_speed {
+            Some(speed) => speed,
+            None if self.is_steady(step) => self.config.rotation.angular_velocity(self.time()),
+            None => self.turn_of(step) / self.derived.time_step,
+        };
+        self.state.ledger.moments.charge_angular_momentum(now, angular_velocity);
     }
 
     /// Records a sample or a frame where one is due.
     pub(super) fn record(&mut self) {
-        let (step, time) = (self.state.step, self.time());
-        if step.is_multiple_of(self.fixed.sample_steps) {
-            self.sample(time);
+        if self.is_sample_due() {
+            self.sample();
         }
-        if step.is_multiple_of(self.fixed.frame_steps) {
-            let angle = self.config.rotation.angle(time);
-            self.state.frames.push(time, angle, &self.state.particles);
+        if self.is_frame_due() {
+            self.push_frame();
         }
     }
 
-    fn sample(&mut self, time: f64) {
+    /// Records the frame at which a run has stopped on an error, so that what went wrong can be looked at.
+    pub(super) fn record_end(&mut self) {
+        if self.state.particles.first_non_finite().is_none() && !self.is_frame_due() {
+            self.push_frame();
+        }
+    }
+
+    fn push_frame(&mut self) {
+        let (time, angle) = (self.time(), self.drum_angle());
+        self.state.frames.push(time, angle, &self.state.particles);
+    }
+
+    /// Brings the sums of the engine to the ledger.
+    pub(super) fn fold(&mut self) {
+        let folded = self.engine.pass_mut().fold();
+        let taken = 0.5 * self.derived.time_step * folded.power;
+        self.state.ledger.fold(taken, &folded.flows, folded.deepest);
+    }
+
+    fn sample(&mut self) {
+        let time = self.time();
+        self.fold();
         let stored = self.stored();
         let angular_momentum = self.state.particles.angular_momentum();
+        if self.state.step > 0 {
+            self.note_angular_momentum(angular_momentum);
+        }
+        let angle = self.drum_angle();
         let state = &mut self.state;
         state.ledger.note(&stored);
         let snapshot = Snapshot {
             time,
-            angle: self.config.rotation.angle(time),
+            angle,
             angular_velocity: self.config.rotation.angular_velocity(time),
             ledger: &state.ledger,
             stored,
             angular_momentum,
-            balance_work: state.ledger.balance_work(angular_momentum, self.fixed.steady_speed),
-            mass: self.fixed.mass,
-            contacts: self.table.counts(),
+            mass: self.derived.mass,
+            contacts: self.engine.pass().counts(),
             count: state.particles.len(),
             interval: time - state.series.last_time().unwrap_or(time),
             earlier: &state.series.earlier().clone(),
@@ -68,15 +122,14 @@ impl Simulation {
     /// Energy stored now.
     pub fn stored(&self) -> StoredEnergy {
         let particles = &self.state.particles;
-        let (kinetic_translation, kinetic_rotation) = particles.kinetic_energies(0.5 * self.fixed.time_step);
-        let (elastic_normal, elastic_tangential) = start::elastic_energies(&self.table, &self.fixed.laws);
-        let moment = start::mass_moment(particles);
+        let gravity = self.derived.gravity;
+        let (kinetic_translation, kinetic_rotation) =
+            particles.kinetic_energies(0.5 * self.derived.time_step, gravity);
         StoredEnergy {
             kinetic_translation,
             kinetic_rotation,
-            gravitational: -dot(moment, self.fixed.gravity),
-            elastic_normal,
-            elastic_tangential,
+            gravitational: -dot(particles.mass_moment(), gravity),
+            contacts: self.engine.pass().stored(),
         }
     }
 }

@@ -1,12 +1,12 @@
 //! What a simulation shows of itself.
 
 use super::Simulation;
-use crate::contact::table::ContactTable;
 use crate::error::Error;
 use crate::io::config::SimulationConfig;
 use crate::physics::drum::Drum;
-use crate::start;
-use crate::state::State;
+use super::derived;
+use super::state::State;
+use crate::engine::forces::Lists;
 
 impl Simulation {
     /// Time [s]: steps × time step.
@@ -16,7 +16,7 @@ impl Simulation {
 
     /// Length of a step [s].
     pub fn time_step(&self) -> f64 {
-        self.fixed.time_step
+        self.derived.time_step
     }
 
     /// The configuration.
@@ -31,7 +31,7 @@ impl Simulation {
 
     /// Number of threads.
     pub fn threads(&self) -> usize {
-        self.threads.count()
+        self.engine.threads().count()
     }
 
     /// State: step, particles, ledger, series, frames.
@@ -40,28 +40,28 @@ impl Simulation {
     }
 
     /// The contacts.
-    pub fn contacts(&self) -> &ContactTable {
-        &self.table
+    pub fn contacts(&self) -> Lists {
+        self.engine.pass().contacts()
     }
 
     /// The drum.
     pub fn drum(&self) -> &Drum {
-        &self.fixed.drum
+        &self.derived.drum
     }
 
     /// Mass of the load [kg/m].
     pub fn mass(&self) -> f64 {
-        self.fixed.mass
+        self.derived.mass
     }
 
     /// Angle of the drum [rad].
     pub fn drum_angle(&self) -> f64 {
-        self.config.rotation.angle(self.time())
+        self.state.initial_angle + self.config.rotation.angle(self.time())
     }
 
     /// Shortest collision times [s] of this load: (between bundles, with the drum).
     pub fn collision_times(&self) -> (f64, f64) {
-        start::collision_times(&self.fixed.laws, &self.state.particles)
+        derived::collision_times(&self.derived.table, &self.state.particles)
     }
 
     /// The error that stopped this simulation, if one did.

@@ -2,17 +2,15 @@
 
 #![allow(dead_code)] // Each test binary uses its own part.
 
-use drumrs::contact::linear::{LinearLanes, LinearLaw, LinearParameters, Tension};
-use drumrs::contact::{Displacement, Encounter, History, HistoryLanes};
-use drumrs::io::config::{ContactParameters, LoadParameters, RunParameters, SimulationConfig};
-use drumrs::lanes::Lanes;
+use drumrs::io::config::{ContactTables, LoadParameters, RunParameters, SimulationConfig};
 use drumrs::observe::summary::summarize;
+use drumrs::physics::contact::parameters::{ContactParameters, Tension};
 use drumrs::physics::drum::DrumParameters;
 use drumrs::physics::drum::baffle::{BaffleParameters, BaffleShape};
 use drumrs::physics::rotation::RotationSchedule;
 use drumrs::physics::vector::Vec2;
 use drumrs::simulation::Simulation;
-use drumrs::start::InitialState;
+use drumrs::simulation::initial_state::InitialState;
 
 pub const DRUM_RADIUS: f64 = 0.2375;
 pub const RADIUS: f64 = 0.011_875;
@@ -25,8 +23,8 @@ pub fn mass() -> f64 {
     1000.0 * std::f64::consts::PI * RADIUS * RADIUS
 }
 
-pub fn law(normal_stiffness: f64) -> LinearParameters {
-    LinearParameters {
+pub fn law(normal_stiffness: f64) -> ContactParameters {
+    ContactParameters {
         normal_stiffness,
         stiffness_ratio: 1.0,
         restitution: Some(0.1),
@@ -60,7 +58,13 @@ pub fn baseline(count: usize, baffle_count: usize) -> SimulationConfig {
             start_speed: 0.0,
             spin_locked: false,
         },
-        contact: ContactParameters { bundle: law(9.25e7), drum: law(9.70e7) },
+        contact: ContactTables {
+            bundle: law(9.25e7),
+            drum: law(9.70e7),
+            species: 1,
+            pairs: Vec::new(),
+            walls: Vec::new(),
+        },
         gravity: [0.0, -GRAVITY],
         run: RunParameters {
             time_step: Some(TIME_STEP),
@@ -75,30 +79,6 @@ pub fn baseline(count: usize, baffle_count: usize) -> SimulationConfig {
 /// The point at `radius` from the axis in the direction `angle` [rad].
 pub fn polar(radius: f64, angle: f64) -> [f64; 2] {
     [radius * libm::cos(angle), radius * libm::sin(angle)]
-}
-
-/// What a law answers for one contact.
-pub struct Answer {
-    pub tangential_force: f64,
-    pub tangential_displacement: f64,
-    pub dissipated_sliding: f64,
-}
-
-/// A step without damping that ends at `overlap`, with the displacement (approach, slip).
-pub fn respond(law: &LinearLaw, overlap: f64, (approach, slip): (f64, f64), history: &History) -> Answer {
-    let encounter = Encounter {
-        overlap: Lanes::splat(overlap),
-        displacement: Displacement { parting: Lanes::splat(-approach), slip: Lanes::splat(slip) },
-        parting_speed: Lanes::ZERO,
-        damping: Lanes::ZERO,
-        step_rate: 1.0 / TIME_STEP,
-    };
-    let response = LinearLanes::splat(law).respond(&encounter, &HistoryLanes::new(|_| history));
-    Answer {
-        tangential_force: response.tangential_force.to_array()[0],
-        tangential_displacement: response.tangential_displacement.to_array()[0],
-        dissipated_sliding: response.dissipated_sliding.to_array()[0],
-    }
 }
 
 /// Bundles of Table 1 in free space without gravity: no drum, no walls.
@@ -171,7 +151,7 @@ pub fn bits(simulation: &Simulation) -> Vec<u64> {
     let mut all = vec![simulation.state().step];
     all.extend(vectors(&particles.positions));
     all.extend(vectors(&particles.velocities));
-    all.extend(vectors(&particles.accelerations));
+    all.extend(vectors(&particles.forces));
     all.extend(numbers(&particles.angles));
     all.extend(numbers(&particles.angular_velocities));
     let columns =

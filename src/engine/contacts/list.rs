@@ -1,0 +1,252 @@
+//! A list of contacts, four to a block, column by column.
+
+use super::record::{ContactRecord, PairParameters};
+use crate::engine::simd::LANES;
+use crate::physics::columns::{Columns, Of};
+use crate::physics::contact::ContactState;
+use crate::physics::contact::law::ContactLaw;
+
+/// The bodies of four contacts.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ids {
+    /// Bodies i.
+    pub own: [u32; LANES],
+    /// Bodies j: later particles, or features of the drum.
+    pub other: [u32; LANES],
+}
+
+/// What four contacts keep: three lines of the cache for the linear law.
+#[derive(Debug, Clone, Copy)]
+#[repr(C, align(64))]
+pub struct Block<L: ContactLaw> {
+    /// What every contact keeps.
+    pub state: ContactState<[f64; LANES]>,
+    /// What the law keeps.
+    pub history: Of<L::History, [f64; LANES]>,
+}
+
+/// The parameters of the contacts of a list: in a load of equal bundles the same for all, which then cost neither memory
+/// nor time.
+#[derive(Debug, Clone)]
+pub enum ListParameters<L: ContactLaw> {
+    /// All have these.
+    Same(Of<PairParameters<L>, f64>),
+    /// By block.
+    Each(Vec<Of<PairParameters<L>, [f64; LANES]>>),
+}
+
+/// Contacts in the order in which they opened. Lanes after the last one are vacant: they refer to bodies that never touch.
+#[derive(Debug, Clone)]
+pub struct ContactList<L: ContactLaw> {
+    /// The bodies, by block.
+    pub ids: Vec<Ids>,
+    /// What is kept, by block.
+    pub blocks: Vec<Block<L>>,
+    /// By block, the moments on bodies j; empty where they are those on bodies i.
+    pub other_moments: Vec<[f64; LANES]>,
+    /// The law between the bodies, and their radii.
+    pub parameters: ListParameters<L>,
+    /// By contact, its place in the list of neighbors.
+    neighbors: Vec<u32>,
+    /// The bodies of a vacant lane.
+    vacant: (u32, u32),
+    keeps_both_moments: bool,
+}
+
+impl<L: ContactLaw> ContactList<L> {
+    /// No contacts yet.
+    pub fn new(parameters: ListParameters<L>, vacant: (u32, u32), keeps_both_moments: bool) -> Self {
+        Self {
+            ids: Vec::new(),
+            blocks: Vec::new(),
+            other_moments: Vec::new(),
+            parameters,
+            neighbors: Vec::new(),
+            vacant,
+            keeps_both_moments,
+        }
+    }
+
+    /// Number of contacts.
+    #[inline]
+    pub fn len(&self) -> usize {
+        self.neighbors.len()
+    }
+
+    /// Whether there are none.
+    #[inline]
+    pub fn is_empty(&self) -> bool {
+        self.neighbors.is_empty()
+    }
+
+    /// The bodies of contact `index`.
+    #[inline]
+    pub fn key(&self, index: usize) -> (u32, u32) {
+        let ids = &self.ids[index / LANES];
+        (ids.own[index % LANES], ids.other[index % LANES])
+    }
+
+    /// The overlap of contact `index` [m].
+    #[inline]
+    pub fn overlap(&self, index: usize) -> f64 {
+        self.blocks[index / LANES].state.overlap[index % LANES]
+    }
+
+    /// The place of contact `index` in the list of neighbors, to write to.
+    #[inline]
+    pub fn neighbor_mut(&mut self, index: usize) -> &mut u32 {
+        &mut self.neighbors[index]
+    }
+
+    /// The place of contact `index` in the list of neighbors.
+    #[inline]
+    pub fn neighbor(&self, index: usize) -> u32 {
+        self.neighbors[index]
+    }
+
+    /// Contact `index`.
+    pub fn record(&self, index: usize) -> ContactRecord {
+        let (block, lane) = (index / LANES, index % LANES);
+        let (particle, other) = self.key(index);
+        let state = ContactState::map(&self.blocks[block].state, |column| column[lane]);
+        let moment = self.other_moments.get(block).map_or(state.moment, |moments| moments[lane]);
+        let mut history = [0.0; ContactRecord::MOST_COLUMNS];
+        for (column, value) in history.iter_mut().enumerate().take(L::History::COUNT) {
+            *value = L::History::field(&self.blocks[block].history, column)[lane];
+        }
+        ContactRecord {
+            particle,
+            other,
+            overlap: state.overlap,
+            separation_rate: state.separation_rate,
+            force: [state.force_x, state.force_y],
+            moments: [state.moment, moment],
+            history,
+        }
+    }
+
+    /// All contacts, in order.
+    pub fn records(&self) -> impl Iterator<Item = ContactRecord> + '_ {
+        (0..self.len()).map(|index| self.record(index))
+    }
+
+    /// The law of contact `index`, and the radii of its bodies.
+    pub fn parameters(&self, index: usize) -> Of<PairParameters<L>, f64> {
+        match &self.parameters {
+            ListParameters::Same(same) => *same,
+            ListParameters::Each(blocks) => {
+                PairParameters::<L>::map(&blocks[index / LANES], |column: [f64; LANES]| column[index % LANES])
+            }
+        }
+    }
+
+    /// Appends a contact; `neighbor` is its place in the list of neighbors.
+    pub fn push(&mut self, record: &ContactRecord, neighbor: u32, parameters: &Of<PairParameters<L>, f64>) {
+        let index = self.len();
+        if index.is_multiple_of(LANES) {
+            self.push_block(parameters);
+        }
+        self.neighbors.push(neighbor);
+        self.put(index, record, parameters);
+    }
+
+    /// Appends a vacant block. Its parameters are those of a contact, so that it can be worked out.
+    fn push_block(&mut self, parameters: &Of<PairParameters<L>, f64>) {
+        self.ids.push(Ids { own: [self.vacant.0; LANES], other: [self.vacant.1; LANES] });
+        self.blocks.push(Block {
+            state: ContactState::build(|_| [0.0; LANES]),
+            history: L::History::build(|_| [0.0; LANES]),
+        });
+        if self.keeps_both_moments {
+            self.other_moments.push([0.0; LANES]);
+        }
+        if let ListParameters::Each(blocks) = &mut self.parameters {
+            blocks.push(PairParameters::<L>::map(parameters, |value| [value; LANES]));
+        }
+    }
+
+    fn put(&mut self, index: usize, record: &ContactRecord, parameters: &Of<PairParameters<L>, f64>) {
+        let (block, lane) = (index / LANES, index % LANES);
+        self.put_key(index, record.key());
+        let own = &mut self.blocks[block];
+        let state = record.state();
+        for column in 0..ContactState::COUNT {
+            ContactState::field_mut(&mut own.state, column)[lane] = ContactState::field(&state, column);
+        }
+        for column in 0..L::History::COUNT {
+            L::History::field_mut(&mut own.history, column)[lane] = record.history[column];
+        }
+        if let Some(moments) = self.other_moments.get_mut(block) {
+            moments[lane] = record.moments[1];
+        }
+        if let ListParameters::Each(blocks) = &mut self.parameters {
+            for column in 0..PairParameters::<L>::COUNT {
+                let value = PairParameters::<L>::field(parameters, column);
+                PairParameters::<L>::field_mut(&mut blocks[block], column)[lane] = value;
+            }
+        }
+    }
+
+    fn put_key(&mut self, index: usize, (own, other): (u32, u32)) {
+        let ids = &mut self.ids[index / LANES];
+        (ids.own[index % LANES], ids.other[index % LANES]) = (own, other);
+    }
+
+    /// Lets contact `index` be with another feature of the drum, which has this place in the list of neighbors.
+    pub fn pass_to(&mut self, index: usize, feature: u32, neighbor: u32) {
+        let (own, _) = self.key(index);
+        self.put_key(index, (own, feature));
+        self.neighbors[index] = neighbor;
+    }
+
+    /// Takes contact `index` out; the last one takes its place. Returns its key and its place in the list of neighbors.
+    pub fn remove(&mut self, index: usize) -> ((u32, u32), u32) {
+        let (key, last) = (self.key(index), self.len() - 1);
+        if index < last {
+            let parameters = self.parameters(last);
+            self.put(index, &self.record(last), &parameters);
+        }
+        let parameters = self.parameters(last);
+        let (particle, other) = self.vacant;
+        self.put(last, &ContactRecord { particle, other, ..ContactRecord::default() }, &parameters);
+        let neighbor = self.neighbors.swap_remove(index);
+        if last.is_multiple_of(LANES) {
+            self.pop_block();
+        }
+        (key, neighbor)
+    }
+
+    fn pop_block(&mut self) {
+        self.ids.pop();
+        self.blocks.pop();
+        self.other_moments.pop();
+        if let ListParameters::Each(blocks) = &mut self.parameters {
+            blocks.pop();
+        }
+    }
+
+    /// Takes out those that no longer touch in the blocks `ended`, which are in order, from the highest place down. Shows
+    /// the key and the place among neighbors of each.
+    pub fn close_ended(&mut self, ended: &[u32], mut show: impl FnMut((u32, u32), u32)) {
+        for &block in ended.iter().rev() {
+            for lane in (0..LANES).rev() {
+                let index = LANES * block as usize + lane;
+                if index < self.len() && self.overlap(index) == 0.0 {
+                    let (key, neighbor) = self.remove(index);
+                    show(key, neighbor);
+                }
+            }
+        }
+    }
+
+    /// Forgets all contacts.
+    pub fn clear(&mut self) {
+        self.ids.clear();
+        self.blocks.clear();
+        self.other_moments.clear();
+        self.neighbors.clear();
+        if let ListParameters::Each(blocks) = &mut self.parameters {
+            blocks.clear();
+        }
+    }
+}

@@ -1,0 +1,101 @@
+//! The pass over contacts: which bodies touch now, geometry, law, history; then each particle's sum of forces in a fixed order.
+
+mod accumulate;
+mod chunk;
+mod pairs;
+mod pass;
+mod reactions;
+mod totals;
+mod walls;
+
+pub use pass::{ForcePass, Lists, new_pass};
+pub use totals::{FoldedTotals, Totals};
+
+use crate::engine::contacts::{Geometry, PairParameters};
+use crate::engine::simd::F64x4;
+use crate::physics::columns::Of;
+use crate::physics::contact::law::{BodyPair, ContactLaw};
+use crate::physics::contact::species::SpeciesTable;
+use crate::physics::drum::Drum;
+use crate::physics::energy::SurfaceLoad;
+use crate::physics::vector::Rotation;
+
+/// The length of a step [s] and its inverse [1/s].
+#[derive(Debug, Clone, Copy)]
+pub struct StepTime {
+    /// Length; 0 where a load has just been started and has not moved yet.
+    pub step: f64,
+    /// Inverse of the length that steps have.
+    pub rate: f64,
+}
+
+impl StepTime {
+    /// Both, in lanes.
+    #[inline(always)]
+    pub fn lanes(self) -> [F64x4; 2] {
+        [F64x4::splat(self.step), F64x4::splat(self.rate)]
+    }
+}
+
+/// What is the same for all contacts of a step.
+#[derive(Debug, Clone, Copy)]
+pub struct StepInputs<'a> {
+    /// Length of the step.
+    pub time: StepTime,
+    /// Rim and outlines.
+    pub drum: &'a Drum,
+    /// The drum's rotation at the end of the step.
+    pub rotation: Rotation,
+    /// Its mean angular velocity in the step [rad/s].
+    pub angular_velocity: f64,
+    /// What the particles are.
+    pub bodies: Bodies<'a>,
+}
+
+/// What particles are made of.
+#[derive(Debug, Clone, Copy)]
+pub struct Bodies<'a> {
+    /// The radius [m] where all have the same.
+    pub radius: Option<f64>,
+    /// Radii [m].
+    pub radii: &'a [f64],
+    /// Masses [kg/m].
+    pub masses: &'a [f64],
+    /// Species.
+    pub species: &'a [u16],
+    /// What acts between species, and between them and the drum.
+    pub table: &'a SpeciesTable,
+}
+
+impl Bodies<'_> {
+    /// The radius of one particle [m]; of a place that is none, 0.
+    #[inline(always)]
+    pub fn radius_of(&self, particle: u32) -> f64 {
+        self.radius.unwrap_or_else(|| self.radii.get(particle as usize).copied().unwrap_or_default())
+    }
+
+    /// Whether all particles are equal in what their contacts follow from.
+    pub fn are_equal(&self) -> bool {
+        let is_same = |values: &[f64]| values.windows(2).all(|two| two[0] == two[1]);
+        is_same(self.radii) && is_same(self.masses) && self.species.windows(2).all(|two| two[0] == two[1])
+    }
+
+    fn body(&self, particle: u32) -> (f64, f64) {
+        (self.masses[particle as usize], self.radii[particle as usize])
+    }
+
+    /// What a contact between two particles follows from.
+    pub fn pair<L: ContactLaw>(&self, one: u32, other: u32) -> Of<PairParameters<L>, f64> {
+        let parameters = self.table.pair(self.species[one as usize], self.species[other as usize]);
+        let (own, other) = (self.body(one), self.body(other));
+        let law = L::between(parameters, BodyPair::of_discs(own, other));
+        (law, Geometry { radius: own.1, other_radius: other.1 })
+    }
+
+    /// What a contact of a particle with the drum follows from.
+    pub fn wall<L: ContactLaw>(&self, particle: u32) -> Of<PairParameters<L>, f64> {
+        let own = self.body(particle);
+        let law = L::between(self.table.wall(self.species[particle as usize]), BodyPair::at_wall(own));
+        (law, Geometry { radius: own.1, other_radius: 0.0 })
+    }
+}

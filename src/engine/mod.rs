@@ -1,0 +1,297 @@
+//! How it is fast: nothing here changes a bit of what happens.
+//!
+//! | word           | is                                                                                  |
+//! |----------------|-------------------------------------------------------------------------------------|
+//! | lane           | one of four numbers that are worked on at once (`simd`)                              |
+//! | block          | four contacts, column by column (`contacts`)                                         |
+//! | chunk          | 512 particles in a row in memory, and the contacts that they own (`parallel`)        |
+//! | small load     | one that is a single chunk; its arrays have a length that the compiler knows         |
+//! | pair list      | pairs that may touch before any particle has moved half the skin (`pair_list`)       |
+//! | near list      | those of them that may touch within the next 32 steps                                |
+//! | horizon        | for how long a near list holds                                                       |
+//! | reaction       | what a contact does to a particle of another chunk (`forces::reactions`)             |
+//! | memory order   | the order of particles along Hilbert's curve, from 2048 on (`memory_order`)          |
+
+pub mod contacts;
+pub mod forces;
+pub mod memory_order;
+pub mod motion;
+pub mod pair_list;
+pub mod parallel;
+pub mod simd;
+
+use contacts::ContactRecord;
+use forces::{Bodies, ForcePass, Lists, StepInputs, new_pass};
+use motion::verlet::{DriftSums, FINISH, Part, START, Verlet, WHOLE};
+use motion::{MotionArrays, pad, unpad};
+use pair_list::PairList;
+use parallel::{CHUNK, Chunked, Threads, chunk_count};
+
+use crate::physics::contact::model::Model;
+use crate::physics::contact::species::SpeciesTable;
+use crate::physics::drum::Drum;
+use crate::physics::particles::Particles;
+use crate::physics::vector::{Rotation, Vec2};
+
+/// What does the steps of one simulation. It holds the contacts; all else in it follows from the particles.
+#[derive(Debug)]
+pub struct Engine {
+    pass: Box<dyn ForcePass>,
+    list: PairList,
+    verlet: Verlet,
+    sums: Vec<DriftSums>,
+    /// The radius where all particles have the same.
+    radius: Option<f64>,
+    /// A place where no particle touches the rim [m from the axis].
+    inside: f64,
+    threads: Threads,
+}
+
+/// What an engine is made for, and what a step needs of it.
+#[derive(Debug, Clone, Copy)]
+pub struct World<'a> {
+    /// Rim and outlines.
+    pub drum: &'a Drum,
+    /// What acts between species, and between them and the drum.
+    pub table: &'a SpeciesTable,
+    /// Length of a step [s].
+    pub time_step: f64,
+    /// Gravity [m/s²].
+    pub gravity: Vec2,
+}
+
+/// How the drum moves in a step.
+#[derive(Debug, Clone, Copy)]
+pub struct DrumMotion {
+    /// Its rotation at the end of the step.
+    pub rotation: Rotation,
+    /// Its mean angular velocity [rad/s].
+    pub angular_velocity: f64,
+    /// The length of the step [s]: 0 where a load has just been started and has not moved yet.
+    pub duration: f64,
+}
+
+impl Engine {
+    /// For these particles, with a pair list of the margin `skin` [m].
+    pub fn new(particles: &Particles, world: World, skin: f64, threads: Threads) -> Self {
+        let count = particles.len();
+        let radii = &particles.radii;
+        let radius = radii.windows(2).all(|two| two[0] == two[1]).then(|| particles.largest_radius());
+        let bodies = bodies(particles, radius, world.table);
+        let free = world.drum.radius().map_or(1.0, |rim| rim - particles.largest_radius());
+        Self {
+            pass: new_pass(Model::of(world.table), world.drum.surface_count(), &bodies),
+            list: PairList::new(count, skin, particles.largest_radius()),
+            verlet: Verlet::new(particles, world.time_step, world.gravity),
+            sums: vec![DriftSums::default(); chunk_count(count)],
+            radius,
+            inside: 0.5 * free,
+            threads,
+        }
+    }
+
+    /// The contacts, and what the ledger is told of them.
+    pub fn pass(&self) -> &dyn ForcePass {
+        &*self.pass
+    }
+
+    /// The same, to change.
+    pub fn pass_mut(&mut self) -> &mut dyn ForcePass {
+        &mut *self.pass
+    }
+
+    /// The threads.
+    pub fn threads(&self) -> &Threads {
+        &self.threads
+    }
+
+    /// Adds contacts as they are.
+    pub fn insert(&mut self, contacts: &Lists, particles: &Particles, world: World) {
+        self.pass.insert(contacts, &bodies(particles, self.radius, world.table));
+    }
+
+    /// Begins a run of steps: gives the arrays a few places more, and drifts to the next step.
+    pub fn begin(&mut self, particles: &mut Particles) {
+        pad(particles, self.inside);
+        self.drift::<START>(particles);
+    }
+
+    /// Ends a step: the velocities are then those at the time of the positions.
+    pub fn finish(&mut self, particles: &mut Particles) {
+        self.drift::<FINISH>(particles);
+    }
+
+    /// Begins the next step.
+    pub fn start(&mut self, particles: &mut Particles) {
+        self.drift::<START>(particles);
+    }
+
+    /// Ends a step and begins the next.
+    pub fn advance(&mut self, particles: &mut Particles) {
+        self.drift::<WHOLE>(particles);
+    }
+
+    /// Ends a run of steps, the last of which has been finished.
+    pub fn end(&mut self, particles: &mut Particles) {
+        unpad(particles);
+    }
+
+    fn drift<const PART: Part>(&mut self, particles: &mut Particles) {
+        let count = particles.len();
+        let work = Drift { first: 0, arrays: MotionArrays::of(particles).part_of(count), sums: &mut self.sums };
+        let verlet = &self.verlet;
+        self.threads.for_each_chunk(count, work, &|work: Drift| {
+            let sums = verlet.advance::<PART>(work.first, work.arrays);
+            if let (true, [own]) = (PART != FINISH, work.sums) {
+                *own = sums;
+            }
+        });
+    }
+
+    /// Σ m x after the last drift [kg].
+    pub fn mass_moment(&self) -> Vec2 {
+        self.sums.iter().fold(Vec2::zeros(), |sum, part| sum + Vec2::from(part.mass_moment))
+    }
+
+    /// Takes note of the last drift, in which the drum turned by `turn` [rad]. Returns a way that no particle has exceeded as
+    /// seen from the drum [m].
+    pub fn follow(&mut self, turn: f64) -> f64 {
+        self.list.advance(&self.sums, turn)
+    }
+
+    /// Whether the next look at the pair list needs to know the drum's rotation.
+    pub fn needs_rotation(&self, world: World) -> bool {
+        world.drum.surface_count() > 1 || self.list.is_due()
+    }
+
+    /// The longest way of a particle in the last drift, as seen from the drum [m].
+    pub fn measure_ways(&mut self, particles: &mut Particles, world: World, drum: DrumMotion) -> f64 {
+        let (mut arrays, inputs) = parts(particles, self.radius, world, drum);
+        self.list.measure_ways(arrays.lend().0, &inputs)
+    }
+
+    /// Brings the pair list up to date with the positions.
+    pub fn update_list(&mut self, particles: &mut Particles, world: World, drum: DrumMotion) {
+        let count = particles.len();
+        if !self.list.is_due()
+            || self.list.still_holds(&particles.positions[..count], drum.rotation, &self.threads)
+        {
+            return;
+        }
+        let positions = std::mem::take(&mut particles.positions);
+        let (_, inputs) = parts(particles, self.radius, world, drum);
+        self.list.rebuild(&positions, &inputs, &self.threads);
+        self.pass.link(&mut self.list);
+        particles.positions = positions;
+    }
+
+    /// Evaluates every contact; the forces must be zero.
+    pub fn evaluate(&mut self, particles: &mut Particles, world: World, drum: DrumMotion) {
+        let (arrays, inputs) = parts(particles, self.radius, world, drum);
+        self.pass.evaluate(&mut self.list, arrays, &inputs, &self.threads);
+    }
+
+    /// Evaluates every contact, ends the step and begins the next.
+    pub fn evaluate_and_advance(&mut self, particles: &mut Particles, world: World, drum: DrumMotion) {
+        let (arrays, inputs) = parts(particles, self.radius, world, drum);
+        let Self { pass, list, verlet, sums, threads, .. } = self;
+        pass.evaluate_and_advance(list, arrays, &inputs, verlet, sums, threads);
+    }
+
+    /// First forces of particles that have not moved yet.
+    pub fn open(&mut self, particles: &mut Particles, world: World, drum: DrumMotion) {
+        pad(particles, self.inside);
+        self.update_list(particles, world, drum);
+        self.evaluate(particles, world, drum);
+        // What the near lists know of displacements does not hold once the particles move.
+        self.list.end_near_lists();
+        unpad(particles);
+    }
+
+    /// Puts particle `order[k]` at place `k` in memory, between two runs of steps.
+    pub fn reorder(&mut self, particles: &mut Particles, order: &[u32], world: World) {
+        let mut places = vec![0; order.len()];
+        for (place, &particle) in order.iter().enumerate() {
+            places[particle as usize] = place as u32;
+        }
+        particles.reorder(order);
+        let mut contacts = self.pass.drain();
+        relabel(&mut contacts, &places);
+        self.insert(&contacts, particles, world);
+        self.verlet = Verlet::new(particles, world.time_step, world.gravity);
+        self.list.invalidate();
+    }
+}
+
+/// Contacts of particles that are at other places in memory: particle `i` is now at `places[i]`.
+pub fn relabel(contacts: &mut Lists, places: &[u32]) {
+    let place = |particle: u32| places[particle as usize];
+    for record in &mut contacts.pairs {
+        *record = record.between(place(record.particle), place(record.other));
+    }
+    for record in &mut contacts.walls {
+        *record = ContactRecord { particle: place(record.particle), ..*record };
+    }
+}
+
+fn bodies<'a>(particles: &'a Particles, radius: Option<f64>, table: &'a SpeciesTable) -> Bodies<'a> {
+    let Particles { radii, masses, species, .. } = particles;
+    Bodies { radius, radii, masses, species, table }
+}
+
+/// The arrays that move, and what a step needs beside them.
+fn parts<'a>(
+    particles: &'a mut Particles,
+    radius: Option<f64>,
+    world: World<'a>,
+    drum: DrumMotion,
+) -> (MotionArrays<'a>, StepInputs<'a>) {
+    let Particles {
+        positions,
+        velocities,
+        angles,
+        angular_velocities,
+        forces,
+        torques,
+        radii,
+        masses,
+        species,
+        ..
+    } = particles;
+    let arrays = MotionArrays {
+        position: bytemuck::must_cast_slice_mut(positions),
+        velocity: bytemuck::must_cast_slice_mut(velocities),
+        angle: angles,
+        angular_velocity: angular_velocities,
+        force: bytemuck::must_cast_slice_mut(forces),
+        torque: torques,
+    };
+    let inputs = StepInputs {
+        time: forces::StepTime { step: drum.duration, rate: 1.0 / world.time_step },
+        drum: world.drum,
+        rotation: drum.rotation,
+        angular_velocity: drum.angular_velocity,
+        bodies: Bodies { radius, radii, masses, species, table: world.table },
+    };
+    (arrays, inputs)
+}
+
+/// Chunks that drift.
+struct Drift<'a> {
+    first: usize,
+    arrays: MotionArrays<'a>,
+    sums: &'a mut [DriftSums],
+}
+
+impl Chunked for Drift<'_> {
+    fn chunks(&self) -> usize {
+        self.sums.len()
+    }
+
+    fn split(self, chunks: usize) -> (Self, Self) {
+        let (arrays, more_arrays) = self.arrays.split_at(chunks * CHUNK);
+        let (sums, more_sums) = self.sums.split_at_mut(chunks);
+        let first = self.first + chunks * CHUNK;
+        (Self { first: self.first, arrays, sums }, Self { first, arrays: more_arrays, sums: more_sums })
+    }
+}

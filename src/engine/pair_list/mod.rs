@@ -1,0 +1,150 @@
+//! The Verlet list: which bodies may touch before any particle has moved half the margin (the skin) as seen from the drum,
+//! and of these the near ones.
+//!
+//! Distances do not change under rotation, so displacements in the drum's frame serve pairs of particles and particles at
+//! the drum alike. When a list is made anew never changes a result.
+
+mod cells;
+mod chunk;
+mod horizon;
+mod near;
+mod neighbors;
+mod search;
+
+use cells::CellGrid;
+pub use chunk::{ChunkNeighbors, NearLimits};
+pub use near::Opened;
+pub use neighbors::Status;
+use search::Search;
+
+use crate::engine::motion::LargeView;
+use crate::engine::motion::verlet::DriftSums;
+use crate::engine::forces::StepInputs;
+use crate::engine::parallel::{Threads, chunk_count};
+use crate::physics::vector::{Rotation, Vec2};
+use chunk::ROUND_OFF;
+
+/// The neighbors of all particles, and until when they are known.
+#[derive(Debug, Clone)]
+pub struct PairList {
+    /// By chunk.
+    pub chunks: Vec<ChunkNeighbors>,
+    skin: f64,
+    largest_radius: f64,
+    /// Positions when the list was built, in the drum's frame.
+    anchors: Vec<Vec2>,
+    /// Greatest distance from the axis at that time [m].
+    farthest: f64,
+    /// How far any particle may still move before the displacements have to be looked at [m].
+    slack: f64,
+    /// The angle by which the drum turned in the last step [rad].
+    last_turn: f64,
+    grid: CellGrid,
+}
+
+impl PairList {
+    /// A list for `count` particles with the margin `skin` [m] that asks to be built at once.
+    pub fn new(count: usize, skin: f64, largest_radius: f64) -> Self {
+        Self {
+            chunks: (0..chunk_count(count)).map(|index| ChunkNeighbors::new(index, count)).collect(),
+            skin,
+            largest_radius,
+            anchors: Vec::new(),
+            farthest: 0.0,
+            slack: -1.0,
+            last_turn: 0.0,
+            grid: CellGrid::default(),
+        }
+    }
+
+    /// What near lists are made from. Within the list, a distance is at most the reach and the skin when it was built, and
+    /// one skin more since.
+    pub fn limits(&self) -> NearLimits {
+        NearLimits { inverse_sum: ROUND_OFF / (4.0 * self.largest_radius + 2.0 * self.skin) }
+    }
+
+    /// Takes note of a drift, of which `sums` tells what each chunk's particles did, while the drum turned by `turn` [rad].
+    /// Returns a way that no particle has exceeded as seen from the drum [m].
+    pub fn advance(&mut self, sums: &[DriftSums], turn: f64) -> f64 {
+        let farthest = self.farthest + self.skin;
+        // More than round-off of positions changes a displacement by from one step to the next.
+        let round_off = 8.0 * f64::EPSILON * farthest;
+        let last_turn = std::mem::replace(&mut self.last_turn, turn);
+        let mut longest: f64 = 0.0;
+        for (chunk, sums_of_chunk) in self.chunks.iter_mut().zip(sums) {
+            let most = chunk.watched.iter().map(|&other| sums[other as usize].change);
+            // As seen from the drum a displacement also changes as it is turned, and with the drum's speed.
+            let turned = turn.abs() * (chunk.longest_way + last_turn.abs() * farthest)
+                + (turn - last_turn).abs() * farthest;
+            let change = most.fold(sums_of_chunk.change, f64::max) + round_off;
+            chunk.horizon.advance(change + turned);
+            chunk.longest_way += sums_of_chunk.change + round_off + turned;
+            longest = longest.max(chunk.longest_way);
+        }
+        // A way is measured along the tangent; the rest of the arc is |x| turn² / 2.
+        self.slack -= longest + 0.5 * turn * turn * farthest;
+        longest
+    }
+
+    /// Whether the list may no longer hold.
+    pub fn is_due(&self) -> bool {
+        // What is not a number is due, too.
+        !(self.slack > 0.0)
+    }
+
+    /// Whether the list still holds for sure: no particle has moved half the skin, or close to it.
+    pub fn still_holds(&mut self, positions: &[Vec2], rotation: Rotation, threads: &Threads) -> bool {
+        if self.anchors.is_empty() {
+            return false;
+        }
+        let half = 0.5 * self.skin;
+        let moved = |i: usize| [(rotation.apply_inverse(positions[i]) - self.anchors[i]).norm_squared()];
+        let [most] = threads.greatest(self.anchors.len(), &moved);
+        self.slack = half * ROUND_OFF - most.sqrt();
+        // A list about to expire is not worth another look at every particle soon after.
+        self.slack > 0.1 * half
+    }
+
+    /// Measures how far particles move in a step as seen from the drum; returns the longest way [m] and the particle.
+    pub fn measure_ways(&mut self, motion: LargeView, inputs: &StepInputs) -> f64 {
+        for chunk in &mut self.chunks {
+            chunk.longest_way = chunk.measure_way(motion, inputs);
+        }
+        self.chunks.iter().fold(0.0, |most, chunk| most.max(chunk.longest_way))
+    }
+
+    /// Asks to be built anew at the next step, as the particles are in other places.
+    pub fn invalidate(&mut self) {
+        self.anchors.clear();
+        self.slack = -1.0;
+    }
+
+    /// Ends the near lists, as the particles' displacements are others than they were.
+    pub fn end_near_lists(&mut self) {
+        self.chunks.iter_mut().for_each(|chunk| chunk.horizon.end());
+    }
+
+    /// Builds the list anew. Contacts have to be linked to it afterwards.
+    pub fn rebuild(&mut self, positions: &[Vec2], inputs: &StepInputs, threads: &Threads) {
+        let positions = &positions[..inputs.bodies.radii.len()];
+        if positions.is_empty() {
+            return;
+        }
+        let extremes = |i: usize| {
+            let position = positions[i];
+            [position.norm_squared(), -position.x, -position.y, position.x, position.y]
+        };
+        let [farthest, left, low, right, high] = threads.greatest(positions.len(), &extremes);
+        self.farthest = farthest.sqrt();
+        self.slack = 0.5 * self.skin * ROUND_OFF;
+        self.anchors.resize(positions.len(), Vec2::zeros());
+        threads.set_each(&mut self.anchors, &|i| inputs.rotation.apply_inverse(positions[i]));
+        let bounds = (Vec2::new(-left, -low), Vec2::new(right, high));
+        self.grid.fill(positions, bounds, 2.0 * self.largest_radius + self.skin, threads);
+        let Self { chunks, grid, anchors, skin, .. } = self;
+        let search = Search { grid, anchors, positions, skin: *skin };
+        threads.for_each(positions.len(), chunks.iter_mut(), &|chunk: &mut ChunkNeighbors| {
+            search.run(chunk, inputs);
+        });
+    }
+}

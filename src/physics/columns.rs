@@ -1,0 +1,217 @@
+//! Records whose fields are all of one type, in whatever form they are needed: numbers, lanes, blocks of memory.
+//!
+//! A contact's history or a law's parameters exist as plain numbers (tests, checkpoints), as lanes (the engine's registers)
+//! and as arrays of lanes (its memory). `columns!` writes such a record once, generic over the type of its fields.
+
+/// What a field may be.
+pub trait Field: Copy + std::fmt::Debug + Send + Sync + 'static {}
+
+impl<T: Copy + std::fmt::Debug + Send + Sync + 'static> Field for T {}
+
+/// A record with fields of one type, whatever that is. Implemented for the record of units, `Record<()>`, which stands for all.
+pub trait Columns: Copy + Default + std::fmt::Debug + PartialEq + Send + Sync + 'static {
+    /// The record with fields of type `T`.
+    type Of<T: Field>: Field;
+    /// Number of fields.
+    const COUNT: usize;
+    /// The record made of `field(k)`, field by field.
+    fn build<T: Field>(field: impl FnMut(usize) -> T) -> Self::Of<T>;
+    /// One of its fields.
+    fn field<T: Field>(record: &Self::Of<T>, index: usize) -> T;
+    /// The same, to write to.
+    fn field_mut<T: Field>(record: &mut Self::Of<T>, index: usize) -> &mut T;
+
+    /// The record with every field converted.
+    fn map<T: Field, U: Field>(record: &Self::Of<T>, convert: impl FnMut(T) -> U) -> Self::Of<U>;
+}
+
+/// The record of `C` with fields of type `T`.
+pub type Of<C, T> = <C as Columns>::Of<T>;
+
+/// Declares a record of columns; see the module. The comments on the fields become `MEANINGS`.
+macro_rules! columns {
+    ($(#[$attribute:meta])* pub struct $name:ident { $($(#[doc = $meaning:literal])* $field:ident,)* }) => {
+        $(#[$attribute])*
+        #[derive(Debug, Clone, Copy, PartialEq, Default, serde::Serialize, serde::Deserialize)]
+        pub struct $name<T = ()> { $($(#[doc = $meaning])* pub $field: T,)* }
+
+        #[allow(dead_code)]
+        impl $name {
+            /// The names of the fields.
+            pub const NAMES: &'static [&'static str] = &[$(stringify!($field)),*];
+            /// What the fields mean.
+            pub const MEANINGS: &'static [&'static str] = &[$(concat!($($meaning),*)),*];
+
+            /// Some of the fields, as bits in their order.
+            pub const fn set(names: &[&str]) -> u32 {
+                $crate::physics::columns::bits_of(names, Self::NAMES)
+            }
+        }
+
+        impl $crate::physics::columns::Columns for $name {
+            type Of<T: $crate::physics::columns::Field> = $name<T>;
+            const COUNT: usize = $name::NAMES.len();
+
+            #[inline(always)]
+            #[allow(unused_mut, unused_variables)]
+            fn build<T: $crate::physics::columns::Field>(mut field: impl FnMut(usize) -> T) -> $name<T> {
+                let mut index = 0..;
+                $name { $($field: field(index.next().unwrap_or_default()),)* }
+            }
+
+            #[inline(always)]
+            fn field<T: $crate::physics::columns::Field>(record: &$name<T>, index: usize) -> T {
+                let fields: &[&T] = &[$(&record.$field),*];
+                *fields[index]
+            }
+
+            #[inline(always)]
+            #[allow(unused_mut, unused_variables)]
+            fn map<T: $crate::physics::columns::Field, U: $crate::physics::columns::Field>(record: &$name<T>, mut convert: impl FnMut(T) -> U) -> $name<U> {
+                $name { $($field: convert(record.$field),)* }
+            }
+
+            #[inline(always)]
+            fn field_mut<T: $crate::physics::columns::Field>(record: &mut $name<T>, index: usize) -> &mut T {
+                let fields: [&mut T; $name::NAMES.len()] = [$(&mut record.$field),*];
+                let mut fields = fields.into_iter();
+                fields.nth(index).expect("a field of the record")
+            }
+        }
+    };
+}
+pub(crate) use columns;
+
+/// The places of `names` among `fields`, as bits; a name that is not there fails to compile where this is a constant.
+pub(crate) const fn bits_of(names: &[&str], fields: &[&str]) -> u32 {
+    let (mut bits, mut name) = (0, 0);
+    while name < names.len() {
+        let mut field = 0;
+        while !is_same(names[name].as_bytes(), fields[field].as_bytes()) {
+            field += 1;
+        }
+        bits |= 1 << field;
+        name += 1;
+    }
+    bits
+}
+
+const fn is_same(one: &[u8], other: &[u8]) -> bool {
+    if one.len() != other.len() {
+        return false;
+    }
+    let mut index = 0;
+    while index < one.len() {
+        if one[index] != other[index] {
+            return false;
+        }
+        index += 1;
+    }
+    true
+}
+
+/// Makes a type stand for the record of another one.
+macro_rules! columns_of {
+    ([$($generics:tt)*] $marker:ty => $record:ty) => {
+        impl<$($generics)*> $crate::physics::columns::Columns for $marker {
+            type Of<F: $crate::physics::columns::Field> = $crate::physics::columns::Of<$record, F>;
+            const COUNT: usize = <$record>::COUNT;
+
+            #[inline(always)]
+            fn build<F: $crate::physics::columns::Field>(field: impl FnMut(usize) -> F) -> Self::Of<F> {
+                <$record>::build(field)
+            }
+
+            #[inline(always)]
+            fn field<F: $crate::physics::columns::Field>(record: &Self::Of<F>, index: usize) -> F {
+                <$record>::field(record, index)
+            }
+
+            #[inline(always)]
+            fn field_mut<F: $crate::physics::columns::Field>(record: &mut Self::Of<F>, index: usize) -> &mut F {
+                <$record>::field_mut(record, index)
+            }
+
+            #[inline(always)]
+            fn map<F: $crate::physics::columns::Field, U: $crate::physics::columns::Field>(record: &Self::Of<F>, convert: impl FnMut(F) -> U) -> Self::Of<U> {
+                <$record>::map(record, convert)
+            }
+        }
+    };
+}
+pub(crate) use columns_of;
+
+impl Columns for () {
+    type Of<T: Field> = ();
+    const COUNT: usize = 0;
+
+    #[inline(always)]
+    fn build<T: Field>(_field: impl FnMut(usize) -> T) {}
+
+    fn field<T: Field>((): &(), _index: usize) -> T {
+        unreachable!("a record without fields")
+    }
+
+    fn field_mut<T: Field>((): &mut (), _index: usize) -> &mut T {
+        unreachable!("a record without fields")
+    }
+
+    #[inline(always)]
+    fn map<T: Field, U: Field>((): &(), _convert: impl FnMut(T) -> U) {}
+}
+
+/// Two records as one, the fields of the first in front.
+impl<A: Columns, B: Columns> Columns for (A, B) {
+    type Of<T: Field> = (A::Of<T>, B::Of<T>);
+    const COUNT: usize = A::COUNT + B::COUNT;
+
+    #[inline(always)]
+    fn build<T: Field>(mut field: impl FnMut(usize) -> T) -> Self::Of<T> {
+        (A::build(&mut field), B::build(|index| field(A::COUNT + index)))
+    }
+
+    #[inline(always)]
+    fn field<T: Field>(record: &Self::Of<T>, index: usize) -> T {
+        if index < A::COUNT { A::field(&record.0, index) } else { B::field(&record.1, index - A::COUNT) }
+    }
+
+    #[inline(always)]
+    fn field_mut<T: Field>(record: &mut Self::Of<T>, index: usize) -> &mut T {
+        if index < A::COUNT {
+            A::field_mut(&mut record.0, index)
+        } else {
+            B::field_mut(&mut record.1, index - A::COUNT)
+        }
+    }
+
+    #[inline(always)]
+    fn map<T: Field, U: Field>(record: &Self::Of<T>, mut convert: impl FnMut(T) -> U) -> Self::Of<U> {
+        (A::map(&record.0, &mut convert), B::map(&record.1, &mut convert))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    columns! {
+        /// Two numbers.
+        pub struct Two {
+            /// The first.
+            one,
+            /// The second.
+            other,
+        }
+    }
+
+    #[test]
+    fn records_convert_field_by_field() {
+        type Both = (Two, (Two, ()));
+        let mut record = Both::build(|index| index as f64);
+        assert_eq!(record, (Two { one: 0.0, other: 1.0 }, (Two { one: 2.0, other: 3.0 }, ())));
+        *Both::field_mut(&mut record, 2) = 7.0;
+        assert_eq!(Both::map(&record, |value: f64| value as u8).1.0, Two { one: 7, other: 3 });
+        assert_eq!((Two::NAMES, Two::MEANINGS[1]), (&["one", "other"][..], " The second."));
+        assert_eq!([Two::set(&["one"]), Two::set(&["other", "one"])], [1, 3]);
+    }
+}

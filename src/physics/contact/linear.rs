@@ -1,0 +1,272 @@
+//! The linear spring–dashpot with a Coulomb-limited tangential spring: Park & Wassgren's Eqs. 1 and 2.
+
+use std::f64::consts::PI;
+
+use super::friction::TruncatedSpring;
+use super::law::{BodyPair, ContactLaw};
+use super::parameters::{ContactParameters, Tension};
+use super::{Flows, Kinematics, Response, Stored};
+use crate::physics::columns::{Columns, columns, columns_of};
+use crate::physics::scalar::Scalar;
+
+columns! {
+    /// Linear spring–dashpot with a Coulomb-limited tangential spring.
+    ///
+    /// Fₙ = kₙ δ + νₙ δ̇,   Fₜ = kₛ ξ  with |Fₜ| ≤ μ |Fₙ|
+    ///
+    /// Where the tangential spring would exceed μ |Fₙ|, it is truncated to it, and the lost stretch is sliding. Source:
+    /// Cundall & Strack, Géotechnique 29 (1979) 47, doi:10.1680/geot.1979.29.1.47; the truncated form is Park & Wassgren's
+    /// Eq. 2.
+    pub struct LinearLaw {
+        /// Normal stiffness kₙ [N/m].
+        normal_stiffness,
+        /// Tangential stiffness kₛ [N/m].
+        tangential_stiffness,
+        /// Normal damping νₙ [N s/m].
+        damping,
+        /// μ / kₛ [m per N/m]: the stretch at which a unit of normal force lets the contact slide.
+        slip_compliance,
+        /// The least normal force [N/m]: 0 where tension is clipped, −∞ where it is allowed.
+        least_normal_force,
+    }
+}
+
+columns! {
+    /// What the law remembers.
+    pub struct LinearHistory {
+        /// Stretch ξ of the tangential spring [m].
+        tangential_displacement,
+    }
+}
+
+/// The linear law; without `CLIPS` no least normal force is looked at.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Linear<const CLIPS: bool>;
+
+columns_of!([const CLIPS: bool] Linear<CLIPS> => LinearLaw);
+
+impl<const CLIPS: bool> ContactLaw for Linear<CLIPS> {
+    type History = LinearHistory;
+    const FLOWS: u32 = Flows::set(&["dissipated_normal", "dissipated_sliding"]);
+    const ROLLS: bool = false;
+
+    fn between(parameters: &ContactParameters, bodies: BodyPair) -> LinearLaw<f64> {
+        let tangential_stiffness = parameters.stiffness_ratio * parameters.normal_stiffness;
+        LinearLaw {
+            normal_stiffness: parameters.normal_stiffness,
+            tangential_stiffness,
+            damping: damping(parameters, bodies.effective_mass),
+            slip_compliance: parameters.friction / tangential_stiffness,
+            least_normal_force: match parameters.tension {
+                Tension::Allowed => f64::NEG_INFINITY,
+                Tension::Clipped => 0.0,
+            },
+        }
+    }
+
+    #[inline(always)]
+    fn respond<S: Scalar>(
+        law: &LinearLaw<S>,
+        contact: &Kinematics<S>,
+        history: &LinearHistory<S>,
+    ) -> (Response<S>, LinearHistory<S>) {
+        let mut force = law.normal_stiffness * contact.overlap - law.damping * contact.separation_rate;
+        if CLIPS {
+            force = force.larger(law.least_normal_force);
+        }
+        let normal_force = force.within(contact.touching);
+        let limit = law.slip_compliance * normal_force.abs();
+        let spring =
+            TruncatedSpring::new(law.tangential_stiffness, limit, history.tangential_displacement, contact.slip);
+        let response = Response {
+            normal_force,
+            tangential_force: spring.force,
+            rolling_moment: S::zero(),
+            pressing_force: normal_force,
+            friction_limit: law.tangential_stiffness * limit,
+            sticking: spring.sticking,
+            flows: Flows {
+                dissipated_normal: dashpot_loss::<S, CLIPS>(law, contact),
+                dissipated_sliding: spring.dissipated,
+                ..Flows::build(|_| S::zero())
+            },
+        };
+        (response, LinearHistory { tangential_displacement: spring.displacement })
+    }
+
+    fn stored(law: &LinearLaw<f64>, overlap: f64, history: &LinearHistory<f64>) -> Stored<f64> {
+        let stretch = history.tangential_displacement;
+        Stored {
+            elastic_normal: 0.5 * law.normal_stiffness * overlap * overlap,
+            elastic_tangential: 0.5 * law.tangential_stiffness * stretch * stretch,
+            ..Stored::build(|_| 0.0)
+        }
+    }
+}
+
+/// The dashpot's force at mid-step times the travel. Where the whole force is clipped, the dashpot holds just the spring.
+#[inline(always)]
+fn dashpot_loss<S: Scalar, const CLIPS: bool>(law: &LinearLaw<S>, contact: &Kinematics<S>) -> S {
+    let mut force = law.damping * contact.step_rate * contact.approach;
+    if CLIPS {
+        let mean_overlap = (contact.overlap + contact.last_overlap) * S::splat(0.5);
+        force = force.larger(law.least_normal_force - law.normal_stiffness * mean_overlap);
+    }
+    (force * contact.travel).larger(S::zero())
+}
+
+/// Normal damping νₙ [N s/m] between bodies of the effective mass m* [kg/m].
+pub fn damping(parameters: &ContactParameters, effective_mass: f64) -> f64 {
+    match (parameters.restitution, parameters.normal_damping) {
+        (Some(restitution), _) => {
+            let ratio = damping_ratio_for(restitution, parameters.tension);
+            2.0 * ratio * (parameters.normal_stiffness * effective_mass).sqrt()
+        }
+        (None, damping) => damping.unwrap_or(0.0),
+    }
+}
+
+/// The damping ratio ζ = νₙ / (2 √(kₙ m*)) between bodies of the effective mass m* [kg/m].
+pub fn damping_ratio(parameters: &ContactParameters, effective_mass: f64) -> f64 {
+    damping(parameters, effective_mass) / (2.0 * (parameters.normal_stiffness * effective_mass).sqrt())
+}
+
+/// The time [s] that a step has to resolve: the duration of a collision, π / (ω₀ √(1 − ζ²)), ω₀ = √(kₙ / m*), with tension
+/// clipped 2 acos ζ / (ω₀ √(1 − ζ²)).
+///
+/// Strong damping stretches a collision without bound while the forces still change within 1/ω₀ and, beyond critical
+/// damping, within a fraction of it; the time is therefore never taken longer than π / (ω₀ · max(½, ζ)).
+pub fn collision_time(parameters: &ContactParameters, effective_mass: f64) -> f64 {
+    let frequency = (parameters.normal_stiffness / effective_mass).sqrt();
+    let ratio = damping_ratio(parameters, effective_mass);
+    let resolved = PI / (frequency * ratio.max(0.5));
+    if ratio >= 1.0 {
+        return resolved;
+    }
+    let phase = match parameters.tension {
+        Tension::Allowed => PI,
+        Tension::Clipped => 2.0 * libm::acos(ratio),
+    };
+    resolved.min(phase / (frequency * (1.0 - ratio * ratio).sqrt()))
+}
+
+/// The damping ratio ζ that gives the restitution e.
+///
+/// Tension allowed: e = exp(−π ζ / √(1 − ζ²)), so ζ = −ln e / √(π² + ln² e).
+/// Clipped: the contact ends when the force vanishes; with φ = acos ζ, e = exp(−2 φ / tan φ), and beyond critical
+/// damping, φ = acosh ζ, e = exp(−2 φ / tanh φ) (Schwager & Pöschel, Granular Matter 9 (2007) 465), solved by bisection.
+fn damping_ratio_for(restitution: f64, tension: Tension) -> f64 {
+    let decay = -libm::log(restitution);
+    if decay <= 0.0 {
+        return 0.0;
+    }
+    match tension {
+        Tension::Allowed => decay / (PI * PI + decay * decay).sqrt(),
+        Tension::Clipped => bisect_clipped_ratio(decay),
+    }
+}
+
+/// Solves decay(ζ) = −ln e for the clipped law, whose decay grows with ζ from 0 without bound.
+fn bisect_clipped_ratio(decay: f64) -> f64 {
+    let (mut low, mut high) = (0.0, 1.0);
+    while clipped_decay(high) < decay {
+        high *= 2.0;
+    }
+    for _ in 0..100 {
+        let middle = 0.5 * (low + high);
+        if clipped_decay(middle) < decay {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    0.5 * (low + high)
+}
+
+/// −ln e of the clipped law at the damping ratio ζ.
+fn clipped_decay(ratio: f64) -> f64 {
+    if ratio < 1.0 {
+        let phase = libm::acos(ratio);
+        2.0 * phase / libm::tan(phase)
+    } else if ratio == 1.0 {
+        2.0
+    } else {
+        let phase = libm::acosh(ratio);
+        2.0 * phase / libm::tanh(phase)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{ContactState, Motion};
+    use super::*;
+
+    fn table_1(tension: Tension) -> ContactParameters {
+        ContactParameters {
+            normal_stiffness: 9.25e7,
+            stiffness_ratio: 1.0,
+            restitution: Some(0.1),
+            normal_damping: None,
+            friction: 0.5,
+            tension,
+        }
+    }
+
+    const BUNDLE_MASS: f64 = 1000.0 * PI * 0.02375 * 0.02375 / 4.0;
+
+    #[test]
+    fn table_1_damping_and_collision_time_follow_from_the_restitution() {
+        let bundle = table_1(Tension::Allowed);
+        assert!((damping(&bundle, 0.5 * BUNDLE_MASS) - 5.35e3).abs() < 5.0);
+        assert!((collision_time(&bundle, 0.5 * BUNDLE_MASS) - 1.906e-4).abs() < 1e-7);
+        let drum = ContactParameters { normal_stiffness: 9.70e7, ..bundle };
+        assert!((damping(&drum, BUNDLE_MASS) - 7.75e3).abs() < 5.0);
+    }
+
+    #[test]
+    fn clipped_restitution_matches_schwager_and_poschel() {
+        for (ratio, restitution) in [(0.1, 0.7441), (0.3, 0.4510), (0.6, 0.2488), (0.8, 0.1798)] {
+            assert!((libm::exp(-clipped_decay(ratio)) - restitution).abs() < 5e-5);
+            assert!((damping_ratio_for(restitution, Tension::Clipped) - ratio).abs() < 3e-4);
+        }
+        assert!(damping_ratio_for(0.1, Tension::Clipped) > 1.0, "0.1 lies beyond critical damping");
+    }
+
+    #[test]
+    fn losses_are_never_negative() {
+        let bodies = BodyPair { effective_mass: 0.2, effective_radius: 0.006 };
+        for tension in [Tension::Allowed, Tension::Clipped] {
+            let law = Linear::<true>::between(&table_1(tension), bodies);
+            for k in 0..2000_i32 {
+                let wave = |n: i32| f64::from((k * n) % 17 - 8) * 1e-6;
+                let last = ContactState { overlap: wave(3).max(0.0), separation_rate: wave(2) * 1e5, ..no_state() };
+                let stretch = if last.overlap > 0.0 { wave(5) } else { 0.0 };
+                let motion = Motion {
+                    overlap: wave(7),
+                    separation_rate: wave(11) * 1e5,
+                    slip_rate: wave(13) * 1e5,
+                    rolling_rate: 0.0,
+                };
+                let contact = Kinematics::new(&motion, &last, [3.7e-6, 1.0 / 3.7e-6]);
+                let history = LinearHistory { tangential_displacement: stretch };
+                let (response, _) = Linear::<true>::respond(&law, &contact, &history);
+                assert!(response.flows.dissipated_normal >= 0.0, "{k}");
+                assert!(response.flows.dissipated_sliding >= 0.0, "{k}");
+            }
+        }
+    }
+
+    fn no_state() -> ContactState<f64> {
+        ContactState::build(|_| 0.0)
+    }
+
+    #[test]
+    fn bad_parameters_are_named() {
+        let both = ContactParameters { normal_damping: Some(1.0), ..table_1(Tension::Allowed) };
+        let text = both.validate("contact.drum").unwrap_err().to_string();
+        assert!(text.starts_with("contact.drum.restitution is given beside normal_damping"), "{text}");
+        let elastic_plus = ContactParameters { restitution: Some(1.5), ..table_1(Tension::Allowed) };
+        let text = elastic_plus.validate("contact.bundle").unwrap_err().to_string();
+        assert_eq!(text, "contact.bundle.restitution is 1.5, but must be above 0 and at most 1");
+    }
+}

@@ -1,0 +1,91 @@
+//! The table of laws by species: which parameters act between two species, and between a species and the drum.
+
+use super::linear;
+use super::parameters::{ContactParameters, Tension};
+use crate::error::Error;
+
+/// Parameters for all pairs of species, and for each species against the drum.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SpeciesTable {
+    count: usize,
+    /// Between species `a` and `b`: entry `a · count + b`.
+    pairs: Vec<ContactParameters>,
+    /// Between each species and the drum.
+    walls: Vec<ContactParameters>,
+}
+
+impl SpeciesTable {
+    /// One species.
+    pub fn uniform(bundle: ContactParameters, drum: ContactParameters) -> Self {
+        Self { count: 1, pairs: vec![bundle], walls: vec![drum] }
+    }
+
+    /// `count` species that meet each other with `bundle` and the drum with `drum`, until `set_pair` and `set_wall` say
+    /// otherwise.
+    pub fn new(count: usize, bundle: &ContactParameters, drum: &ContactParameters) -> Self {
+        Self { count, pairs: vec![bundle.clone(); count * count], walls: vec![drum.clone(); count] }
+    }
+
+    /// Sets what acts between two species, in either order.
+    ///
+    /// # Errors
+    /// `Error::Config` where there is no such species.
+    pub fn set_pair(&mut self, one: u16, other: u16, parameters: &ContactParameters) -> Result<(), Error> {
+        let (a, b) = (self.index(one)?, self.index(other)?);
+        self.pairs[a * self.count + b] = parameters.clone();
+        self.pairs[b * self.count + a] = parameters.clone();
+        Ok(())
+    }
+
+    /// Sets what acts between a species and the drum.
+    ///
+    /// # Errors
+    /// `Error::Config` where there is no such species.
+    pub fn set_wall(&mut self, species: u16, parameters: &ContactParameters) -> Result<(), Error> {
+        let index = self.index(species)?;
+        self.walls[index] = parameters.clone();
+        Ok(())
+    }
+
+    fn index(&self, species: u16) -> Result<usize, Error> {
+        let index = usize::from(species);
+        if index < self.count {
+            return Ok(index);
+        }
+        let limit = format!("below {}, the number of species", self.count);
+        Err(Error::config("a species", species, limit))
+    }
+
+    /// Number of species; a particle's species is below it.
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
+    /// What acts between two species.
+    pub fn pair(&self, one: u16, other: u16) -> &ContactParameters {
+        &self.pairs[usize::from(one) * self.count + usize::from(other)]
+    }
+
+    /// What acts between a species and the drum.
+    pub fn wall(&self, species: u16) -> &ContactParameters {
+        &self.walls[usize::from(species)]
+    }
+
+    /// All parameters that there are.
+    pub fn all(&self) -> impl Iterator<Item = &ContactParameters> {
+        self.pairs.iter().chain(&self.walls)
+    }
+
+    /// Whether tension is clipped anywhere.
+    pub fn clips(&self) -> bool {
+        self.all().any(|parameters| parameters.tension == Tension::Clipped)
+    }
+
+    /// Shortest collision times [s] for particles no lighter than `mass`: (between particles, with the drum).
+    pub fn collision_times(&self, mass: f64) -> (f64, f64) {
+        let shortest = |tables: &[ContactParameters], effective_mass: f64| {
+            tables.iter().map(|table| linear::collision_time(table, effective_mass)).fold(f64::INFINITY, f64::min)
+        };
+        (shortest(&self.pairs, 0.5 * mass), shortest(&self.walls, mass))
+    }
+}

@@ -1,0 +1,92 @@
+//! What stops a run that has lost its meaning.
+
+use super::Simulation;
+use crate::engine::DrumMotion;
+use crate::error::{Error, Incident};
+use crate::physics::vector::Vec2;
+
+impl Simulation {
+    /// In every step: no particle has moved farther than half the smallest radius as seen from the drum, so that none can
+    /// pass through another or through a wall between two looks. `longest_way` is a bound; only beyond it ways are measured.
+    pub(super) fn guard_ways(&mut self, longest_way: f64, drum: DrumMotion) -> Result<(), Error> {
+        let limit = 0.5 * self.derived.least_radius;
+        // What is not a number is looked at, too.
+        if longest_way < limit {
+            return Ok(());
+        }
+        let way = self.engine.measure_ways(&mut self.state.particles, self.derived.world(), drum);
+        if way < limit {
+            return Ok(());
+        }
+        self.guard_finite()?;
+        let fastest = |speed: &dyn Fn(usize) -> f64| {
+            let all = 0..self.state.particles.len();
+            all.max_by(|&a, &b| speed(a).total_cmp(&speed(b))).unwrap_or(0)
+        };
+        let particles = &self.state.particles;
+        let seen = |i: usize| {
+            let surface = crate::physics::vector::perpendicular(particles.positions[i]) * drum.angular_velocity;
+            (particles.velocities[i] - surface).norm()
+        };
+        let place = fastest(&seen);
+        Err(Error::TooFast { incident: self.incident(place), way, limit })
+    }
+
+    /// At fixed steps: everything is finite, no overlap is too deep, no center is inside a solid.
+    pub(super) fn guard(&self, mass_moment: Vec2) -> Result<(), Error> {
+        if !(mass_moment.x + mass_moment.y).is_finite() {
+            self.guard_finite()?;
+        }
+        self.guard_solids()?;
+        self.guard_overlaps()
+    }
+
+    fn guard_finite(&self) -> Result<(), Error> {
+        match self.state.particles.first_non_finite() {
+            Some(place) => Err(Error::NonFinite { incident: self.incident(place) }),
+            None => Ok(()),
+        }
+    }
+
+    fn guard_overlaps(&self) -> Result<(), Error> {
+        let limit = self.config.run.overlap_limit;
+        let ratio = self.engine.pass().deepest().max(self.state.ledger.overlap_ratio);
+        if ratio <= limit {
+            return Ok(());
+        }
+        Err(Error::Overlap { incident: self.incident(self.deepest_overlap()), ratio, limit })
+    }
+
+    fn guard_solids(&self) -> Result<(), Error> {
+        let drum = &self.derived.drum;
+        let count = self.state.particles.len();
+        let positions = &self.state.particles.positions[..count];
+        let squared = drum.radius().map_or(f64::INFINITY, |rim| rim * rim);
+        match positions.iter().position(|position| position.norm_squared() > squared) {
+            Some(place) => Err(Error::Escaped { incident: self.incident(place), surface: "rim".into() }),
+            None => Ok(()),
+        }
+    }
+
+    /// The place of the particle whose overlap is deepest now.
+    fn deepest_overlap(&self) -> usize {
+        let radii = &self.state.particles.radii;
+        let radius = |i: u32| radii[i as usize];
+        let contacts = self.engine.pass().contacts();
+        let pairs = contacts.pairs.iter().map(|c| (c.overlap / radius(c.particle).min(radius(c.other)), c.particle));
+        let walls = contacts.walls.iter().map(|c| (c.overlap / radius(c.particle), c.particle));
+        pairs.chain(walls).max_by(|a, b| a.0.total_cmp(&b.0)).map_or(0, |deepest| deepest.1 as usize)
+    }
+
+    /// Which particle something happened to, when and where.
+    fn incident(&self, place: usize) -> Incident {
+        let particles = &self.state.particles;
+        Incident {
+            particle: self.id_of(place),
+            step: self.state.step,
+            time: self.time(),
+            position: particles.positions[place].into(),
+            speed: particles.velocities[place].norm(),
+        }
+    }
+}

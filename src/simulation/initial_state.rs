@@ -1,0 +1,159 @@
+//! How a simulation starts: a load that is packed at random, or a given state.
+
+use rand::{Rng, SeedableRng};
+use rand_pcg::Pcg64Mcg;
+
+use crate::engine::forces::Lists;
+use crate::error::Error;
+use crate::io::config::SimulationConfig;
+use crate::physics::drum::Drum;
+use crate::physics::energy::SurfaceLoad;
+use crate::physics::particles::Particles;
+use crate::physics::vector::{Rotation, Vec2, cross};
+
+/// A given initial state; what is left out is zero, radii that are left out are the configured one.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct InitialState {
+    /// Centers [m], in the frame at rest.
+    pub positions: Vec<Vec2>,
+    /// Velocities [m/s].
+    pub velocities: Option<Vec<Vec2>>,
+    /// Angles [rad].
+    pub angles: Option<Vec<f64>>,
+    /// Angular velocities [rad/s].
+    pub angular_velocities: Option<Vec<f64>>,
+    /// Radii [m].
+    pub radii: Option<Vec<f64>>,
+    /// Species.
+    pub species: Option<Vec<u16>>,
+    /// Angle of the drum [rad].
+    pub drum_angle: f64,
+    /// The contacts, by id, where the state is that of a simulation; those whose bodies do not meet as they say are left out.
+    pub contacts: Lists,
+}
+
+impl InitialState {
+    /// The particles of this state.
+    ///
+    /// # Errors
+    /// `Error::Config` naming the field.
+    pub fn particles(&self, config: &SimulationConfig, species_count: usize) -> Result<Particles, Error> {
+        let count = self.positions.len();
+        if count == 0 {
+            return Err(Error::config("state.positions", "empty", "of at least one bundle"));
+        }
+        let radii = self.radii.clone().unwrap_or_else(|| vec![0.5 * config.load.diameter; count]);
+        if radii.len() != count {
+            let found = format!("of length {}", radii.len());
+            return Err(Error::config("state.radii", found, format!("of length {count}")));
+        }
+        let locked = config.load.spin_locked;
+        let mut particles = Particles::at_rest(self.positions.clone(), radii, config.load.density, locked);
+        if let Some(velocities) = &self.velocities {
+            particles.velocities.clone_from(velocities);
+        }
+        if let Some(angles) = &self.angles {
+            particles.angles.clone_from(angles);
+        }
+        if let Some(spins) = &self.angular_velocities {
+            if locked && spins.iter().any(|&spin| spin != 0.0) {
+                let limit = "0 while load.spin_locked is true";
+                return Err(Error::config("state.angular_velocities", "not 0", limit));
+            }
+            particles.angular_velocities.clone_from(spins);
+        }
+        if let Some(species) = &self.species {
+            if let Some(i) = species.iter().position(|&own| usize::from(own) >= species_count) {
+                let limit = format!("below {species_count}, the number of species");
+                return Err(Error::config(format!("state.species[{i}]"), species[i], limit));
+            }
+            particles.species.clone_from(species);
+        }
+        if !self.drum_angle.is_finite() {
+            return Err(Error::config("state.drum_angle", self.drum_angle, "a finite number"));
+        }
+        particles.validate()?;
+        Ok(particles)
+    }
+}
+
+/// Refuses bundles whose centers are outside of the drum or within a baffle.
+///
+/// # Errors
+/// `Error::Config` naming the first of them.
+pub fn require_inside(drum: &Drum, particles: &Particles, rotation: Rotation) -> Result<(), Error> {
+    let inside = |center: &Vec2| drum.clearance(rotation.apply_inverse(*center)) > 0.0;
+    match particles.positions.iter().position(|center| !inside(center)) {
+        None => Ok(()),
+        Some(i) => {
+            let (x, y) = (particles.positions[i].x, particles.positions[i].y);
+            let limit = "inside the drum and outside of its baffles";
+            Err(Error::config(format!("state.positions[{i}]"), format!("[{x}, {y}]"), limit))
+        }
+    }
+}
+
+/// The configured load at packed positions, each bundle with the start speed in a random direction.
+pub fn packed(config: &SimulationConfig, positions: Vec<Vec2>, seed: u64) -> Particles {
+    let load = &config.load;
+    let radii = vec![0.5 * load.diameter; positions.len()];
+    let mut particles = Particles::at_rest(positions, radii, load.density, load.spin_locked);
+    if load.start_speed > 0.0 {
+        // A stream of its own, so that the speed does not change where the bundles lie.
+        let mut random = Pcg64Mcg::seed_from_u64(!seed);
+        for velocity in &mut particles.velocities {
+            let unit = (random.next_u64() >> 11) as f64 * (1.0 / (1_u64 << 53) as f64);
+            let (sin, cos) = libm::sincos(std::f64::consts::TAU * unit);
+            *velocity = Vec2::new(cos, sin) * load.start_speed;
+        }
+    }
+    particles
+}
+
+/// Of some contacts those whose bodies, at these places, overlap as the contacts say.
+pub fn matching(contacts: &Lists, particles: &Particles, drum: &Drum, rotation: Rotation) -> Lists {
+    let count = particles.len();
+    let is_same = |overlap: f64, found: f64, radius: f64| (overlap - found).abs() <= 1e-9 * radius && overlap > 0.0;
+    let pairs = contacts.pairs.iter().filter(|record| {
+        let (i, j) = (record.particle as usize, record.other as usize);
+        i < j && j < count && {
+            let distance = (particles.positions[j] - particles.positions[i]).norm();
+            is_same(record.overlap, particles.radii[i] + particles.radii[j] - distance, particles.radii[i])
+        }
+    });
+    let walls = contacts.walls.iter().filter(|record| {
+        let i = record.particle as usize;
+        i < count && record.other < drum.feature_count() && {
+            let center = rotation.apply_inverse(particles.positions[i]);
+            let distance = match (record.other, drum.radius()) {
+                (crate::physics::drum::RIM, rim) => rim.map(|rim| rim - center.norm()),
+                (feature, _) => drum.proximity(feature, center).map(|near| near.distance),
+            };
+            distance.is_some_and(|distance| {
+                is_same(record.overlap, particles.radii[i] - distance, particles.radii[i])
+            })
+        }
+    });
+    Lists { pairs: pairs.copied().collect(), walls: walls.copied().collect() }
+}
+
+/// Adds what contacts do to the forces and torques of their particles. Returns what the drum's surfaces do to the load.
+pub fn add_forces(contacts: &Lists, particles: &mut Particles, drum: &Drum) -> Vec<SurfaceLoad> {
+    for record in &contacts.pairs {
+        let (i, j, force) = (record.particle as usize, record.other as usize, Vec2::from(record.force));
+        particles.forces[i] -= force;
+        particles.forces[j] += force;
+        particles.torques[i] += record.moments[0];
+        particles.torques[j] += record.moments[1];
+    }
+    let mut surfaces = vec![SurfaceLoad::default(); drum.surface_count()];
+    for record in &contacts.walls {
+        let (i, force) = (record.particle as usize, Vec2::from(record.force));
+        particles.forces[i] -= force;
+        particles.torques[i] += record.moments[0];
+        let surface = &mut surfaces[drum.surface_of(record.other)];
+        surface.force -= force;
+        surface.moment += record.moments[0] - cross(particles.positions[i], force);
+    }
+    surfaces
+}

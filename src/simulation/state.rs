@@ -1,0 +1,34 @@
+//! The state: all that a checkpoint holds besides the configuration.
+
+use serde::{Deserialize, Serialize};
+
+use crate::engine::forces::{Lists, Totals};
+use crate::observe::recorder::{Frames, Series};
+use crate::physics::energy::EnergyLedger;
+use crate::physics::particles::Particles;
+
+/// Everything from which a simulation goes on bit for bit, but for its contacts, which the engine holds while it runs.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct State {
+    /// Steps done.
+    pub step: u64,
+    /// Angle of the drum at t = 0 [rad].
+    pub initial_angle: f64,
+    /// The bundles.
+    pub particles: Particles,
+    /// The accounts.
+    pub ledger: EnergyLedger,
+    /// The samples.
+    pub series: Series,
+    /// The frames.
+    pub frames: Frames,
+}
+
+/// What the engine holds of the state.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct EngineState {
+    /// The contacts, in the order of their lists.
+    pub contacts: Lists,
+    /// Sums for the ledger since the last sample, by chunk.
+    pub totals: Vec<Totals>,
+}
