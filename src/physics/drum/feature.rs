@@ -59,10 +59,10 @@ pub(super) struct Neighbor {
     pub(super) segment: Segment,
     /// At which end of the other edge it is: 0 its start, 1 its end.
     pub(super) end: usize,
-    /// The sign of the other edge's `left_of` on the side of it where the neighbor lies; 0 where straight on.
-    pub(super) side_of_edge: f64,
-    /// The sign of the neighbor's `left_of` on the side of it where the other edge lies; 0 where straight on.
-    pub(super) side_of_neighbor: f64,
+    /// The sign of the other edge's `left_of` where the neighbor lies; 0 where that goes straight on.
+    pub(super) edge_sign: f64,
+    /// The sign of the neighbor's own `left_of` where the other edge lies; 0 where that goes straight on.
+    pub(super) own_sign: f64,
     /// The fraction of the other edge that the neighbor overhangs, counted from their vertex; positive at acute
     /// corners only.
     pub(super) overhang: f64,
@@ -132,9 +132,9 @@ impl Edge {
     fn yields(&self, from_ends: [f64; 2], center: Vec2) -> bool {
         let left = self.segment.left_of(center);
         self.neighbors.iter().any(|neighbor| {
-            if neighbor.side_of_neighbor * neighbor.segment.left_of(center) > 0.0 {
+            if neighbor.own_sign * neighbor.segment.left_of(center) > 0.0 {
                 false
-            } else if neighbor.side_of_edge * left > 0.0 {
+            } else if neighbor.edge_sign * left > 0.0 {
                 from_ends[neighbor.end] < neighbor.overhang
             } else {
                 neighbor.precedes

@@ -115,8 +115,8 @@ impl Drawing {
         let mut boxes: Vec<_> = self.pieces.iter().map(extent).enumerate().collect();
         boxes.sort_by(|(_, (a, _)), (_, (b, _))| a[axis].total_cmp(&b[axis]));
         let across = 1 - axis;
-        for (place, (i, (low, high))) in boxes.iter().enumerate() {
-            for (j, (other_low, other_high)) in &boxes[place + 1..] {
+        for (rank, (i, (low, high))) in boxes.iter().enumerate() {
+            for (j, (other_low, other_high)) in &boxes[rank + 1..] {
                 if other_low[axis] > high[axis] {
                     break;
                 }

@@ -180,10 +180,21 @@ mod tests {
                 "base is 0.475, but must be smaller than the drum's diameter 0.475",
             ),
             (BaffleParameters { tip: 0.4, ..trapezoid.clone() }, &widest),
+            (BaffleParameters { count: 1001, ..triangle.clone() }, "count is 1001, but must be at most 1000"),
             (
-                BaffleParameters { tip: 0.0, ..trapezoid.clone() },
-                "tip is 0, but must be a positive finite number",
+                BaffleParameters { count: 25, ..triangle },
+                "count is 25, but must be so small that neighboring baffles of this size neither touch nor overlap",
             ),
+        ]);
+        let message = trapezoid.validate(None).unwrap_err().to_string();
+        assert_eq!(message, "drum.baffles.count is 3, but must be 0 where the drum has no rim");
+    }
+
+    #[test]
+    fn unusable_numbers_are_refused() {
+        let (triangle, trapezoid) = (baffles(BaffleShape::Triangle), baffles(BaffleShape::Trapezoid));
+        refuses(&[
+            (BaffleParameters { tip: 0.0, ..trapezoid }, "tip is 0, but must be a positive finite number"),
             (
                 BaffleParameters { tip: -1.0, ..triangle.clone() },
                 "tip is -1, but must be a finite number of at least 0",
@@ -196,18 +207,8 @@ mod tests {
                 BaffleParameters { height: 0.0, ..triangle.clone() },
                 "height is 0, but must be a positive finite number",
             ),
-            (
-                BaffleParameters { phase: f64::NAN, ..triangle.clone() },
-                "phase is NaN, but must be a finite number",
-            ),
-            (BaffleParameters { count: 1001, ..triangle.clone() }, "count is 1001, but must be at most 1000"),
-            (
-                BaffleParameters { count: 25, ..triangle },
-                "count is 25, but must be so small that neighboring baffles of this size neither touch nor overlap",
-            ),
+            (BaffleParameters { phase: f64::NAN, ..triangle }, "phase is NaN, but must be a finite number"),
         ]);
-        let message = trapezoid.validate(None).unwrap_err().to_string();
-        assert_eq!(message, "drum.baffles.count is 3, but must be 0 where the drum has no rim");
     }
 
     #[test]

@@ -57,8 +57,8 @@ fn neighbor(segments: &[Segment], own: Incidence, other: Incidence, precedes: bo
     Neighbor {
         segment: segments[other.edge],
         end: own.end,
-        side_of_edge: turn * sign(own),
-        side_of_neighbor: -turn * sign(other),
+        edge_sign: turn * sign(own),
+        own_sign: -turn * sign(other),
         overhang: dot(along, beside) / dot(along, along),
         precedes,
     }
@@ -161,8 +161,8 @@ mod tests {
     fn nothing_hides_a_feature_of_a_convex_solid() {
         let graph = polygon(&[[0.2, 0.03], [0.15, 0.01], [0.15, -0.02], [0.2, -0.03]]);
         let (segments, incidences) = (graph.segments(), graph.incidences());
-        for index in 0..4 {
-            assert!(vertex_occluders(&graph, &segments, &incidences[index], index).is_empty());
+        for (index, own) in incidences.iter().enumerate() {
+            assert!(vertex_occluders(&graph, &segments, own, index).is_empty());
             assert!(edge_occluders(&graph, &segments, Kind::Solid, index).is_empty());
             // Seen from both sides, opposite walls do hide each other.
             assert_eq!(edge_occluders(&graph, &segments, Kind::Wall, index), [(index + 2) % 4]);

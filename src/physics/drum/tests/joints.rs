@@ -135,9 +135,9 @@ fn a_floor_of_loose_lines_is_one_wall() {
     for shuffled in [false, true] {
         let floor = network(&loose(&points, shuffled));
         for k in 0..=2000 {
-            let place = Vec2::from(points[0]) + along * (0.01 * f64::from(k));
+            let foot = Vec2::from(points[0]) + along * (0.01 * f64::from(k));
             for height in [-0.03, -1e-4, 1e-4, 0.011, 0.03] {
-                let center = place + up * height;
+                let center = foot + up * height;
                 let (loose, one) = (felt(&floor, center), felt(&whole, center));
                 assert_eq!((loose.len(), one.len()), (1, 1), "{center}");
                 assert!((loose[0].distance - one[0].distance).abs() < 1e-15);
@@ -249,6 +249,43 @@ fn the_closest_point_of_a_network_is_felt_once_or_in_a_concave_corner() {
         drum.features_near(center, 0.05, &mut near);
         let within = answers(&drum, center).into_iter().filter(|answer| answer.1.distance <= 0.05);
         assert!(within.into_iter().all(|answer| near.contains(&answer.0)) && near.is_sorted());
+    }
+}
+
+/// Lines between points of a lattice of 5 × 5, which meet in every way.
+fn lattice_lines(seed: u64, count: usize) -> Vec<Wall> {
+    let mut state = seed;
+    let mut draw = || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        let cell = state >> 33;
+        [0.1 * (cell % 5) as f64 - 0.2, 0.1 * (cell / 5 % 5) as f64 - 0.2]
+    };
+    let lines = std::iter::repeat_with(|| line(draw(), draw()));
+    lines.filter(|line| line[0] != line[1]).take(count).collect()
+}
+
+#[test]
+fn what_is_felt_does_not_depend_on_how_it_is_drawn() {
+    for seed in 1..60 {
+        let lines = lattice_lines(seed, 3 + seed as usize % 6);
+        let mut shuffled = lines.clone();
+        shuffled.iter_mut().step_by(2).for_each(|line| line.reverse());
+        shuffled.rotate_left(2);
+        shuffled.push(lines[1].clone());
+        let (one, other) = (network(&lines), network(&shuffled));
+        assert_eq!(one.feature_count(), other.feature_count());
+        for center in cloud(400).skip(1) {
+            let (felt, again) = (felt(&one, center), felt(&other, center));
+            let closest = lines.iter().map(|line| distance(center, (line[0].into(), line[1].into())));
+            assert!((felt[0].distance - closest.fold(f64::INFINITY, f64::min)).abs() < 1e-15);
+            assert_eq!(felt.len(), again.len(), "drawing {seed} at {center}");
+            let foot = |proximity: &Proximity| proximity.direction * proximity.distance;
+            let close = |a: &Proximity, b: &Proximity| (foot(a) - foot(b)).norm() < 1e-15;
+            assert!(
+                felt.iter().all(|a| again.iter().any(|b| close(a, b))),
+                "{felt:?} {again:?} {seed} {center}"
+            );
+        }
     }
 }
 
