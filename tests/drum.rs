@@ -59,6 +59,65 @@ fn force_and_spring_survive_a_tip() {
     assert_eq!(features.len(), 3, "edge, vertex, edge: {features:?}");
 }
 
+/// The speed at which a disc leaves that falls at 1 m/s on the tip of a roof, or on what is drawn instead.
+fn rebound(walls: Vec<Vec<[f64; 2]>>, restitution: f64) -> f64 {
+    let mut config = free_space();
+    config.drum.walls = walls;
+    config.contact.drum.restitution = Some(restitution);
+    config.contact.drum.friction = 0.0;
+    config.run.time_step = Some(1e-6);
+    let mut simulation = start(&config, single([0.0, RADIUS + 1e-4], [0.0, -1.0], 0.0));
+    run_through_contact(&mut simulation, 10_000);
+    simulation.state().particles.velocities[0].norm()
+}
+
+/// However the lines of a corner are drawn, a disc is hit by it once.
+#[test]
+fn walls_that_share_a_point_hit_once() {
+    let (a, o, b, below) = ([-0.1, -0.1], [0.0, 0.0], [0.1, -0.1], [0.0, -0.1]);
+    let (left, right, gaping) = ([-0.1, 0.0], [0.1, 0.0], [1e-9, -1e-9]);
+    let drawings = [
+        vec![vec![a, o], vec![o, b]],
+        vec![vec![o, b], vec![o, a]],
+        vec![vec![a, o], vec![gaping, b]],
+        vec![vec![left, o], vec![right, o]],
+        vec![vec![left, right], vec![o, below]],
+        vec![vec![left, [0.01, 0.0]], vec![[-0.01, 0.0], right]],
+        vec![vec![a, o], vec![o, b], vec![o, below]],
+    ];
+    for restitution in [0.1, 0.5] {
+        let expected = rebound(vec![vec![a, o, b]], restitution);
+        assert!((expected - restitution).abs() < 0.01 * restitution, "{expected}");
+        for walls in &drawings {
+            let speed = rebound(walls.clone(), restitution);
+            assert!((speed - expected).abs() < 1e-6 * expected, "{speed} {expected} {walls:?}");
+        }
+    }
+}
+
+/// A disc that rolls over a floor of loose lines feels one line at a time, and moves as on a floor of one wall.
+#[test]
+fn a_floor_of_loose_lines_is_smooth() {
+    let at = |k: u32| [0.01 * f64::from(k) - 0.1, 0.0];
+    let roll = |walls: Vec<Vec<[f64; 2]>>| {
+        let mut config = floor([0.0, -GRAVITY]);
+        config.drum.walls = walls;
+        let mut simulation = start(&config, single([-0.06, RADIUS], [0.5, 0.0], -0.5 / RADIUS));
+        let mut features = Vec::new();
+        while simulation.state().particles.positions[0].x < 0.06 {
+            simulation.run(50).unwrap();
+            features.extend(simulation.contacts().walls().map(|entry| entry.contact.other));
+            assert!(simulation.contacts().counts().1 <= 1);
+        }
+        features.dedup();
+        (simulation.state().particles.velocities[0], features)
+    };
+    let (whole, _) = roll(vec![vec![at(0), at(20)]]);
+    let (loose, features) = roll((0..20).map(|k| vec![at(k), at(k + 1)]).collect());
+    assert_eq!(features.len(), 13, "each line in turn: {features:?}");
+    assert!((loose - whole).norm() < 1e-12, "{loose} {whole}");
+}
+
 /// A wall that turns towards a resting disc strikes it with the wall's own speed there: the disc leaves with (1 + e)
 /// times that, and the wall has done the work of it. A single onset within a step errs in first order; means are held
 /// against the formula.

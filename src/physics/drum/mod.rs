@@ -2,110 +2,39 @@
 //! with parry2d.
 //!
 //! A `Drum` never moves; `rotation` says how its frame turns. What a disc can touch is counted in features:
-//! the rim, and every edge and vertex of the outlines. Each contact belongs to one of them. Lengths enter by
-//! comparison with each other only, so that a drum four times as large answers with the same bits, scaled.
+//! the rim, and every edge and vertex of the outlines. Each contact belongs to one of them. Walls that meet are
+//! one outline. Lengths enter by comparison with each other only, so that a drum four times as large answers
+//! with the same bits, scaled.
 
 pub mod baffle;
+mod feature;
+mod graph;
+mod network;
 mod outline;
+mod parameters;
 mod polygon;
 mod segment;
 #[cfg(test)]
 mod tests;
+mod union_find;
 mod validate;
 mod visibility;
 
-use serde::{Deserialize, Serialize};
-
-use crate::error::{Error, require_finite, require_positive};
+use crate::error::Error;
 use crate::physics::vector::Vec2;
-use baffle::BaffleParameters;
-use outline::{Kind, Outline};
+use feature::Feature;
+use graph::Graph;
+use outline::{Kind, Outline, Parts};
+pub use parameters::DrumParameters;
 use polygon::length;
+use segment::Segment;
 
 /// A smooth part of the boundary that can carry one contact: the rim, an edge or a vertex. The rim is 0; the
-/// outlines follow, baffles first, each in boundary order: vertex 0, edge 0, vertex 1, edge 1, …
+/// outlines follow, baffles first, each in boundary order: vertex, edge, vertex, edge, …
 pub type FeatureId = u32;
 
 /// The rim's feature; reserved even where the drum has no rim.
 pub const RIM: FeatureId = 0;
-
-/// Rim, baffles and straight walls, as a user describes them.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct DrumParameters {
-    /// Radius of the rim [m]; none leaves the drum without a rim.
-    #[serde(deserialize_with = "Option::deserialize")]
-    pub radius: Option<f64>,
-    /// The baffles.
-    pub baffles: BaffleParameters,
-    /// Open polylines without thickness, felt from both sides, as points [m] in the drum's frame; they turn
-    /// with it. A polyline that ends at its first point is closed. Walls do not know of each other: a corner
-    /// belongs inside one polyline.
-    pub walls: Vec<Vec<[f64; 2]>>,
-}
-
-impl DrumParameters {
-    /// Checks every number, and the shapes against the rim, the axis and each other.
-    pub fn validate(&self) -> Result<(), Error> {
-        if let Some(radius) = self.radius {
-            // Users write the diameter.
-            require_positive("drum.diameter", 2.0 * radius)?;
-        }
-        self.baffles.validate(self.radius)?;
-        self.validate_size()?;
-        self.walls.iter().enumerate().try_for_each(|(index, wall)| validate_wall(index + 1, wall))
-    }
-
-    /// Refuses outlines of so many corners that they would take memory and time without bound.
-    fn validate_size(&self) -> Result<(), Error> {
-        let (each, all) = MOST_CORNERS;
-        let corners = self.baffles.corner_count();
-        let longest = self.walls.iter().map(Vec::len).max().unwrap_or(0);
-        let of_walls = self.walls.iter().map(Vec::len).sum::<usize>();
-        let refuse = |key: &str, found: usize, limit: usize, of: &str| {
-            Err(Error::config(key, format!("of {found} corners{of}"), format!("of at most {limit}")))
-        };
-        if corners > each {
-            refuse("drum.baffles.points", corners, each, "")
-        } else if longest > each {
-            refuse("drum.walls", longest, each, " in one wall")
-        } else if of_walls + self.baffles.count.saturating_mul(corners) > all {
-            let found = of_walls + self.baffles.count.saturating_mul(corners);
-            refuse("drum", found, all, " in baffles and walls together")
-        } else {
-            Ok(())
-        }
-    }
-}
-
-/// The most corners that one outline may have, and all together: a corner may be hidden by every side of its outline, so
-/// that time and memory to find out grow with the square of the one and with the product of both.
-const MOST_CORNERS: (usize, usize) = (1000, 20_000);
-
-/// Checks the wall that a user counts as `number`.
-fn validate_wall(number: usize, wall: &[[f64; 2]]) -> Result<(), Error> {
-    for coordinate in wall.iter().flatten() {
-        require_finite("drum.walls", *coordinate)?;
-    }
-    let refuse = |problem: String, limit: &str| {
-        Err(Error::config("drum.walls", format!("a list whose wall {number} {problem}"), limit))
-    };
-    if wall.len() < 2 {
-        let plural = if wall.len() == 1 { "" } else { "s" };
-        return refuse(format!("has {} point{plural}", wall.len()), "a list of walls of at least 2 points");
-    }
-    let points: Vec<Vec2> = wall.iter().map(|&point| point.into()).collect();
-    let sides = polygon::sides(&points, false);
-    if let Some(side) = polygon::empty_side(&sides) {
-        let problem = format!("has a side {} without length", side + 1);
-        return refuse(problem, "a list of walls of distinct points");
-    }
-    if let Some(corner) = sides.windows(2).position(|pair| polygon::folds_back(&pair[0], &pair[1])) {
-        let problem = format!("folds back on itself at point {}", corner + 2);
-        return refuse(problem, "a list of walls that do not");
-    }
-    Ok(())
-}
 
 /// Where the boundary is, seen from the center of a disc.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -121,12 +50,18 @@ pub struct Proximity {
 pub struct Drum {
     radius: Option<f64>,
     baffle_count: usize,
-    /// Baffles, then walls.
+    /// The points of the baffles, then of the walls, as users see them.
+    shapes: Vec<Vec<Vec2>>,
+    /// Baffles, then what the walls make up.
     outlines: Vec<Outline>,
-    /// The feature of each outline's first vertex.
-    firsts: Vec<FeatureId>,
-    /// The outline of each feature but the rim: entry f − 1 for feature f.
-    owners: Vec<u32>,
+    /// All features by id.
+    features: Vec<Feature>,
+    /// The surface of each feature.
+    surfaces: Vec<u32>,
+    /// For each feature those that it ends at or that end at it.
+    links: Vec<Box<[FeatureId]>>,
+    /// The edges of all outlines.
+    segments: Vec<Segment>,
     /// Every baffle lies at least this far [m] from the axis.
     free_radius: f64,
 }
@@ -136,19 +71,36 @@ impl Drum {
     pub fn new(parameters: &DrumParameters) -> Result<Self, Error> {
         parameters.validate()?;
         let baffles = parameters.radius.map_or_else(Vec::new, |radius| parameters.baffles.outlines(radius));
-        let baffle_count = baffles.len();
         let walls = parameters.walls.iter().map(|wall| wall.iter().map(|&point| point.into()).collect());
-        let outlines: Vec<Outline> = (baffles.into_iter().map(|points| Outline::new(points, Kind::Solid)))
-            .chain(walls.map(|points| Outline::new(points, Kind::Wall)))
-            .collect();
-        let (mut firsts, mut owners) = (Vec::new(), Vec::new());
-        for (index, outline) in outlines.iter().enumerate() {
-            firsts.push(owners.len() as FeatureId + RIM + 1);
-            owners.resize(owners.len() + outline.feature_count(), index as u32);
+        let mut drum = Self {
+            radius: parameters.radius,
+            baffle_count: baffles.len(),
+            shapes: baffles.iter().cloned().chain(walls).collect(),
+            outlines: Vec::new(),
+            features: vec![Feature::Rim],
+            surfaces: vec![0],
+            links: vec![[].into()],
+            segments: Vec::new(),
+            free_radius: f64::INFINITY,
+        };
+        for (index, points) in baffles.into_iter().enumerate() {
+            drum.push(&Graph::polygon(points, 1 + index), Kind::Solid);
         }
-        let clearances = outlines[..baffle_count].iter().map(|baffle| baffle.signed_distance(Vec2::zeros()));
-        let free_radius = clearances.fold(f64::INFINITY, f64::min);
-        Ok(Self { radius: parameters.radius, baffle_count, outlines, firsts, owners, free_radius })
+        let clearances = drum.outlines.iter().map(|baffle| baffle.signed_distance(Vec2::zeros()));
+        drum.free_radius = clearances.fold(f64::INFINITY, f64::min);
+        parameters.joined_walls()?.iter().for_each(|walls| drum.push(walls, Kind::Wall));
+        Ok(drum)
+    }
+
+    /// Appends an outline.
+    fn push(&mut self, graph: &Graph, kind: Kind) {
+        let (outline, parts) = Outline::new(graph, kind, self.feature_count(), self.segments.len() as u32);
+        let Parts { features, surfaces, links } = parts;
+        self.features.extend(features);
+        self.surfaces.extend(surfaces);
+        self.links.extend(links);
+        self.segments.extend_from_slice(outline.segments());
+        self.outlines.push(outline);
     }
 
     /// Radius of the rim [m].
@@ -156,10 +108,10 @@ impl Drum {
         self.radius
     }
 
-    /// The points of every outline in the body frame, baffles (closed polygons, counter-clockwise) then
-    /// walls.
+    /// The points of every baffle (a closed polygon, counter-clockwise), then of every wall, as it was drawn, in
+    /// the body frame.
     pub fn outlines(&self) -> impl Iterator<Item = &[Vec2]> {
-        self.outlines.iter().map(Outline::points)
+        self.shapes.iter().map(Vec::as_slice)
     }
 
     /// Number of baffles.
@@ -169,23 +121,33 @@ impl Drum {
 
     /// Number of walls.
     pub fn wall_count(&self) -> usize {
-        self.outlines.len() - self.baffle_count
+        self.shapes.len() - self.baffle_count
     }
 
     /// Number of features, the rim included; every feature's id is below it.
     pub fn feature_count(&self) -> FeatureId {
-        self.owners.len() as FeatureId + 1
+        self.features.len() as FeatureId
     }
 
     /// Number of surfaces that forces and work are counted for: the rim, each baffle, each wall.
     pub fn surface_count(&self) -> usize {
-        1 + self.outlines.len()
+        1 + self.shapes.len()
     }
 
-    /// The surface that a feature is part of: 0 the rim, then the outlines.
+    /// The surface that a feature is part of: 0 the rim, then the baffles, then the walls. The vertex at which
+    /// walls meet is part of the first of them.
     #[inline]
     pub fn surface_of(&self, feature: FeatureId) -> usize {
-        self.owner(feature).map_or(0, |owner| owner + 1)
+        self.surfaces.get(feature as usize).map_or(0, |&surface| surface as usize)
+    }
+
+    /// What users call a surface: "rim", "baffle 1", "wall 2".
+    pub fn surface_name(&self, surface: usize) -> String {
+        match surface.checked_sub(1) {
+            None => "rim".to_owned(),
+            Some(index) if index < self.baffle_count => format!("baffle {}", index + 1),
+            Some(index) => format!("wall {}", index + 1 - self.baffle_count),
+        }
     }
 
     /// Appends, in ascending order, every feature of an outline (never the rim) whose distance from `center`
@@ -193,34 +155,29 @@ impl Drum {
     pub fn features_near(&self, center: Vec2, reach: f64, found: &mut Vec<FeatureId>) {
         let clear_of_baffles = length(center) + reach < self.free_radius;
         let skipped = if clear_of_baffles { self.baffle_count } else { 0 };
-        for (outline, &first) in self.outlines.iter().zip(&self.firsts).skip(skipped) {
-            outline.features_near(center, reach, first, found);
+        for outline in &self.outlines[skipped..] {
+            outline.features_near((center, reach), &self.features, found);
         }
     }
 
     /// Proximity of `center` (body frame) to a feature of an outline.
     ///
     /// None where the closest point of the outline locally belongs to another feature: an edge answers where
-    /// the projection falls between its ends, a vertex where both its edges clamp to it, the end of a wall
-    /// where its one edge does. So exactly one answers round a convex corner, with distance and direction
-    /// continuous; in a concave corner both edges do, and the vertex never. None also inside a baffle, where
-    /// another side of the same outline stands in between, and for the rim.
+    /// the projection falls between its ends, a vertex where all its edges clamp to it, the end of a wall where
+    /// its one edge does. So exactly one answers round a convex corner, with distance and direction continuous;
+    /// in a concave corner both edges do, and the vertex never. None also inside a baffle, where another edge of
+    /// the same outline stands in between, and for the rim.
     #[inline]
     pub fn proximity(&self, feature: FeatureId, center: Vec2) -> Option<Proximity> {
-        let owner = self.owner(feature)?;
-        self.outlines[owner].proximity((feature - self.firsts[owner]) as usize, center)
+        self.features.get(feature as usize)?.proximity(center, &self.segments)
     }
 
     /// Whether the history of a contact passes between two features: they are parts of the same outline, at
-    /// most two places apart along it. Two, because a disc may pass a blunt vertex within one step.
+    /// most two places apart along it, through whatever vertex. Two, because a disc may pass a blunt vertex
+    /// within one step.
     pub fn adjacent(&self, a: FeatureId, b: FeatureId) -> bool {
-        match (self.owner(a), self.owner(b)) {
-            (Some(owner), Some(other)) if owner == other => {
-                let first = self.firsts[owner];
-                self.outlines[owner].places_apart((a - first) as usize, (b - first) as usize) <= 2
-            }
-            _ => a == b,
-        }
+        let linked = |feature: FeatureId| self.links.get(feature as usize).map_or(&[][..], |links| links);
+        a == b || linked(a).iter().any(|&between| between == b || linked(between).contains(&b))
     }
 
     /// Signed distance [m] from `point` (body frame) to the nearest solid: negative outside the rim or inside
@@ -238,9 +195,18 @@ impl Drum {
             })
     }
 
-    /// The index of the outline that a feature is part of; none for the rim.
+    /// The surface whose solid contains `point` (body frame): the rim outside of it, or a baffle. None in free
+    /// space, which costs next to nothing to find out. Walls have no inside.
     #[inline]
-    fn owner(&self, feature: FeatureId) -> Option<usize> {
-        self.owners.get((feature as usize).checked_sub(1)?).map(|&owner| owner as usize)
+    pub fn solid_at(&self, point: Vec2) -> Option<usize> {
+        let distance = length(point);
+        if self.radius.is_some_and(|radius| distance > radius) {
+            return Some(0);
+        }
+        if distance < self.free_radius {
+            return None;
+        }
+        let baffles = &self.outlines[..self.baffle_count];
+        baffles.iter().position(|baffle| baffle.contains(point)).map(|index| 1 + index)
     }
 }

@@ -1,225 +1,237 @@
-//! One baffle or wall: its vertices and edges, and the proximity of a point to each.
-//!
-//! The features are counted in boundary order: vertex 0, edge 0, vertex 1, edge 1, … The plane around the
-//! outline is divided among them: an edge answers where the projection falls between its ends, a vertex where
-//! both its edges clamp to it. Both ask the same clamped projection, so that neither gap nor overlap opens
-//! between them.
+//! One outline: a baffle, or walls that hang together. Its features and where they are.
 
-use super::Proximity;
-use super::polygon::{contains, length, sides};
+use super::FeatureId;
+use super::feature::{Edge, Feature, Spoke, Vertex};
+use super::graph::{Element, Graph, Incidence};
+use super::polygon::contains;
 use super::segment::{Segment, SegmentRegion};
-use super::visibility::{occluders, overhangs};
-use crate::physics::vector::{Vec2, cross, dot, perpendicular};
+use super::visibility::{edge_occluders, neighbors, vertex_occluders};
+use crate::physics::vector::{Vec2, bounds, cross, dot};
 
 /// What an outline bounds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Kind {
     /// A closed polygon, counter-clockwise: felt from outside only.
     Solid,
-    /// A polyline without thickness: felt from both sides. It is closed where it ends at its first point.
+    /// Lines without thickness: felt from both sides.
     Wall,
 }
 
-/// A polygon or polyline in the body frame, with all that queries need precomputed.
+/// Consecutive features that share a bounding box: enough to skip most of a long outline, few enough to be close
+/// to each other.
+const GROUP: usize = 16;
+
+/// Boxes are widened by this part of a distance, which covers round-off.
+const MARGIN: f64 = 1.0 + 1e-9;
+
+/// An outline in the body frame.
 #[derive(Debug, Clone)]
 pub(super) struct Outline {
     kind: Kind,
-    points: Vec<Vec2>,
-    sides: Vec<Segment>,
-    corners: Vec<Corner>,
-    /// For each edge the fractions that the edges before it (from its start) and after it (from its end) overhang.
-    overhangs: Vec<[f64; 2]>,
-    /// For each feature the far sides that may hide it.
-    occluders: Vec<Vec<usize>>,
-    /// The bounding box.
+    segments: Vec<Segment>,
+    /// The id of its first feature.
+    pub(super) first: FeatureId,
+    /// Round all of it.
+    bounds: Bounds,
+    /// Round each `GROUP` of its features.
+    groups: Vec<Bounds>,
+    feature_count: usize,
+}
+
+/// What an outline adds to the tables of a drum, feature by feature in boundary order.
+#[derive(Debug, Default)]
+pub(super) struct Parts {
+    pub(super) features: Vec<Feature>,
+    /// The surface of each.
+    pub(super) surfaces: Vec<u32>,
+    /// The ids of the edges of each vertex and of the vertices of each edge.
+    pub(super) links: Vec<Box<[FeatureId]>>,
+}
+
+/// A rectangle.
+#[derive(Debug, Clone, Copy)]
+struct Bounds {
     low: Vec2,
     high: Vec2,
 }
 
-/// A vertex and the edges that meet there; the end of a wall has only one.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Corner {
-    /// Where it is.
-    pub(super) point: Vec2,
-    /// Index of the edge that ends here.
-    pub(super) before: Option<usize>,
-    /// Index of the edge that starts here.
-    pub(super) after: Option<usize>,
-    /// 1 where the outline turns left, −1 right, 0 straight on or at the end of a wall.
-    pub(super) turn: f64,
-}
-
 impl Outline {
-    /// From validated points: neighbors are distinct, and a solid's run counter-clockwise.
-    pub(super) fn new(points: Vec<Vec2>, kind: Kind) -> Self {
-        let sides = sides(&points, kind == Kind::Solid);
-        let closed = kind == Kind::Solid || (points.len() > 2 && points.first() == points.last());
-        let corners = corners(&sides, closed);
-        let low = points.iter().copied().reduce(|a, b| a.inf(&b)).unwrap_or_default();
-        let high = points.iter().copied().reduce(|a, b| a.sup(&b)).unwrap_or_default();
-        let overhangs = overhangs(&sides, &corners);
-        let occluders = occluders(kind, &sides, &corners);
-        Self { kind, points, sides, corners, overhangs, occluders, low, high }
+    /// From a validated graph; a solid's runs counter-clockwise. Its features are counted from `first`, its edges
+    /// from `first_segment`.
+    pub(super) fn new(graph: &Graph, kind: Kind, first: FeatureId, first_segment: u32) -> (Self, Parts) {
+        let (segments, elements) = (graph.segments(), graph.elements());
+        let boxes: Vec<Bounds> =
+            elements.chunks(GROUP).map(|group| Bounds::of_elements(graph, group)).collect();
+        let outline = Self {
+            kind,
+            first,
+            bounds: Bounds::of(&graph.vertices),
+            groups: boxes,
+            feature_count: elements.len(),
+            segments,
+        };
+        let builder = Builder {
+            graph,
+            kind,
+            segments: &outline.segments,
+            incidences: graph.incidences(),
+            first_segment,
+        };
+        let parts = builder.parts(&elements, first);
+        (outline, parts)
     }
 
-    /// The points as given: a baffle's first point is not repeated at the end, a closed wall's is.
-    pub(super) fn points(&self) -> &[Vec2] {
-        &self.points
+    /// Its edges.
+    pub(super) fn segments(&self) -> &[Segment] {
+        &self.segments
     }
 
     /// The number of vertices and edges together.
+    #[cfg(test)]
     pub(super) fn feature_count(&self) -> usize {
-        self.corners.len() + self.sides.len()
-    }
-
-    /// How many places apart two features are along the boundary, the shorter way round where it is closed.
-    pub(super) fn places_apart(&self, a: usize, b: usize) -> usize {
-        let apart = a.abs_diff(b);
-        let closed = self.corners.len() == self.sides.len();
-        if closed { apart.min(self.feature_count() - apart) } else { apart }
+        self.feature_count
     }
 
     /// Distance [m] from `point` to the outline, negative inside a solid.
     pub(super) fn signed_distance(&self, point: Vec2) -> f64 {
-        let squared =
-            self.sides.iter().map(|side| side.distance_squared(point)).fold(f64::INFINITY, f64::min);
-        let inside = self.kind == Kind::Solid && contains(&self.sides, point);
-        if inside { -squared.sqrt() } else { squared.sqrt() }
+        let squares = self.segments.iter().map(|segment| segment.distance_squared(point));
+        let distance = squares.fold(f64::INFINITY, f64::min).sqrt();
+        let inside = self.kind == Kind::Solid && contains(&self.segments, point);
+        if inside { -distance } else { distance }
     }
 
-    /// Whether the bounding box tells that every point of the outline is farther than `distance` [m], round-off included.
+    /// Whether `point` lies inside of a solid.
+    pub(super) fn contains(&self, point: Vec2) -> bool {
+        self.kind == Kind::Solid && !self.bounds.is_outside(point, 0.0) && contains(&self.segments, point)
+    }
+
+    /// Whether the bounding box tells that every point of the outline is farther than `distance` [m].
     pub(super) fn is_beyond(&self, point: Vec2, distance: f64) -> bool {
-        self.is_outside(point, distance * (1.0 + 1e-9))
+        self.bounds.is_outside(point, distance * MARGIN)
     }
 
-    /// Whether `center` is more than `reach` [m] beside the bounding box.
-    fn is_outside(&self, center: Vec2, reach: f64) -> bool {
-        let outside = |value: f64, low: f64, high: f64| value < low - reach || value > high + reach;
-        outside(center.x, self.low.x, self.high.x) || outside(center.y, self.low.y, self.high.y)
-    }
-
-    /// Appends `first` + index of every feature at most `reach` [m] away from `center`, in ascending order.
-    pub(super) fn features_near(&self, center: Vec2, reach: f64, first: u32, found: &mut Vec<u32>) {
-        if self.is_outside(center, reach) {
+    /// Appends every feature at most `reach` [m] away from `center`, in ascending order; `features` are all of the
+    /// drum's.
+    pub(super) fn features_near(
+        &self,
+        (center, reach): (Vec2, f64),
+        features: &[Feature],
+        found: &mut Vec<FeatureId>,
+    ) {
+        if self.bounds.is_outside(center, reach) {
             return;
         }
+        let own = &features[self.first as usize..][..self.feature_count];
         let within = |offset: Vec2| dot(offset, offset) <= reach * reach;
-        for (index, corner) in self.corners.iter().enumerate() {
-            if within(corner.point - center) {
-                found.push(first + 2 * index as u32);
+        for (index, (group, bounds)) in own.chunks(GROUP).zip(&self.groups).enumerate() {
+            if self.groups.len() > 1 && bounds.is_outside(center, reach * MARGIN) {
+                continue;
             }
-            if self.sides.get(index).is_some_and(|side| within(side.project(center).point - center)) {
-                found.push(first + 2 * index as u32 + 1);
+            let first = self.first + (GROUP * index) as FeatureId;
+            for (id, feature) in (first..).zip(group) {
+                if feature.closest_point(center).is_some_and(|point| within(point - center)) {
+                    found.push(id);
+                }
             }
         }
-    }
-
-    /// Proximity of `center` to the feature at `index`; none where another feature has the say, where
-    /// `center` is inside the solid, or where another side hides the feature.
-    #[inline]
-    pub(super) fn proximity(&self, index: usize, center: Vec2) -> Option<Proximity> {
-        if index.is_multiple_of(2) {
-            self.vertex_proximity(index / 2, center)
-        } else {
-            self.edge_proximity(index / 2, center)
-        }
-    }
-
-    fn vertex_proximity(&self, vertex: usize, center: Vec2) -> Option<Proximity> {
-        let corner = &self.corners[vertex];
-        let (before, after) =
-            (corner.before.map(|edge| &self.sides[edge]), corner.after.map(|edge| &self.sides[edge]));
-        if before.is_some_and(|side| side.project(center).place != SegmentRegion::End)
-            || after.is_some_and(|side| side.project(center).place != SegmentRegion::Start)
-        {
-            return None;
-        }
-        // Both edges clamp to a concave vertex only inside the solid, or by round-off where it is all but straight.
-        let inside = |side: &Segment| side.left_of(center) > 0.0;
-        let concave = self.kind == Kind::Solid && corner.turn < 0.0;
-        if concave && (before.is_some_and(inside) || after.is_some_and(inside)) {
-            return None;
-        }
-        let side = after.or(before)?;
-        self.seen(2 * vertex, center, corner.point).then(|| toward(corner.point, center, side))
-    }
-
-    fn edge_proximity(&self, edge: usize, center: Vec2) -> Option<Proximity> {
-        let side = &self.sides[edge];
-        let projection = side.project(center);
-        let SegmentRegion::Between(fraction) = projection.place else { return None };
-        let left = side.left_of(center);
-        if (self.kind == Kind::Solid && left > 0.0)
-            || self.yields_to_previous(edge, fraction, left, center)
-            || self.yields_to_next(edge, fraction, left, center)
-        {
-            return None;
-        }
-        self.seen(2 * edge + 1, center, projection.point).then(|| toward(projection.point, center, side))
-    }
-
-    /// Whether the edge before this one stands in front of it, or claims `center` as well though the corner
-    /// between them is convex on that side: then only round-off lets both projections fall between the ends.
-    fn yields_to_previous(&self, edge: usize, fraction: f64, left: f64, center: Vec2) -> bool {
-        let corner = &self.corners[edge];
-        let Some(previous) = corner.before.map(|index| &self.sides[index]) else { return false };
-        if corner.turn * previous.left_of(center) > 0.0 {
-            return false;
-        }
-        if corner.turn * left > 0.0 {
-            fraction < self.overhangs[edge][0]
-        } else {
-            matches!(previous.project(center).place, SegmentRegion::Between(_))
-        }
-    }
-
-    /// Whether the edge after this one stands in front of it.
-    fn yields_to_next(&self, edge: usize, fraction: f64, left: f64, center: Vec2) -> bool {
-        let corner = &self.corners[self.end_of(edge)];
-        1.0 - fraction < self.overhangs[edge][1]
-            && corner.turn * left > 0.0
-            && corner.after.is_some_and(|next| corner.turn * self.sides[next].left_of(center) <= 0.0)
-    }
-
-    /// Whether nothing but neighbors stands between `center` and a point of the feature at `index`.
-    #[inline]
-    fn seen(&self, index: usize, center: Vec2, point: Vec2) -> bool {
-        let occluders = &self.occluders[index];
-        let sight = Segment::new(center, point);
-        !occluders.iter().any(|&side| self.sides[side].crosses(&sight))
-    }
-
-    /// The vertex at which an edge ends.
-    #[inline]
-    fn end_of(&self, edge: usize) -> usize {
-        if edge + 1 < self.corners.len() { edge + 1 } else { 0 }
     }
 }
 
-/// The vertices of an outline with these sides.
-pub(super) fn corners(sides: &[Segment], closed: bool) -> Vec<Corner> {
-    let count = if closed { sides.len() } else { sides.len() + 1 };
-    let corner = |vertex: usize| {
-        let before = if vertex > 0 { Some(vertex - 1) } else { closed.then(|| sides.len() - 1) };
-        let after = (vertex < sides.len()).then_some(vertex);
-        let point = after.map_or_else(|| sides[vertex - 1].end(), |edge| sides[edge].start());
-        let turn = before.zip(after).map_or(0.0, |(before, after)| {
-            let turn = cross(sides[before].vector(), sides[after].vector());
-            f64::from(i8::from(turn > 0.0) - i8::from(turn < 0.0))
-        });
-        Corner { point, before, after, turn }
-    };
-    (0..count).map(corner).collect()
+impl Bounds {
+    /// The box round these points; an empty one at the origin without any.
+    fn of(points: &[Vec2]) -> Self {
+        let (low, high) = bounds(points).unwrap_or_default();
+        Self { low, high }
+    }
+
+    fn of_elements(graph: &Graph, elements: &[Element]) -> Self {
+        let ends = |element: &Element| match *element {
+            Element::Vertex(vertex) => [vertex; 2],
+            Element::Edge(edge) => graph.edges[edge].ends,
+        };
+        let points: Vec<Vec2> = elements.iter().flat_map(ends).map(|vertex| graph.vertices[vertex]).collect();
+        Self::of(&points)
+    }
+
+    /// Whether `point` is more than `reach` [m] beside the box.
+    #[inline]
+    fn is_outside(&self, point: Vec2, reach: f64) -> bool {
+        let outside = |value: f64, low: f64, high: f64| value < low - reach || value > high + reach;
+        outside(point.x, self.low.x, self.high.x) || outside(point.y, self.low.y, self.high.y)
+    }
 }
 
-/// The proximity of `center` to `point`. Where they coincide any normal serves, so the left one of `side` does.
-#[inline]
-fn toward(point: Vec2, center: Vec2, side: &Segment) -> Proximity {
-    let offset = point - center;
-    let distance = length(offset);
-    if distance > 0.0 {
-        return Proximity { distance, direction: offset / distance };
+/// Makes features of the elements of a graph.
+struct Builder<'a> {
+    graph: &'a Graph,
+    kind: Kind,
+    segments: &'a [Segment],
+    incidences: Vec<Vec<Incidence>>,
+    first_segment: u32,
+}
+
+impl Builder<'_> {
+    fn parts(&self, elements: &[Element], first: FeatureId) -> Parts {
+        let (mut of_vertices, mut of_edges) =
+            (vec![0; self.graph.vertices.len()], vec![0; self.segments.len()]);
+        for (id, element) in (first..).zip(elements) {
+            match *element {
+                Element::Vertex(vertex) => of_vertices[vertex] = id,
+                Element::Edge(edge) => of_edges[edge] = id,
+            }
+        }
+        let mut parts = Parts::default();
+        for element in elements {
+            let (feature, surface, links) = match *element {
+                Element::Vertex(vertex) => {
+                    let edges = self.incidences[vertex].iter().map(|incidence| incidence.edge);
+                    let surface = edges.clone().map(|edge| self.graph.edges[edge].surface).min().unwrap_or(0);
+                    (
+                        Feature::Vertex(self.vertex(vertex)),
+                        surface,
+                        edges.map(|edge| of_edges[edge]).collect(),
+                    )
+                }
+                Element::Edge(index) => {
+                    let edge = &self.graph.edges[index];
+                    let links = edge.ends.iter().map(|&vertex| of_vertices[vertex]).collect();
+                    (Feature::Edge(self.edge(index)), edge.surface, links)
+                }
+            };
+            parts.features.push(feature);
+            parts.surfaces.push(surface as u32);
+            parts.links.push(links);
+        }
+        parts
     }
-    let normal = perpendicular(side.vector());
-    Proximity { distance, direction: normal / length(normal) }
+
+    fn vertex(&self, vertex: usize) -> Vertex {
+        let own = &self.incidences[vertex];
+        let spoke = |&Incidence { edge, end }: &Incidence| Spoke {
+            segment: self.segments[edge],
+            region: if end == 0 { SegmentRegion::Start } else { SegmentRegion::End },
+        };
+        let spokes: Box<[Spoke]> = own.iter().map(spoke).collect();
+        let is_concave = self.kind == Kind::Solid
+            && matches!(&*spokes, [into, out] if cross(into.segment.vector(), out.segment.vector()) < 0.0);
+        let occluders = vertex_occluders(self.graph, self.segments, own, vertex);
+        Vertex { point: self.graph.vertices[vertex], spokes, is_concave, occluders: self.in_drum(&occluders) }
+    }
+
+    fn edge(&self, index: usize) -> Edge {
+        let (neighbors, contested) = neighbors(self.graph, self.segments, &self.incidences, index);
+        let occluders = edge_occluders(self.graph, self.segments, self.kind, index);
+        Edge {
+            segment: self.segments[index],
+            is_solid: self.kind == Kind::Solid,
+            contested,
+            neighbors: neighbors.into(),
+            occluders: self.in_drum(&occluders),
+        }
+    }
+
+    /// Edges of this outline as segments of the drum.
+    fn in_drum(&self, edges: &[usize]) -> Box<[u32]> {
+        edges.iter().map(|&edge| self.first_segment + edge as u32).collect()
+    }
 }

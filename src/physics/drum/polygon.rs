@@ -3,8 +3,8 @@
 use super::segment::Segment;
 use crate::physics::vector::{Vec2, cross, dot};
 
-/// The sides of a polyline in order; a closed one ends with the side from the last point to the first.
-pub(super) fn sides(points: &[Vec2], closed: bool) -> Vec<Segment> {
+/// The segments of a polyline in order; a closed one ends with that from the last point to the first.
+pub(super) fn segments(points: &[Vec2], closed: bool) -> Vec<Segment> {
     let closing = points.last().zip(points.first()).filter(|_| closed);
     let pairs = points.windows(2).map(|pair| (&pair[0], &pair[1]));
     pairs.chain(closing).map(|(start, end)| Segment::new(*start, *end)).collect()
@@ -17,35 +17,35 @@ pub(super) fn signed_area(points: &[Vec2]) -> f64 {
     0.5 * (open + cross(*last, *first))
 }
 
-/// Whether `point` lies inside the closed polygon with these sides: a ray from it towards +x crosses an odd
+/// Whether `point` lies inside the closed polygon with these edges: a ray from it towards +x crosses an odd
 /// number.
-pub(super) fn contains(sides: &[Segment], point: Vec2) -> bool {
-    let crossed = sides.iter().filter(|side| {
-        let upwards = side.start().y <= point.y && side.end().y > point.y;
-        let downwards = side.end().y <= point.y && side.start().y > point.y;
-        (upwards && side.left_of(point) > 0.0) || (downwards && side.left_of(point) < 0.0)
+pub(super) fn contains(segments: &[Segment], point: Vec2) -> bool {
+    let crossed = segments.iter().filter(|segment| {
+        let upwards = segment.start().y <= point.y && segment.end().y > point.y;
+        let downwards = segment.end().y <= point.y && segment.start().y > point.y;
+        (upwards && segment.left_of(point) > 0.0) || (downwards && segment.left_of(point) < 0.0)
     });
     crossed.count() % 2 == 1
 }
 
-/// The index of the first side without length.
-pub(super) fn empty_side(sides: &[Segment]) -> Option<usize> {
-    sides.iter().position(|side| dot(side.vector(), side.vector()) == 0.0)
+/// The index of the first segment without length.
+pub(super) fn empty_segment(segments: &[Segment]) -> Option<usize> {
+    segments.iter().position(|segment| dot(segment.vector(), segment.vector()) == 0.0)
 }
 
-/// Whether `next`, which starts where `side` ends, runs straight back over it.
-pub(super) fn folds_back(side: &Segment, next: &Segment) -> bool {
-    cross(side.vector(), next.vector()) == 0.0 && dot(side.vector(), next.vector()) < 0.0
+/// Whether `next`, which starts where `segment` ends, runs straight back over it.
+pub(super) fn folds_back(segment: &Segment, next: &Segment) -> bool {
+    cross(segment.vector(), next.vector()) == 0.0 && dot(segment.vector(), next.vector()) < 0.0
 }
 
-/// The first two sides of a closed polygon that share more than the corner between them.
-pub(super) fn first_crossing(sides: &[Segment]) -> Option<(usize, usize)> {
-    let last = sides.len().saturating_sub(1);
-    let pairs = (0..sides.len()).flat_map(|i| (i + 1..sides.len()).map(move |j| (i, j)));
+/// The first two segments of a closed polygon that share more than the corner between them.
+pub(super) fn first_crossing(segments: &[Segment]) -> Option<(usize, usize)> {
+    let last = segments.len().saturating_sub(1);
+    let pairs = (0..segments.len()).flat_map(|i| (i + 1..segments.len()).map(move |j| (i, j)));
     let touch = |i: usize, j: usize| match (i, j) {
-        (0, j) if j == last => folds_back(&sides[last], &sides[0]),
-        (i, j) if j == i + 1 => folds_back(&sides[i], &sides[j]),
-        _ => sides[i].meets(&sides[j]),
+        (0, j) if j == last => folds_back(&segments[last], &segments[0]),
+        (i, j) if j == i + 1 => folds_back(&segments[i], &segments[j]),
+        _ => segments[i].meets(&segments[j]),
     };
     pairs.into_iter().find(|&(i, j)| touch(i, j))
 }
@@ -65,7 +65,7 @@ mod tests {
     }
 
     fn closed(list: &[[f64; 2]]) -> Vec<Segment> {
-        sides(&points(list), true)
+        segments(&points(list), true)
     }
 
     #[test]
@@ -84,7 +84,7 @@ mod tests {
     }
 
     #[test]
-    fn crossing_sides_are_found() {
+    fn crossing_segments_are_found() {
         assert_eq!(first_crossing(&closed(&[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])), None);
         let bow_tie = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
         assert_eq!(first_crossing(&closed(&bow_tie)), Some((1, 3)));
@@ -95,8 +95,8 @@ mod tests {
     }
 
     #[test]
-    fn sides_without_length_are_found() {
-        assert_eq!(empty_side(&closed(&[[0.0, 0.0], [1.0, 0.0], [1.0, 0.0]])), Some(1));
-        assert_eq!(empty_side(&closed(&[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])), None);
+    fn segments_without_length_are_found() {
+        assert_eq!(empty_segment(&closed(&[[0.0, 0.0], [1.0, 0.0], [1.0, 0.0]])), Some(1));
+        assert_eq!(empty_segment(&closed(&[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])), None);
     }
 }

@@ -1,15 +1,15 @@
-//! One straight side of an outline, and the bridge between parry2d's vectors and ours.
+//! One straight edge of an outline, and the bridge between parry2d's vectors and ours.
 
 use parry2d::query::PointQueryWithLocation;
 use parry2d::shape::{Segment as ParrySegment, SegmentPointLocation};
 
 use crate::physics::vector::{Vec2, cross, dot};
 
-/// A directed straight side from its start to its end, of non-zero length.
+/// A directed straight line from its start to its end, of non-zero length.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Segment(ParrySegment);
 
-/// Where on a side the closest point lies.
+/// Where on a segment the closest point lies.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum SegmentRegion {
     /// At the start; the projection falls on it or before it.
@@ -20,13 +20,13 @@ pub(super) enum SegmentRegion {
     End,
 }
 
-/// The point of a side closest to some other point.
+/// The point of a segment closest to some other point.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Projection {
     /// The closest point.
     pub(super) point: Vec2,
-    /// Where on the side it lies.
-    pub(super) place: SegmentRegion,
+    /// Where on the segment it lies.
+    pub(super) region: SegmentRegion,
 }
 
 impl Segment {
@@ -50,19 +50,19 @@ impl Segment {
         self.end() - self.start()
     }
 
-    /// The point of this side closest to `point`.
+    /// The point of this segment closest to `point`.
     ///
     /// Parry compares scalar products only, so the answer has no length scale of its own. (Its flag
     /// `is_inside` has a tolerance; it is not used.)
     #[inline]
     pub(super) fn project(&self, point: Vec2) -> Projection {
         let (projection, location) = self.0.project_local_point_and_get_location(to_parry(point), false);
-        let place = match location {
+        let region = match location {
             SegmentPointLocation::OnVertex(0) => SegmentRegion::Start,
             SegmentPointLocation::OnVertex(_) => SegmentRegion::End,
             SegmentPointLocation::OnEdge([_, fraction]) => SegmentRegion::Between(fraction),
         };
-        Projection { point: from_parry(projection.point), place }
+        Projection { point: from_parry(projection.point), region }
     }
 
     /// Squared distance [m²] from `point`.
@@ -72,20 +72,20 @@ impl Segment {
         dot(offset, offset)
     }
 
-    /// Positive left of the line through this side, negative right of it, zero on it.
+    /// Positive left of the line through this segment, negative right of it, zero on it.
     #[inline]
     pub(super) fn left_of(&self, point: Vec2) -> f64 {
         cross(self.vector(), point - self.start())
     }
 
-    /// Whether two sides cross at a point inside both.
+    /// Whether two segments cross at a point inside both.
     #[inline]
     pub(super) fn crosses(&self, other: &Self) -> bool {
         opposite(self.left_of(other.start()), self.left_of(other.end()))
             && opposite(other.left_of(self.start()), other.left_of(self.end()))
     }
 
-    /// Whether two sides share any point at all.
+    /// Whether two segments share any point at all.
     pub(super) fn meets(&self, other: &Self) -> bool {
         self.crosses(other)
             || self.holds(other.start())
@@ -94,7 +94,7 @@ impl Segment {
             || other.holds(self.end())
     }
 
-    /// Whether `point` lies on this side.
+    /// Whether `point` lies on this segment.
     pub(super) fn holds(&self, point: Vec2) -> bool {
         let (start, end) = (self.start(), self.end());
         let between = |a: f64, b: f64, value: f64| a.min(b) <= value && value <= a.max(b);
@@ -122,34 +122,34 @@ fn from_parry(v: parry2d::math::Vector) -> Vec2 {
 mod tests {
     use super::*;
 
-    fn side(start: [f64; 2], end: [f64; 2]) -> Segment {
+    fn segment(start: [f64; 2], end: [f64; 2]) -> Segment {
         Segment::new(start.into(), end.into())
     }
 
     #[test]
-    fn projection_names_its_place() {
-        let side = side([1.0, 1.0], [5.0, 1.0]);
-        assert_eq!(side.project(Vec2::new(1.0, 3.0)).place, SegmentRegion::Start);
-        assert_eq!(side.project(Vec2::new(5.0, 0.0)).place, SegmentRegion::End);
-        let between = side.project(Vec2::new(2.0, 3.0));
-        assert_eq!((between.point, between.place), (Vec2::new(2.0, 1.0), SegmentRegion::Between(0.25)));
-        assert_eq!(side.distance_squared(Vec2::new(8.0, 5.0)), 25.0);
+    fn projection_names_its_region() {
+        let segment = segment([1.0, 1.0], [5.0, 1.0]);
+        assert_eq!(segment.project(Vec2::new(1.0, 3.0)).region, SegmentRegion::Start);
+        assert_eq!(segment.project(Vec2::new(5.0, 0.0)).region, SegmentRegion::End);
+        let between = segment.project(Vec2::new(2.0, 3.0));
+        assert_eq!((between.point, between.region), (Vec2::new(2.0, 1.0), SegmentRegion::Between(0.25)));
+        assert_eq!(segment.distance_squared(Vec2::new(8.0, 5.0)), 25.0);
     }
 
     #[test]
     fn left_is_positive() {
-        assert!(side([0.0, 0.0], [1.0, 0.0]).left_of(Vec2::new(0.3, 0.1)) > 0.0);
-        assert!(side([1.0, 0.0], [0.0, 0.0]).left_of(Vec2::new(0.3, 0.1)) < 0.0);
+        assert!(segment([0.0, 0.0], [1.0, 0.0]).left_of(Vec2::new(0.3, 0.1)) > 0.0);
+        assert!(segment([1.0, 0.0], [0.0, 0.0]).left_of(Vec2::new(0.3, 0.1)) < 0.0);
     }
 
     #[test]
     fn crossing_and_touching_differ() {
-        let base = side([0.0, 0.0], [2.0, 0.0]);
-        let (crossing, touching) = (side([1.0, -1.0], [1.0, 1.0]), side([1.0, 0.0], [1.0, 1.0]));
-        let (collinear, beyond) = (side([1.0, 0.0], [3.0, 0.0]), side([2.5, 0.0], [3.0, 0.0]));
+        let base = segment([0.0, 0.0], [2.0, 0.0]);
+        let (crossing, touching) = (segment([1.0, -1.0], [1.0, 1.0]), segment([1.0, 0.0], [1.0, 1.0]));
+        let (collinear, beyond) = (segment([1.0, 0.0], [3.0, 0.0]), segment([2.5, 0.0], [3.0, 0.0]));
         assert!(base.crosses(&crossing) && base.meets(&crossing));
         assert!(!base.crosses(&touching) && base.meets(&touching) && touching.meets(&base));
         assert!(!base.crosses(&collinear) && base.meets(&collinear));
-        assert!(!base.meets(&beyond) && !base.meets(&side([0.0, 1.0], [2.0, 0.5])));
+        assert!(!base.meets(&beyond) && !base.meets(&segment([0.0, 1.0], [2.0, 0.5])));
     }
 }

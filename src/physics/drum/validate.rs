@@ -1,7 +1,7 @@
-//! Whether baffles fit: their numbers, their shape inside the rim, and the space between them.
+//! Which baffles are possible: their numbers, their shape inside the rim, and the space between them.
 
 use super::baffle::{BaffleParameters, BaffleShape, half_chord};
-use super::polygon::{contains, empty_side, first_crossing, length, sides};
+use super::polygon::{contains, empty_segment, first_crossing, length, segments};
 use super::segment::Segment;
 use crate::error::{Error, require_finite, require_non_negative, require_positive};
 use crate::physics::vector::Vec2;
@@ -80,31 +80,31 @@ impl BaffleParameters {
                 "a list of at least 3 points",
             );
         }
-        // In the user's order, which `profile` may reverse: the messages count sides.
+        // In the user's order, which `profile` may reverse: the messages count segments.
         let corners: Vec<Vec2> =
             points.iter().map(|&[inwards, across]| [radius - inwards, across].into()).collect();
-        let sides = sides(&corners, true);
-        if let Some(side) = empty_side(&sides) {
-            let value = format!("a polygon whose side {} has no length", side + 1);
+        let segments = segments(&corners, true);
+        if let Some(index) = empty_segment(&segments) {
+            let value = format!("a polygon whose side {} has no length", index + 1);
             return refuse_points(value, "a polygon of distinct corners");
         }
-        if let Some((a, b)) = first_crossing(&sides) {
+        if let Some((a, b)) = first_crossing(&segments) {
             let value = format!("a polygon whose sides {} and {} cross or touch", a + 1, b + 1);
             return refuse_points(value, "a polygon that never meets itself");
         }
-        validate_place(&sides, radius)
+        validate_position(&segments, radius)
     }
 
     /// Refuses baffles that touch or overlap. It is enough to compare neighbors: by Hopf's theorem on the
     /// chords of plane continua, a shape that is clear of its copy one step on is clear of every other copy.
-    /// And congruent shapes cannot contain one another, so comparing their sides is enough too.
+    /// And congruent shapes cannot contain one another, so comparing their edges is enough too.
     fn validate_spacing(&self, radius: f64) -> Result<(), Error> {
         if self.count < 2 {
             return Ok(());
         }
         let profile = self.profile(radius);
-        let (first, second) = (sides(&self.copy(&profile, 0), true), sides(&self.copy(&profile, 1), true));
-        if first.iter().any(|side| second.iter().any(|other| side.meets(other))) {
+        let [first, second] = [0, 1].map(|index| segments(&self.copy(&profile, index), true));
+        if first.iter().any(|segment| second.iter().any(|other| segment.meets(other))) {
             let limit = "so small that neighboring baffles of this size neither touch nor overlap";
             return Err(Error::config("drum.baffles.count", self.count, limit));
         }
@@ -113,12 +113,12 @@ impl BaffleParameters {
 }
 
 /// Refuses a polygon on the axis or wholly outside the rim.
-fn validate_place(sides: &[Segment], radius: f64) -> Result<(), Error> {
+fn validate_position(segments: &[Segment], radius: f64) -> Result<(), Error> {
     let axis = Vec2::zeros();
-    if contains(sides, axis) || sides.iter().any(|side| side.holds(axis)) {
+    if contains(segments, axis) || segments.iter().any(|segment| segment.holds(axis)) {
         return refuse_points("a polygon that covers the drum's axis", "a polygon beside the axis");
     }
-    if sides.iter().all(|side| length(side.project(axis).point) >= radius) {
+    if segments.iter().all(|segment| length(segment.project(axis).point) >= radius) {
         return refuse_points("a polygon outside the rim", "a polygon that reaches into the drum");
     }
     Ok(())
@@ -180,10 +180,21 @@ mod tests {
                 "base is 0.475, but must be smaller than the drum's diameter 0.475",
             ),
             (BaffleParameters { tip: 0.4, ..trapezoid.clone() }, &widest),
+            (BaffleParameters { count: 1001, ..triangle.clone() }, "count is 1001, but must be at most 1000"),
             (
-                BaffleParameters { tip: 0.0, ..trapezoid.clone() },
-                "tip is 0, but must be a positive finite number",
+                BaffleParameters { count: 25, ..triangle },
+                "count is 25, but must be so small that neighboring baffles of this size neither touch nor overlap",
             ),
+        ]);
+        let message = trapezoid.validate(None).unwrap_err().to_string();
+        assert_eq!(message, "drum.baffles.count is 3, but must be 0 where the drum has no rim");
+    }
+
+    #[test]
+    fn unusable_numbers_are_refused() {
+        let (triangle, trapezoid) = (baffles(BaffleShape::Triangle), baffles(BaffleShape::Trapezoid));
+        refuses(&[
+            (BaffleParameters { tip: 0.0, ..trapezoid }, "tip is 0, but must be a positive finite number"),
             (
                 BaffleParameters { tip: -1.0, ..triangle.clone() },
                 "tip is -1, but must be a finite number of at least 0",
@@ -196,18 +207,8 @@ mod tests {
                 BaffleParameters { height: 0.0, ..triangle.clone() },
                 "height is 0, but must be a positive finite number",
             ),
-            (
-                BaffleParameters { phase: f64::NAN, ..triangle.clone() },
-                "phase is NaN, but must be a finite number",
-            ),
-            (BaffleParameters { count: 1001, ..triangle.clone() }, "count is 1001, but must be at most 1000"),
-            (
-                BaffleParameters { count: 25, ..triangle },
-                "count is 25, but must be so small that neighboring baffles of this size neither touch nor overlap",
-            ),
+            (BaffleParameters { phase: f64::NAN, ..triangle }, "phase is NaN, but must be a finite number"),
         ]);
-        let message = trapezoid.validate(None).unwrap_err().to_string();
-        assert_eq!(message, "drum.baffles.count is 3, but must be 0 where the drum has no rim");
     }
 
     #[test]

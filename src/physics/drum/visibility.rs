@@ -1,40 +1,90 @@
-//! What stands in front of what: which sides of an outline may hide another of its features.
+//! What stands in front of what: which edges of an outline may hide another of its features.
 //!
 //! A disc may be larger than a baffle or the bend of a wall is thick. It must not feel the far face through
-//! the near one, so a feature answers only where the line of sight to it is free. All of this that depends on
-//! the outline alone is found once, here; a convex baffle has nothing left to test.
+//! the near one, so a feature answers only where the line from the center to it is free. All of this that depends
+//! on the outline alone is found once, here; a convex baffle has nothing left to test.
 
-use super::outline::{Corner, Kind};
+use super::feature::Neighbor;
+use super::graph::{Graph, Incidence};
+use super::outline::Kind;
 use super::segment::Segment;
-use crate::physics::vector::{Vec2, dot, perpendicular};
+use crate::physics::vector::{Vec2, cross, dot, perpendicular};
 
-/// For each edge the fraction of it that the edge before it overhangs, counted from its start, and the edge
-/// after it, counted from its end. Up to there a line of sight from behind the neighbor is blocked. Positive
-/// at acute corners only.
-pub(super) fn overhangs(sides: &[Segment], corners: &[Corner]) -> Vec<[f64; 2]> {
-    let mut fractions = vec![[0.0; 2]; sides.len()];
-    for corner in corners {
-        if let (Some(before), Some(after)) = (corner.before, corner.after) {
-            let (back, forth) = (-sides[before].vector(), sides[after].vector());
-            fractions[before][1] = dot(back, forth) / dot(back, back);
-            fractions[after][0] = dot(back, forth) / dot(forth, forth);
+/// Projections on two edges at a convex corner fall between the ends of both by round-off only, so closer to the
+/// corner than this fraction of an edge.
+const TIE_ZONE: f64 = 1e-3;
+
+/// Corners that bend by less than this angle [rad] are flat: only one edge answers on either side, although both
+/// claim a sliver of the concave one. A line drawn in pieces bends by round-off, or by what its ends gape.
+const FLAT: f64 = 1e-6;
+
+/// The other edges at the two ends of the edge at `index`, as far as they may hide it or have the say over a
+/// point that both claim; and how far from each end they do, as fractions of the edge.
+pub(super) fn neighbors(
+    graph: &Graph,
+    segments: &[Segment],
+    incidences: &[Vec<Incidence>],
+    index: usize,
+) -> (Vec<Neighbor>, [f64; 2]) {
+    let (mut found, mut contested) = (Vec::new(), [0.0_f64; 2]);
+    for (end, vertex) in graph.edges[index].ends.into_iter().enumerate() {
+        let own = Incidence { edge: index, end };
+        let mut precedes = true;
+        for &other in &incidences[vertex] {
+            if other == own {
+                precedes = false;
+                continue;
+            }
+            let neighbor = neighbor(segments, own, other, precedes);
+            if neighbor.precedes || neighbor.overhang > 0.0 {
+                let zone = if precedes { TIE_ZONE } else { 0.0 };
+                contested[end] = contested[end].max(neighbor.overhang).max(zone);
+                found.push(neighbor);
+            }
         }
     }
-    fractions
+    (found, contested)
 }
 
-/// For each feature the sides that reach into its region, neighbors apart, and so may hide it from a point
-/// there.
-pub(super) fn occluders(kind: Kind, sides: &[Segment], corners: &[Corner]) -> Vec<Vec<usize>> {
-    let mut lists = Vec::with_capacity(corners.len() + sides.len());
-    for (index, corner) in corners.iter().enumerate() {
-        lists.push(far_sides(sides, &[corner.before, corner.after], &vertex_region(sides, corner)));
-        if let Some(side) = sides.get(index) {
-            let next = &corners[(index + 1) % corners.len()];
-            lists.push(far_sides(sides, &[corner.before, Some(index), next.after], &edge_region(kind, side)));
-        }
+/// How the edge `other` lies to the edge `own`, both seen from their vertex.
+fn neighbor(segments: &[Segment], own: Incidence, other: Incidence, precedes: bool) -> Neighbor {
+    let sign = |incidence: Incidence| if incidence.end == 0 { 1.0 } else { -1.0 };
+    let away = |incidence: Incidence| segments[incidence.edge].vector() * sign(incidence);
+    let (along, beside) = (away(own), away(other));
+    let (turn, straightness) = (cross(along, beside), -dot(along, beside));
+    let is_flat = turn.abs() <= FLAT * straightness;
+    let turn = if is_flat { 0.0 } else { f64::from(i8::from(turn > 0.0) - i8::from(turn < 0.0)) };
+    Neighbor {
+        segment: segments[other.edge],
+        end: own.end,
+        edge_sign: turn * sign(own),
+        own_sign: -turn * sign(other),
+        overhang: dot(along, beside) / dot(along, along),
+        precedes,
     }
-    lists
+}
+
+/// The edges that reach into the region of a vertex, its own apart, and so may hide it from a point there.
+pub(super) fn vertex_occluders(
+    graph: &Graph,
+    segments: &[Segment],
+    own: &[Incidence],
+    vertex: usize,
+) -> Vec<usize> {
+    let origin = graph.vertices[vertex];
+    let outwards = |&Incidence { edge, end }: &Incidence| {
+        let normal = segments[edge].vector();
+        HalfPlane { normal: if end == 0 { -normal } else { normal }, origin }
+    };
+    let region: Vec<HalfPlane> = own.iter().map(outwards).collect();
+    reaching(segments, &region, |edge| own.iter().any(|incidence| incidence.edge == edge))
+}
+
+/// The edges that reach into the region of the edge at `index`, its neighbors apart, and so may hide it.
+pub(super) fn edge_occluders(graph: &Graph, segments: &[Segment], kind: Kind, index: usize) -> Vec<usize> {
+    let ends = graph.edges[index].ends;
+    let region = edge_region(kind, &segments[index]);
+    reaching(segments, &region, |edge| graph.edges[edge].ends.iter().any(|end| ends.contains(end)))
 }
 
 /// The half plane of all points x with normal · (x − origin) ≥ 0.
@@ -43,37 +93,31 @@ struct HalfPlane {
     origin: Vec2,
 }
 
-/// Where both edges of a vertex clamp to it.
-fn vertex_region(sides: &[Segment], corner: &Corner) -> Vec<HalfPlane> {
-    let beyond = corner.before.map(|edge| sides[edge].vector());
-    let ahead = corner.after.map(|edge| -sides[edge].vector());
-    beyond.into_iter().chain(ahead).map(|normal| HalfPlane { normal, origin: corner.point }).collect()
-}
-
 /// Where the projection on an edge falls between its ends, outside of a solid.
-fn edge_region(kind: Kind, side: &Segment) -> Vec<HalfPlane> {
-    let along = side.vector();
+fn edge_region(kind: Kind, segment: &Segment) -> Vec<HalfPlane> {
+    let along = segment.vector();
     let mut region = vec![
-        HalfPlane { normal: along, origin: side.start() },
-        HalfPlane { normal: -along, origin: side.end() },
+        HalfPlane { normal: along, origin: segment.start() },
+        HalfPlane { normal: -along, origin: segment.end() },
     ];
     if kind == Kind::Solid {
-        region.push(HalfPlane { normal: -perpendicular(along), origin: side.start() });
+        region.push(HalfPlane { normal: -perpendicular(along), origin: segment.start() });
     }
     region
 }
 
-/// The sides outside `own` of which some part lies in the region, the intersection of the half planes.
-fn far_sides(sides: &[Segment], own: &[Option<usize>], region: &[HalfPlane]) -> Vec<usize> {
-    (0..sides.len()).filter(|&index| !own.contains(&Some(index)) && reaches(&sides[index], region)).collect()
+/// The segments of which some part lies in the region, the intersection of the half planes, but for those that
+/// `is_own` names.
+fn reaching(segments: &[Segment], region: &[HalfPlane], is_own: impl Fn(usize) -> bool) -> Vec<usize> {
+    (0..segments.len()).filter(|&index| reaches(&segments[index], region) && !is_own(index)).collect()
 }
 
-/// Whether some part of `side` lies in the region.
-fn reaches(side: &Segment, region: &[HalfPlane]) -> bool {
+/// Whether some part of `segment` lies in the region.
+fn reaches(segment: &Segment, region: &[HalfPlane]) -> bool {
     let (mut low, mut high) = (0.0_f64, 1.0_f64);
     for HalfPlane { normal, origin } in region {
-        let at_start = dot(*normal, side.start() - origin);
-        let at_end = dot(*normal, side.end() - origin);
+        let at_start = dot(*normal, segment.start() - origin);
+        let at_end = dot(*normal, segment.end() - origin);
         if at_start < 0.0 && at_end < 0.0 {
             return false;
         }
@@ -89,45 +133,55 @@ fn reaches(side: &Segment, region: &[HalfPlane]) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::outline::corners;
-    use super::super::polygon::sides;
     use super::*;
 
+    fn polygon(points: &[[f64; 2]]) -> Graph {
+        Graph::polygon(points.iter().map(|&point| point.into()).collect(), 1)
+    }
+
     #[test]
-    fn only_sides_that_reach_into_the_region_block() {
+    fn only_segments_that_reach_into_the_region_occlude() {
         // The region: right of x = 0 and below y = 1.
         let region = [
             HalfPlane { normal: Vec2::new(2.0, 0.0), origin: Vec2::new(0.0, 7.0) },
             HalfPlane { normal: Vec2::new(0.0, -1.0), origin: Vec2::new(3.0, 1.0) },
         ];
-        let sides = [
+        let segments = [
             Segment::new(Vec2::new(-2.0, 0.0), Vec2::new(-1.0, 0.0)),
             Segment::new(Vec2::new(-2.0, 0.0), Vec2::new(1.0, 0.0)),
             Segment::new(Vec2::new(-1.0, 0.5), Vec2::new(1.0, 2.0)),
             Segment::new(Vec2::new(-1.0, -0.5), Vec2::new(1.0, 2.0)),
             Segment::new(Vec2::new(1.0, 0.0), Vec2::new(2.0, 0.0)),
         ];
-        assert_eq!(far_sides(&sides, &[Some(4), None], &region), [1, 3]);
-        assert_eq!(far_sides(&sides, &[], &region), [1, 3, 4]);
+        assert_eq!(reaching(&segments, &region, |index| index == 4), [1, 3]);
+        assert_eq!(reaching(&segments, &region, |_| false), [1, 3, 4]);
     }
 
     #[test]
     fn nothing_hides_a_feature_of_a_convex_solid() {
-        let points: Vec<Vec2> =
-            [[0.2, 0.03], [0.15, 0.01], [0.15, -0.02], [0.2, -0.03]].map(Vec2::from).to_vec();
-        let sides = sides(&points, true);
-        assert!(occluders(Kind::Solid, &sides, &corners(&sides, true)).iter().all(Vec::is_empty));
-        // Seen from both sides, opposite walls do hide each other.
-        assert!(!occluders(Kind::Wall, &sides, &corners(&sides, true)).iter().all(Vec::is_empty));
+        let graph = polygon(&[[0.2, 0.03], [0.15, 0.01], [0.15, -0.02], [0.2, -0.03]]);
+        let (segments, incidences) = (graph.segments(), graph.incidences());
+        for (index, own) in incidences.iter().enumerate() {
+            assert!(vertex_occluders(&graph, &segments, own, index).is_empty());
+            assert!(edge_occluders(&graph, &segments, Kind::Solid, index).is_empty());
+            // Seen from both sides, opposite walls do hide each other.
+            assert_eq!(edge_occluders(&graph, &segments, Kind::Wall, index), [(index + 2) % 4]);
+        }
     }
 
     #[test]
     fn acute_corners_overhang() {
-        let points = [[0.0, 0.0], [4.0, 0.0], [3.0, 3.0], [9.0, 3.0]].map(Vec2::from);
-        let sides = sides(&points, false);
-        let fractions = overhangs(&sides, &corners(&sides, false));
-        assert_eq!(fractions[0], [0.0, 0.25]);
-        assert!(fractions[1][0] > 0.0 && fractions[1][1] > 0.0 && fractions[2][0] > 0.0);
-        assert_eq!(fractions[2][1], 0.0);
+        let graph = polygon(&[[0.0, 0.0], [4.0, 0.0], [3.0, 3.0], [-9.0, 3.0]]);
+        let (segments, incidences) = (graph.segments(), graph.incidences());
+        // The corners at the end of edge 0 and between edges 2 and 3 are acute.
+        let overhangs = |index: usize| {
+            let (found, _) = neighbors(&graph, &segments, &incidences, index);
+            found.iter().filter(|n| n.overhang > 0.0).map(|n| (n.end, n.overhang)).collect::<Vec<_>>()
+        };
+        assert_eq!(overhangs(0), [(1, 0.25)]);
+        assert_eq!(overhangs(2), [(1, 0.75)]);
+        assert_eq!([overhangs(1), overhangs(3)].map(|list| list.len()), [1, 1]);
+        let (_, contested) = neighbors(&graph, &segments, &incidences, 0);
+        assert_eq!(contested, [TIE_ZONE, 0.25]);
     }
 }

@@ -1,8 +1,9 @@
-//! Tests of whole drums: culls, scaling, clearance, errors; proximities in a file of their own.
+//! Tests of whole drums: culls, scaling, clearance, errors; proximities and joints of walls in files of their own.
 
+mod joints;
 mod proximity;
 
-use super::baffle::BaffleShape;
+use super::baffle::{BaffleParameters, BaffleShape};
 use super::*;
 use crate::physics::vector::dot;
 
@@ -67,17 +68,17 @@ fn cloud(count: u32) -> impl Iterator<Item = Vec2> {
     (0..count).map(move |k| Vec2::new(spread(k, 0.754_877_666_246_692_8), spread(k, 0.569_840_290_998_053_3)))
 }
 
-/// Start and end of the sides of an outline, by boundary order.
-fn sides_of(drum: &Drum, outline: usize) -> Vec<(Vec2, Vec2)> {
+/// Start and end of the edges of an outline, by boundary order.
+fn edges_of(drum: &Drum, outline: usize) -> Vec<(Vec2, Vec2)> {
     let points: Vec<Vec2> = drum.outlines().nth(outline).unwrap().to_vec();
-    let mut sides: Vec<(Vec2, Vec2)> = points.windows(2).map(|pair| (pair[0], pair[1])).collect();
+    let mut edges: Vec<(Vec2, Vec2)> = points.windows(2).map(|pair| (pair[0], pair[1])).collect();
     if outline < drum.baffle_count() {
-        sides.push((points[points.len() - 1], points[0]));
+        edges.push((points[points.len() - 1], points[0]));
     }
-    sides
+    edges
 }
 
-/// Distance from a point to a side, by formula.
+/// Distance from a point to an edge, by formula.
 fn distance(point: Vec2, (start, end): (Vec2, Vec2)) -> f64 {
     let along = (dot(point - start, end - start) / (end - start).norm_squared()).clamp(0.0, 1.0);
     (start + (end - start) * along - point).norm()
@@ -87,19 +88,19 @@ fn distance(point: Vec2, (start, end): (Vec2, Vec2)) -> f64 {
 fn distances(drum: &Drum, point: Vec2) -> Vec<f64> {
     let mut found = vec![];
     for outline in 0..drum.baffle_count() + drum.wall_count() {
-        let sides = sides_of(drum, outline);
-        for &(start, end) in &sides {
+        let edges = edges_of(drum, outline);
+        for &(start, end) in &edges {
             found.extend([(start - point).norm(), distance(point, (start, end))]);
         }
-        if sides[0].0 != sides[sides.len() - 1].1 {
-            found.push((sides[sides.len() - 1].1 - point).norm());
+        if edges[0].0 != edges[edges.len() - 1].1 {
+            found.push((edges[edges.len() - 1].1 - point).norm());
         }
     }
     found
 }
 
 fn features(drum: &Drum) -> std::ops::Range<FeatureId> {
-    1..drum.owners.len() as FeatureId + 1
+    1..drum.feature_count()
 }
 
 /// The features that answer, with their proximities.
@@ -123,7 +124,7 @@ fn features_near_are_those_within_reach() {
 
 #[test]
 fn a_drum_four_times_as_large_gives_the_same_bits() {
-    for parameters in all() {
+    for parameters in all().into_iter().chain([joints::drawing()]) {
         let mut large = parameters.clone();
         large.radius = large.radius.map(|radius| 4.0 * radius);
         let baffles = &mut large.baffles;
@@ -158,6 +159,34 @@ fn clearance_is_negative_in_solids_only() {
     assert_eq!((floor.clearance(Vec2::new(0.5, -0.2)), floor.clearance(Vec2::new(0.5, 0.2))), (0.2, 0.2));
     let nothing = DrumParameters { walls: vec![], ..walls() };
     assert_eq!(Drum::new(&nothing).unwrap().clearance(Vec2::zeros()), f64::INFINITY);
+}
+
+#[test]
+fn solids_contain_what_has_negative_clearance() {
+    for parameters in all() {
+        let drum = drum(&parameters);
+        for point in cloud(4000) {
+            let solid = drum.solid_at(point);
+            let outside = drum.radius().is_some_and(|radius| point.norm() > radius);
+            let baffles = &drum.outlines[..drum.baffle_count()];
+            let baffle = baffles.iter().position(|baffle| baffle.signed_distance(point) < 0.0);
+            assert_eq!(solid, if outside { Some(0) } else { baffle.map(|index| index + 1) });
+            assert_eq!(solid.is_some(), drum.clearance(point) < 0.0);
+        }
+    }
+    let triangles = drum(&triangles());
+    let points = [[0.2, 0.0], [-0.1, 0.173], [-0.1, -0.173], [0.0, 0.24], [0.1, 0.1], [0.0, 0.0]];
+    let expected = [Some(1), Some(2), Some(3), Some(0), None, None];
+    assert_eq!(points.map(|point| triangles.solid_at(point.into())), expected);
+    assert_eq!(drum(&walls()).solid_at(Vec2::new(0.15, -0.05)), None);
+}
+
+#[test]
+fn surfaces_have_names() {
+    let wall = vec![[0.0, 0.0], [0.01, 0.0]];
+    let drum = drum(&DrumParameters { walls: vec![wall.clone(), wall], ..triangles() });
+    let names: Vec<String> = (0..drum.surface_count()).map(|surface| drum.surface_name(surface)).collect();
+    assert_eq!(names, ["rim", "baffle 1", "baffle 2", "baffle 3", "wall 1", "wall 2"]);
 }
 
 #[test]

@@ -19,11 +19,11 @@ fn closest_answer_is_the_distance_to_the_outlines() {
     }
 }
 
-/// Whether the line of sight between two points, its ends apart, meets a side.
+/// Whether the line between two points, its ends apart, meets an edge.
 fn blocks((start, end): (Vec2, Vec2), from: Vec2, to: Vec2) -> bool {
-    let (sight, side) = (to - from, end - start);
-    let scale = cross(sight, side);
-    let (along, across) = (cross(start - from, side) / scale, cross(start - from, sight) / scale);
+    let (ray, edge) = (to - from, end - start);
+    let scale = cross(ray, edge);
+    let (along, across) = (cross(start - from, edge) / scale, cross(start - from, ray) / scale);
     along > 1e-9 && along < 1.0 - 1e-9 && (0.0..=1.0).contains(&across)
 }
 
@@ -32,28 +32,28 @@ fn expected_answers(drum: &Drum, outline: usize, point: Vec2) -> Vec<usize> {
     if drum.outlines[outline].signed_distance(point) < 0.0 {
         return vec![];
     }
-    let sides = sides_of(drum, outline);
-    let closed = sides[0].0 == sides[sides.len() - 1].1;
+    let edges = edges_of(drum, outline);
+    let closed = edges[0].0 == edges[edges.len() - 1].1;
     let along = |edge: usize| {
-        let (start, end) = sides[edge];
+        let (start, end) = edges[edge];
         dot(point - start, end - start) / (end - start).norm_squared()
     };
-    let before = |vertex: usize| if vertex > 0 { Some(vertex - 1) } else { closed.then(|| sides.len() - 1) };
+    let before = |vertex: usize| if vertex > 0 { Some(vertex - 1) } else { closed.then(|| edges.len() - 1) };
     let mut places = vec![];
-    for place in 0..2 * sides.len() + usize::from(!closed) {
+    for place in 0..2 * edges.len() + usize::from(!closed) {
         let (index, is_edge) = (place / 2, place % 2 == 1);
         let target = if is_edge {
-            sides[index].0 + (sides[index].1 - sides[index].0) * along(index)
+            edges[index].0 + (edges[index].1 - edges[index].0) * along(index)
         } else {
-            sides.get(index).map_or(sides[sides.len() - 1].1, |side| side.0)
+            edges.get(index).map_or(edges[edges.len() - 1].1, |edge| edge.0)
         };
         let own = if is_edge {
             along(index) > 0.0 && along(index) < 1.0
         } else {
             before(index).is_none_or(|edge| along(edge) >= 1.0)
-                && (index == sides.len() || along(index) <= 0.0)
+                && (index == edges.len() || along(index) <= 0.0)
         };
-        if own && !sides.iter().any(|&side| blocks(side, point, target)) {
+        if own && !edges.iter().any(|&edge| blocks(edge, point, target)) {
             places.push(place);
         }
     }
@@ -61,14 +61,14 @@ fn expected_answers(drum: &Drum, outline: usize, point: Vec2) -> Vec<usize> {
 }
 
 #[test]
-fn features_in_sight_answer_and_no_others() {
+fn visible_features_answer_and_no_others() {
     for parameters in all() {
         let drum = drum(&parameters);
         for point in cloud(4000) {
             let answering: Vec<FeatureId> =
                 answers(&drum, point).into_iter().map(|answer| answer.0).collect();
             let mut expected = vec![];
-            for (outline, first) in drum.firsts.iter().enumerate() {
+            for (outline, first) in drum.outlines.iter().map(|o| o.first).enumerate() {
                 let places = expected_answers(&drum, outline, point);
                 expected.extend(places.into_iter().map(|place| first + place as FeatureId));
             }
@@ -117,7 +117,7 @@ fn distance_and_direction_are_continuous_round_a_tip() {
     let steps = 4000;
     // A straight path past the tip at (0.1875, 0), 0.0125 m in front of it.
     let height = |k: i32| 0.08 * f64::from(k) / f64::from(steps) - 0.04;
-    let mut seen = vec![];
+    let mut passed = vec![];
     let mut previous: Option<Proximity> = None;
     for center in (0..=steps).map(|k| Vec2::new(0.175, height(k))) {
         let near: Vec<_> = answers(&drum, center).into_iter().filter(|a| drum.surface_of(a.0) == 1).collect();
@@ -126,15 +126,15 @@ fn distance_and_direction_are_continuous_round_a_tip() {
             assert!((now.distance - before.distance).abs() <= 2.1e-5);
             assert!((now.direction - before.direction).norm() <= 2.1e-5 / 0.0125);
         }
-        seen.push(feature);
+        passed.push(feature);
     }
-    seen.dedup();
+    passed.dedup();
     // Lower edge, tip, upper edge.
-    assert_eq!(seen, [4, 3, 2]);
+    assert_eq!(passed, [4, 3, 2]);
 }
 
 /// Points above the corner of a wall or solid on the borders of its regions, and next to them by round-off.
-fn borders(corner: Vec2, normals: [Vec2; 2]) -> impl Iterator<Item = Vec2> {
+pub(super) fn borders(corner: Vec2, normals: [Vec2; 2]) -> impl Iterator<Item = Vec2> {
     let shifts = (-3..=3).flat_map(|i| (-3..=3).map(move |j| Vec2::new(f64::from(i), f64::from(j)) * 1e-17));
     let heights = (1..40).map(|k| 3.7e-4 * f64::from(k));
     normals.into_iter().flat_map(move |normal| {
@@ -163,8 +163,8 @@ fn exactly_one_answers_on_the_borders_round_a_turned_baffle() {
     for parameters in [triangles(), trapezoids()] {
         let drum = drum(&parameters);
         for baffle in 0..drum.baffle_count() {
-            let sides = sides_of(&drum, baffle);
-            for (one, next) in sides.iter().zip(sides.iter().cycle().skip(1)) {
+            let edges = edges_of(&drum, baffle);
+            for (one, next) in edges.iter().zip(edges.iter().cycle().skip(1)) {
                 let normals = [one, next].map(|&(start, end)| perpendicular(start - end).normalize());
                 for point in borders(one.1, normals) {
                     let answering = answers(&drum, point);

@@ -1,0 +1,139 @@
+//! What outlines are made of: vertices, and straight edges between them.
+
+use super::segment::Segment;
+use super::union_find::UnionFind;
+use crate::physics::vector::Vec2;
+
+/// Vertices and the edges between them: a polygon, a polyline, or walls that meet in any number at a vertex.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Graph {
+    /// Where each vertex is.
+    pub(super) vertices: Vec<Vec2>,
+    /// In the order in which they were drawn; no two have the same ends.
+    pub(super) edges: Vec<Edge>,
+}
+
+/// A directed straight edge.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Edge {
+    /// The vertices it starts and ends at; they differ.
+    pub(super) ends: [usize; 2],
+    /// The surface that it is part of.
+    pub(super) surface: usize,
+}
+
+/// A vertex or an edge, by index.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Element {
+    Vertex(usize),
+    Edge(usize),
+}
+
+/// An edge as seen from one of its ends.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Incidence {
+    /// Index of the edge.
+    pub(super) edge: usize,
+    /// 0 where the vertex is its start, 1 where it is its end.
+    pub(super) end: usize,
+}
+
+impl Graph {
+    /// A closed polygon, part of one surface.
+    pub(super) fn polygon(vertices: Vec<Vec2>, surface: usize) -> Self {
+        let count = vertices.len();
+        let edges = (0..count).map(|index| Edge { ends: [index, (index + 1) % count], surface }).collect();
+        Self { vertices, edges }
+    }
+
+    /// The edges as segments.
+    pub(super) fn segments(&self) -> Vec<Segment> {
+        let segment = |edge: &Edge| Segment::new(self.vertices[edge.ends[0]], self.vertices[edge.ends[1]]);
+        self.edges.iter().map(segment).collect()
+    }
+
+    /// For each vertex its edges: first those that end there, then those that start there.
+    pub(super) fn incidences(&self) -> Vec<Vec<Incidence>> {
+        let mut lists = vec![Vec::new(); self.vertices.len()];
+        for end in [1, 0] {
+            for (index, edge) in self.edges.iter().enumerate() {
+                lists[edge.ends[end]].push(Incidence { edge: index, end });
+            }
+        }
+        lists
+    }
+
+    /// Vertices and edges in boundary order: every edge after the vertex it starts at, and before the vertex it
+    /// ends at if that has not come yet.
+    pub(super) fn elements(&self) -> Vec<Element> {
+        let mut listed = vec![false; self.vertices.len()];
+        let mut elements = Vec::with_capacity(self.vertices.len() + self.edges.len());
+        for (index, edge) in self.edges.iter().enumerate() {
+            let [start, end] = edge.ends;
+            if !std::mem::replace(&mut listed[start], true) {
+                elements.push(Element::Vertex(start));
+            }
+            elements.push(Element::Edge(index));
+            if !std::mem::replace(&mut listed[end], true) {
+                elements.push(Element::Vertex(end));
+            }
+        }
+        elements
+    }
+
+    /// The connected parts in the order of their first edges, their vertices counted in boundary order.
+    pub(super) fn components(&self) -> Vec<Self> {
+        let mut sets = UnionFind::new(self.vertices.len());
+        for Edge { ends: [start, end], .. } in &self.edges {
+            sets.unite(*start, *end);
+        }
+        let mut component_of = vec![None; self.vertices.len()];
+        let mut local = vec![None; self.vertices.len()];
+        let mut components: Vec<Self> = Vec::new();
+        for &Edge { ends, surface } in &self.edges {
+            let index = *component_of[sets.find(ends[0])].get_or_insert(components.len());
+            if index == components.len() {
+                components.push(Self::default());
+            }
+            let component = &mut components[index];
+            let ends = ends.map(|vertex| {
+                *local[vertex].get_or_insert_with(|| {
+                    component.vertices.push(self.vertices[vertex]);
+                    component.vertices.len() - 1
+                })
+            });
+            component.edges.push(Edge { ends, surface });
+        }
+        components
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn graph(ends: &[[usize; 2]], count: u32) -> Graph {
+        let edges = ends.iter().map(|&ends| Edge { ends, surface: 1 }).collect();
+        Graph { vertices: (0..count).map(|x| Vec2::new(f64::from(x), 0.0)).collect(), edges }
+    }
+
+    #[test]
+    fn elements_come_in_boundary_order() {
+        use Element::{Edge, Vertex};
+        let open = graph(&[[0, 1], [1, 2]], 3);
+        assert_eq!(open.elements(), [Vertex(0), Edge(0), Vertex(1), Edge(1), Vertex(2)]);
+        let closed = graph(&[[0, 1], [1, 2], [2, 0]], 3);
+        assert_eq!(closed.elements(), [Vertex(0), Edge(0), Vertex(1), Edge(1), Vertex(2), Edge(2)]);
+        let last_first =
+            |vertex: usize| closed.incidences()[vertex].iter().map(|i| i.edge).collect::<Vec<_>>();
+        assert_eq!([last_first(0), last_first(1)], [[2, 0], [0, 1]]);
+    }
+
+    #[test]
+    fn components_are_what_hangs_together() {
+        let parts = graph(&[[4, 2], [0, 1], [2, 3]], 5).components();
+        let ends = |part: &Graph| part.edges.iter().map(|edge| edge.ends).collect::<Vec<_>>();
+        assert_eq!(parts.iter().map(ends).collect::<Vec<_>>(), [vec![[0, 1], [1, 2]], vec![[0, 1]]]);
+        assert_eq!(parts[0].vertices.iter().map(|vertex| vertex.x).collect::<Vec<_>>(), [4.0, 2.0, 3.0]);
+    }
+}
