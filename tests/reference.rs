@@ -41,7 +41,9 @@ fn config(stored: &Value) -> SimulationConfig {
     let time = number(&stored["time"]);
     let (mut knots, now) = (Vec::new(), config.rotation.angular_velocity(time));
     knots.push([0.0, now]);
-    knots.extend(config.rotation.knots.iter().filter(|knot| knot[0] > time).map(|knot| [knot[0] - time, knot[1]]));
+    knots.extend(
+        config.rotation.knots.iter().filter(|knot| knot[0] > time).map(|knot| [knot[0] - time, knot[1]]),
+    );
     config.rotation.knots = knots;
     config
 }
@@ -87,7 +89,9 @@ fn compare(name: &str, tolerances: [f64; 2]) {
     let pairs = stored["pairs"].as_array().expect("contacts").iter();
     let walls = stored["walls"].as_array().expect("contacts").iter();
     let contacts = Lists {
-        pairs: pairs.map(|c| record(c, c["j"].as_u64().expect("an id") as u32, &mid, &radii, false)).collect(),
+        pairs: pairs
+            .map(|c| record(c, c["j"].as_u64().expect("an id") as u32, &mid, &radii, false))
+            .collect(),
         walls: walls
             .map(|c| {
                 let feature = c["feature"].as_u64().expect("a feature") as u32;

@@ -4,8 +4,8 @@
 //! Memory order is state, and the order of every sum. It changes at fixed step numbers only, from what a checkpoint
 //! holds, so that neither threads, nor lists, nor a restart can show in a result.
 
-use crate::physics::vector::{Vec2, bounds};
 use crate::engine::parallel::CHUNK;
+use crate::physics::vector::{Vec2, bounds};
 
 /// Loads of fewer particles keep the order of their ids: they fit into the cache.
 pub const LEAST_COUNT: usize = 4 * CHUNK;

@@ -138,7 +138,8 @@ impl Engine {
 
     fn drift<const PART: Part>(&mut self, particles: &mut Particles) {
         let count = particles.len();
-        let work = Drift { first: 0, arrays: MotionArrays::of(particles).part_of(count), sums: &mut self.sums };
+        let work =
+            Drift { first: 0, arrays: MotionArrays::of(particles).part_of(count), sums: &mut self.sums };
         let verlet = &self.verlet;
         self.threads.for_each_chunk(count, work, &|work: Drift| {
             let sums = verlet.advance::<PART>(work.first, work.arrays);

@@ -6,9 +6,9 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::error::{Error, require_finite, require_non_negative, require_positive};
 use crate::physics::contact::parameters::ContactParameters;
 use crate::physics::contact::species::SpeciesTable;
-use crate::error::{Error, require_finite, require_non_negative, require_positive};
 use crate::physics::drum::DrumParameters;
 use crate::physics::rotation::RotationSchedule;
 

@@ -98,9 +98,13 @@ quantities! { AFTER_STORED:
 /// The quantities that every simulation records, by name, unit and meaning; those of rim, baffles and walls follow them.
 pub fn quantities() -> impl Iterator<Item = (&'static str, &'static str, String)> {
     let of = |list: &'static [Quantity]| list.iter().map(|q| (q.name, q.unit, q.meaning.to_owned()));
-    let energies = |names: &'static [&'static str], meanings: &'static [&'static str], since: &'static str| {
-        names.iter().zip(meanings).map(move |(&name, meaning)| (name, "J/m", format!("energy{meaning}{since}")))
-    };
+    let energies =
+        |names: &'static [&'static str], meanings: &'static [&'static str], since: &'static str| {
+            names
+                .iter()
+                .zip(meanings)
+                .map(move |(&name, meaning)| (name, "J/m", format!("energy{meaning}{since}")))
+        };
     of(BEFORE_FLOWS)
         .chain(energies(Flows::NAMES, Flows::MEANINGS, " since t = 0"))
         .chain(of(BEFORE_STORED))

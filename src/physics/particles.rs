@@ -123,8 +123,7 @@ impl Particles {
     /// The first particle whose forces, mass or moment of inertia none can have.
     fn first_impossible(&self) -> Option<usize> {
         (0..self.len()).find(|&i| {
-            let forces =
-                [self.forces[i].x, self.forces[i].y, self.torques[i]];
+            let forces = [self.forces[i].x, self.forces[i].y, self.torques[i]];
             let (mass, inertia) = (self.masses[i], self.inertias[i]);
             forces.iter().any(|number| !number.is_finite())
                 || !(mass.is_finite() && mass > 0.0 && inertia.is_finite() && inertia >= 0.0)

@@ -20,7 +20,11 @@ pub trait Scalar:
     + Neg<Output = Self>
 {
     /// The answer to a comparison.
-    type Mask: Copy + Debug + BitAnd<Output = Self::Mask> + BitOr<Output = Self::Mask> + Not<Output = Self::Mask>;
+    type Mask: Copy
+        + Debug
+        + BitAnd<Output = Self::Mask>
+        + BitOr<Output = Self::Mask>
+        + Not<Output = Self::Mask>;
 
     /// The same number everywhere.
     fn splat(value: f64) -> Self;

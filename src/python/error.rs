@@ -9,7 +9,9 @@ use crate::error::Error;
 pub fn to_python(py: Python<'_>, error: &Error) -> PyErr {
     let class = match error {
         Error::Config { .. } | Error::Packing { .. } => "ConfigError",
-        Error::NonFinite { .. } | Error::Overlap { .. } | Error::Escaped { .. } | Error::TooFast { .. } => "UnstableError",
+        Error::NonFinite { .. } | Error::Overlap { .. } | Error::Escaped { .. } | Error::TooFast { .. } => {
+            "UnstableError"
+        }
         Error::Checkpoint { .. } => "CheckpointError",
         Error::System { .. } => return PyOSError::new_err(error.to_string()),
     };

@@ -3,7 +3,7 @@
 use super::Simulation;
 use crate::engine::DrumMotion;
 use crate::error::{Error, Incident};
-use crate::physics::vector::Vec2;
+use crate::physics::vector::{Rotation, Vec2, perpendicular};
 
 impl Simulation {
     /// In every step: no particle has moved farther than half the smallest radius as seen from the drum, so that none can
@@ -25,7 +25,7 @@ impl Simulation {
         };
         let particles = &self.state.particles;
         let seen = |i: usize| {
-            let surface = crate::physics::vector::perpendicular(particles.positions[i]) * drum.angular_velocity;
+            let surface = perpendicular(particles.positions[i]) * drum.angular_velocity;
             (particles.velocities[i] - surface).norm()
         };
         let place = fastest(&seen);
@@ -59,11 +59,12 @@ impl Simulation {
 
     fn guard_solids(&self) -> Result<(), Error> {
         let drum = &self.derived.drum;
-        let count = self.state.particles.len();
-        let positions = &self.state.particles.positions[..count];
-        let squared = drum.radius().map_or(f64::INFINITY, |rim| rim * rim);
-        match positions.iter().position(|position| position.norm_squared() > squared) {
-            Some(place) => Err(Error::Escaped { incident: self.incident(place), surface: "rim".into() }),
+        let (particles, rotation) = (&self.state.particles, Rotation::new(self.drum_angle()));
+        let inside = |place: usize| drum.solid_at(rotation.apply_inverse(particles.positions[place]));
+        match (0..particles.len()).find_map(|place| Some((place, inside(place)?))) {
+            Some((place, surface)) => {
+                Err(Error::Escaped { incident: self.incident(place), surface: drum.surface_name(surface) })
+            }
             None => Ok(()),
         }
     }
@@ -73,7 +74,8 @@ impl Simulation {
         let radii = &self.state.particles.radii;
         let radius = |i: u32| radii[i as usize];
         let contacts = self.engine.pass().contacts();
-        let pairs = contacts.pairs.iter().map(|c| (c.overlap / radius(c.particle).min(radius(c.other)), c.particle));
+        let pairs =
+            contacts.pairs.iter().map(|c| (c.overlap / radius(c.particle).min(radius(c.other)), c.particle));
         let walls = contacts.walls.iter().map(|c| (c.overlap / radius(c.particle), c.particle));
         pairs.chain(walls).max_by(|a, b| a.0.total_cmp(&b.0)).map_or(0, |deepest| deepest.1 as usize)
     }

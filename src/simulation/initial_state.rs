@@ -113,7 +113,8 @@ pub fn packed(config: &SimulationConfig, positions: Vec<Vec2>, seed: u64) -> Par
 /// Of some contacts those whose bodies, at these places, overlap as the contacts say.
 pub fn matching(contacts: &Lists, particles: &Particles, drum: &Drum, rotation: Rotation) -> Lists {
     let count = particles.len();
-    let is_same = |overlap: f64, found: f64, radius: f64| (overlap - found).abs() <= 1e-9 * radius && overlap > 0.0;
+    let is_same =
+        |overlap: f64, found: f64, radius: f64| (overlap - found).abs() <= 1e-9 * radius && overlap > 0.0;
     let pairs = contacts.pairs.iter().filter(|record| {
         let (i, j) = (record.particle as usize, record.other as usize);
         i < j && j < count && {

@@ -91,7 +91,11 @@ impl Simulation {
             initial_angle: initial.drum_angle,
             series: Series::new(surfaces),
             frames: Frames::default(),
-            ledger: EnergyLedger::open(StoredEnergy::default(), MomentBalance::open(Vec2::zeros(), 0.0, 0.0), &[]),
+            ledger: EnergyLedger::open(
+                StoredEnergy::default(),
+                MomentBalance::open(Vec2::zeros(), 0.0, 0.0),
+                &[],
+            ),
             particles,
         };
         let engine_state = EngineState { contacts, totals: Vec::new() };

@@ -1,12 +1,12 @@
 //! What a simulation shows of itself.
 
 use super::Simulation;
-use crate::error::Error;
-use crate::io::config::SimulationConfig;
-use crate::physics::drum::Drum;
 use super::derived;
 use super::state::State;
 use crate::engine::forces::Lists;
+use crate::error::Error;
+use crate::io::config::SimulationConfig;
+use crate::physics::drum::Drum;
 
 impl Simulation {
     /// Time [s]: steps × time step.

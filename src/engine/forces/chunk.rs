@@ -1,10 +1,10 @@
 //! One chunk's contacts through one step: those that open, those that go on, those that end.
 
+use super::StepInputs;
 use super::accumulate::Accumulator;
 use super::pairs::{self, Scratch};
 use super::totals::Totals;
 use super::walls::{self, Spot};
-use super::StepInputs;
 use crate::engine::contacts::{ContactList, ContactRecord, ListParameters};
 use crate::engine::motion::{MotionView, far, inside};
 use crate::engine::pair_list::{ChunkNeighbors, NearLimits, Opened, Status};
@@ -187,7 +187,8 @@ impl<L: ContactLaw> ChunkContacts<L> {
         for index in 0..self.outlines.len() {
             let (particle, feature) = self.outlines.key(index);
             let spot = Spot::of(particle, feature, motion, inputs);
-            let spot = spot.or_else(|| transfer_history(&mut self.outlines, index, neighbors, motion, inputs));
+            let spot =
+                spot.or_else(|| transfer_history(&mut self.outlines, index, neighbors, motion, inputs));
             spots.push(spot.unwrap_or_default());
         }
         for block in 0..neighbors.near_features.blocks().len() {

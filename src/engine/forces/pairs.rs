@@ -5,9 +5,9 @@
 
 use std::marker::PhantomData;
 
+use super::StepTime;
 use super::accumulate::Accumulator;
 use super::totals::{LaneTotals, Totals};
-use super::StepTime;
 use crate::engine::contacts::{Block, ContactList, Geometry, Ids, ListParameters, PairParameters};
 use crate::engine::motion::MotionView;
 use crate::engine::simd::{ALL_LANES, F64x4, LANES, Vec2x4, lanes, rows};
@@ -116,7 +116,8 @@ where
             for (index, ((block, ids), meeting)) in blocks.iter_mut().zip(ids).zip(&*meetings).enumerate() {
                 let index = first + index;
                 let other = if BOTH { Some(&mut other_moments[index]) } else { None };
-                let touching = self.advance(block, ids, meeting, &(self.parameters)(index), other, sums, totals);
+                let touching =
+                    self.advance(block, ids, meeting, &(self.parameters)(index), other, sums, totals);
                 if touching != ALL_LANES {
                     ended.push(index as u32);
                 }

@@ -144,7 +144,9 @@ impl<L: ContactLaw> Pass<L> {
     /// The contacts of a load that is one chunk.
     fn evaluate_small(&mut self, list: &mut PairList, arrays: &mut MotionArrays, inputs: &StepInputs) {
         let limits = list.limits();
-        let (Some(chunk), Some(neighbors)) = (self.chunks.first_mut(), list.chunks.first_mut()) else { return };
+        let (Some(chunk), Some(neighbors)) = (self.chunks.first_mut(), list.chunks.first_mut()) else {
+            return;
+        };
         let MotionArrays { position, velocity, angular_velocity, force, torque, .. } = arrays;
         let (Some(position), Some(velocity), Some(angular_velocity), Some(force), Some(torque)) = (
             position.first_chunk::<SMALL>(),
@@ -176,7 +178,13 @@ impl<L: ContactLaw> Pass<L> {
             let (first, end) = (index * CHUNK, self.count.min((index + 1) * CHUNK));
             let (motion, force, torque) = arrays.lend();
             let (force, torque) = (&mut force[first..end], &mut torque[first..end]);
-            self.chunks[index].evaluate(&mut list.chunks[index], limits, motion, inputs, (first, force, torque));
+            self.chunks[index].evaluate(
+                &mut list.chunks[index],
+                limits,
+                motion,
+                inputs,
+                (first, force, torque),
+            );
             let mut own = arrays.part(first..end);
             self.gather(index, &mut own);
             *sums = verlet.advance::<WHOLE>(first, own);
@@ -394,7 +402,9 @@ impl<L: ContactLaw> ForcePass for Pass<L> {
         let chunks = || self.chunks.iter().map(|chunk| &chunk.contacts);
         Lists {
             pairs: chunks().flat_map(|contacts| contacts.pairs.records()).collect(),
-            walls: chunks().flat_map(|contacts| contacts.rim.records().chain(contacts.outlines.records())).collect(),
+            walls: chunks()
+                .flat_map(|contacts| contacts.rim.records().chain(contacts.outlines.records()))
+                .collect(),
         }
     }
 

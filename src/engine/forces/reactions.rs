@@ -3,8 +3,8 @@
 //! A chunk adds its contacts to its own particles and keeps the reactions on particles of later chunks. Then every chunk
 //! gathers what is meant for it, in the order of the chunks that sent it. That order depends on neither threads nor lists.
 
-use crate::engine::parallel::CHUNK;
 use crate::engine::motion::MotionArrays;
+use crate::engine::parallel::CHUNK;
 
 /// A reaction on a particle of another chunk.
 #[derive(Debug, Clone, Copy)]

@@ -123,7 +123,9 @@ pub fn evaluate_outlines<L: ContactLaw>(
     let mut open_totals = totals.open();
     let speed = F64x4::splat(inputs.angular_velocity);
     let ContactList { ids, blocks, parameters, .. } = list;
-    for (index, ((block, ids), spots)) in blocks.iter_mut().zip(ids.iter()).zip(spots.chunks(LANES)).enumerate() {
+    for (index, ((block, ids), spots)) in
+        blocks.iter_mut().zip(ids.iter()).zip(spots.chunks(LANES)).enumerate()
+    {
         let parameters = parameters_of::<L>(parameters, index);
         let bodies = Bodies::gather(ids, motion);
         let spot = |lane: usize| spots.get(lane).copied().unwrap_or_default();
@@ -150,7 +152,10 @@ pub fn evaluate_outlines<L: ContactLaw>(
 }
 
 #[inline(always)]
-fn parameters_of<L: ContactLaw>(parameters: &ListParameters<L>, block: usize) -> Of<PairParameters<L>, F64x4> {
+fn parameters_of<L: ContactLaw>(
+    parameters: &ListParameters<L>,
+    block: usize,
+) -> Of<PairParameters<L>, F64x4> {
     match parameters {
         ListParameters::Same(same) => PairParameters::<L>::map(same, F64x4::splat),
         ListParameters::Each(each) => PairParameters::<L>::map(&each[block], F64x4::new),

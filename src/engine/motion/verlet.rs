@@ -54,7 +54,11 @@ impl Verlet {
     pub fn new(particles: &Particles, time_step: f64, gravity: Vec2) -> Self {
         let half = 0.5 * time_step;
         let per = |value: f64| if value > 0.0 { half / value } else { 0.0 };
-        let inertia = |(&mass, &inertia): (&f64, &f64)| Inertia { mass, per_mass: per(mass), per_inertia: per(inertia) };
+        let inertia = |(&mass, &inertia): (&f64, &f64)| Inertia {
+            mass,
+            per_mass: per(mass),
+            per_inertia: per(inertia),
+        };
         let mut inertias: Vec<_> = particles.masses.iter().zip(&particles.inertias).map(inertia).collect();
         let are_equal = inertias.windows(2).all(|two| two[0] == two[1]);
         if are_equal {
@@ -87,7 +91,8 @@ impl Verlet {
             let [gx, gy] = self.half_gravity;
             let (gravity, step) = (F64x4::new([gx, gy, gx, gy]), F64x4::splat(self.time_step));
             for quad in 0..quads {
-                let (position, velocity, force) = (&mut position[quad], &mut velocity[quad], &mut force[quad]);
+                let (position, velocity, force) =
+                    (&mut position[quad], &mut velocity[quad], &mut force[quad]);
                 let rows = [0, LANES].map(|row| {
                     let per_mass = inertia.per_mass(quad, row / LANES);
                     let [f, v, x] = [&*force, velocity, position].map(|values| F64x4::new(from(values, row)));

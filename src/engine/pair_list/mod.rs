@@ -17,9 +17,9 @@ pub use near::Opened;
 pub use neighbors::Status;
 use search::Search;
 
+use crate::engine::forces::StepInputs;
 use crate::engine::motion::LargeView;
 use crate::engine::motion::verlet::DriftSums;
-use crate::engine::forces::StepInputs;
 use crate::engine::parallel::{Threads, chunk_count};
 use crate::physics::vector::{Rotation, Vec2};
 use chunk::ROUND_OFF;

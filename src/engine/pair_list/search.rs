@@ -40,7 +40,8 @@ impl Search<'_> {
 
     /// Finds the later particles near one.
     fn find_particles(&self, chunk: &mut ChunkNeighbors, particle: u32, inputs: &StepInputs) {
-        let (own, radius) = (self.positions[particle as usize], inputs.bodies.radius_of(particle) + self.skin);
+        let (own, radius) =
+            (self.positions[particle as usize], inputs.bodies.radius_of(particle) + self.skin);
         let start = chunk.pairs.len();
         for &(other, position) in self.grid.around(particle as usize) {
             let (apart, reach) = (position - own, radius + inputs.bodies.radius_of(other));

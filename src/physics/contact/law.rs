@@ -97,7 +97,12 @@ impl<A: ContactTerm, B: ContactTerm> ContactTerm for (A, B) {
         (A::act(one, contact, &history.0, response), B::act(other, contact, &history.1, response))
     }
 
-    fn store((one, other): &Of<Self, f64>, overlap: f64, history: &Of<Self::History, f64>, stored: &mut Stored<f64>) {
+    fn store(
+        (one, other): &Of<Self, f64>,
+        overlap: f64,
+        history: &Of<Self::History, f64>,
+        stored: &mut Stored<f64>,
+    ) {
         A::store(one, overlap, &history.0, stored);
         B::store(other, overlap, &history.1, stored);
     }

@@ -76,8 +76,12 @@ impl<const CLIPS: bool> ContactLaw for Linear<CLIPS> {
         }
         let normal_force = force.within(contact.touching);
         let limit = law.slip_compliance * normal_force.abs();
-        let spring =
-            TruncatedSpring::new(law.tangential_stiffness, limit, history.tangential_displacement, contact.slip);
+        let spring = TruncatedSpring::new(
+            law.tangential_stiffness,
+            limit,
+            history.tangential_displacement,
+            contact.slip,
+        );
         let response = Response {
             normal_force,
             tangential_force: spring.force,
@@ -239,7 +243,8 @@ mod tests {
             let law = Linear::<true>::between(&table_1(tension), bodies);
             for k in 0..2000_i32 {
                 let wave = |n: i32| f64::from((k * n) % 17 - 8) * 1e-6;
-                let last = ContactState { overlap: wave(3).max(0.0), separation_rate: wave(2) * 1e5, ..no_state() };
+                let last =
+                    ContactState { overlap: wave(3).max(0.0), separation_rate: wave(2) * 1e5, ..no_state() };
                 let stretch = if last.overlap > 0.0 { wave(5) } else { 0.0 };
                 let motion = Motion {
                     overlap: wave(7),

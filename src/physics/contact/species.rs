@@ -84,7 +84,10 @@ impl SpeciesTable {
     /// Shortest collision times [s] for particles no lighter than `mass`: (between particles, with the drum).
     pub fn collision_times(&self, mass: f64) -> (f64, f64) {
         let shortest = |tables: &[ContactParameters], effective_mass: f64| {
-            tables.iter().map(|table| linear::collision_time(table, effective_mass)).fold(f64::INFINITY, f64::min)
+            tables
+                .iter()
+                .map(|table| linear::collision_time(table, effective_mass))
+                .fold(f64::INFINITY, f64::min)
         };
         (shortest(&self.pairs, 0.5 * mass), shortest(&self.walls, mass))
     }

@@ -172,6 +172,13 @@ impl Drum {
         self.features.get(feature as usize)?.proximity(center, &self.segments)
     }
 
+    /// Distance [m] of `center` (body frame) from a feature of an outline, whether that feature answers or not: never more
+    /// than its proximity says. Infinite for the rim.
+    pub fn distance_to(&self, feature: FeatureId, center: Vec2) -> f64 {
+        let closest = self.features.get(feature as usize).and_then(|feature| feature.closest_point(center));
+        closest.map_or(f64::INFINITY, |point| length(point - center))
+    }
+
     /// Whether the history of a contact passes between two features: they are parts of the same outline, at
     /// most two places apart along it, through whatever vertex. Two, because a disc may pass a blunt vertex
     /// within one step.

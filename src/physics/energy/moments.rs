@@ -32,7 +32,8 @@ impl MomentBalance {
     #[inline]
     pub fn charge(&mut self, mass_moment: Vec2, outer_moment: f64, turn: f64, time_step: f64) {
         let half = 0.5 * time_step;
-        self.integrals.advance([outer_moment, mass_moment.x, mass_moment.y, 0.0], [0.5 * turn, half, half, 0.0]);
+        self.integrals
+            .advance([outer_moment, mass_moment.x, mass_moment.y, 0.0], [0.5 * turn, half, half, 0.0]);
     }
 
     /// Charges what the angular momentum has changed by since it was last noted, at the drum's speed in that time [rad/s].
