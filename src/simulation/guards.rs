@@ -14,6 +14,7 @@ impl Simulation {
         if longest_way < limit {
             return Ok(());
         }
+        self.engine.show(&mut self.state.particles);
         // Measuring would pass over ways that are no numbers.
         self.guard_finite()?;
         let way = self.engine.measure_ways(&mut self.state.particles, self.derived.world(), drum);
