@@ -102,6 +102,7 @@ impl Simulation {
         let mut simulation = Self::assemble(config, seed, threads, state, &engine_state, derived);
         simulation.open(&engine_state);
         simulation.guard(simulation.state.particles.mass_moment())?;
+        simulation.record();
         Ok(simulation)
     }
 
@@ -133,7 +134,7 @@ impl Simulation {
         Self { config, seed, state, derived, engine, failure: None }
     }
 
-    /// First forces, opened accounts, first sample and frame.
+    /// First forces, opened accounts.
     fn open(&mut self, given: &EngineState) {
         let drum = DrumMotion {
             rotation: Rotation::new(self.state.initial_angle),
@@ -156,7 +157,6 @@ impl Simulation {
         );
         self.state.ledger = EnergyLedger::open(self.stored(), moments, &surfaces);
         self.state.ledger.overlap_ratio = overlap_ratio;
-        self.record();
     }
 
     /// What the engine holds of the state.
