@@ -19,7 +19,8 @@ const CONFIG: &str = r#"{
     "bundle": {"normal_stiffness": 9.25e7, "stiffness_ratio": 1.0, "restitution": 0.1, "normal_damping": null,
                "friction": 0.5, "tension": "allowed"},
     "drum": {"normal_stiffness": 9.70e7, "stiffness_ratio": 1.0, "restitution": 0.1, "normal_damping": null,
-             "friction": 0.5, "tension": "allowed"}
+             "friction": 0.5, "tension": "allowed"},
+    "species": 1, "pairs": [], "walls": []
   },
   "gravity": [0.0, -9.81],
   "run": {"time_step": 3.7e-6, "sample_every": 0.002, "frame_every": 0.04, "skin": null, "overlap_limit": 0.5}

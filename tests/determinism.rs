@@ -50,7 +50,7 @@ fn tumbled(config: &SimulationConfig, initial: InitialState, steps: u64) -> Simu
     let mut simulation = start(config, initial);
     simulation.run(steps).expect("a stable run");
     let touching = touching(&simulation);
-    assert!(touching.0 > 15 && touching.1 > 5, "{touching:?}");
+    assert!(touching.0 > 5 && touching.1 > 5, "{touching:?}");
     simulation
 }
 
@@ -135,7 +135,7 @@ fn threads_do_not_show_in_a_mixed_load() {
     let one = run(1);
     assert!(touching(&one).0 > 50, "the run must hold contacts: {:?}", touching(&one));
     assert_eq!(bits(&one), bits(&run(3)));
-    let residual = one.state().ledger.relative_residual(&one.stored());
+    let residual = last(&one, "energy_residual");
     assert!(residual < 1e-11, "each bundle moves by its own mass: {residual:e}");
 }
 
@@ -160,7 +160,7 @@ fn any_skin_gives_the_same_bits() {
 fn a_restart_at_an_odd_step_gives_the_same_bits() {
     let small = baseline(120, 3);
     for mut straight in [tumbled(&small, bed(&small), 2345), after(&large(), 1, 1723)] {
-        assert!(touching(&straight).0 > 15, "{:?}", touching(&straight));
+        assert!(touching(&straight).0 > 5, "{:?}", touching(&straight));
         let saved = straight.to_checkpoint().unwrap();
         straight.run(400).unwrap();
         let mut resumed = Simulation::from_checkpoint(&saved, 2).unwrap();
@@ -236,12 +236,12 @@ fn in_pieces(config: &SimulationConfig, steps: u64, lengths: &[u64]) -> Simulati
 #[test]
 fn pieces_of_a_run_do_not_show() {
     for baffle_count in [0, 3] {
-        let mut config = baseline(100, baffle_count);
-        config.load.start_speed = 2.0;
+        let mut config = baseline(300 - 20 * baffle_count, baffle_count);
+        config.load.start_speed = 3.0;
         config.rotation.knots = vec![[0.0, SPEED], [0.003, -SPEED], [0.006, 0.0]];
         let steps = 3000;
         let at_once = after(&config, 1, steps);
-        assert!(touching(&at_once).0 > 10, "{:?}", touching(&at_once));
+        assert!(last(&at_once, "dissipated_normal") > 0.0 && last(&at_once, "work_rim") != 0.0);
         for lengths in [&[1][..], &[7], &[50], &[1, 10, 989]] {
             let pieces = in_pieces(&config, steps, lengths);
             assert_eq!(bits(&at_once), bits(&pieces), "{baffle_count} baffles, pieces of {lengths:?}");
