@@ -157,7 +157,7 @@ fn co_rotation_leaves_the_springs_alone() {
             let force = Vec2::from(contact.force);
             let (pressed, held) = (force.dot(&outwards).abs(), cross(force, outwards));
             assert!(pressed > 0.99 * load, "{pressed} of {load}");
-            assert!(held.abs() < 1e-3 * load, "{held} of {load}");
+            assert!(held.abs() < 1e-6 * load, "{held} of {load}");
         }
     }
     assert_eq!(last(&simulation, "dissipated_sliding"), 0.0);
