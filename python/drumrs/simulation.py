@@ -398,7 +398,9 @@ def _restored(config: Config, data: bytes, threads: int) -> Simulation:
 # A fork keeps none of this process's other threads: it has to wait until none of them is inside a simulation.
 if hasattr(os, "register_at_fork"):
     os.register_at_fork(
-        before=_core.close_gate, after_in_parent=_core.open_gate, after_in_child=_core.open_gate_alone
+        before=_core.close_fork_guard,
+        after_in_parent=_core.open_fork_guard,
+        after_in_child=_core.open_fork_guard_in_child,
     )
 
 

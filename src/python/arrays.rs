@@ -7,7 +7,7 @@ use pyo3::types::PyDict;
 
 use crate::error::Error;
 use crate::physics::vector::Vec2;
-use crate::start::InitialState;
+use crate::simulation::initial_state::InitialState;
 
 /// Vectors as an array of shape (n, 2).
 pub fn vectors<'py>(py: Python<'py>, vectors: &[Vec2]) -> Bound<'py, PyArray2<f64>> {

@@ -14,7 +14,7 @@ def core_config(config: "Config", bundle_count: int) -> dict[str, Any]:
         "drum": _drum(config.drum),
         "rotation": {"knots": _knots(config.rotation)},
         "load": {**config.load.model_dump(exclude={"fill"}), "count": bundle_count},
-        "contact": config.contact.model_dump(),
+        "contact": {**config.contact.model_dump(), "species": 1, "pairs": [], "walls": []},
         "gravity": list(config.gravity),
         "run": _run(config.run),
     }
