@@ -5,8 +5,8 @@ import math
 import os
 import threading
 import time
+import warnings
 from collections.abc import Callable, Mapping
-from dataclasses import fields
 from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from drumrs import _core
 from drumrs.checkpoint import read_checkpoint, write_checkpoint
 from drumrs.config import Config
-from drumrs.errors import CheckpointError, ConfigError, DrumrsError
+from drumrs.errors import CheckpointError, ConfigError, DrumrsError, DrumrsWarning
 from drumrs.frames import Frames
 from drumrs.limits import (
     check_steps,
@@ -55,6 +55,11 @@ class Simulation:
     ConfigError
         Where no such simulation can be; the sentence names key, value and limit.
 
+    Warns
+    -----
+    DrumrsWarning
+        Where contacts stick for ever, or make the time step "auto" much shorter.
+
     Examples
     --------
     >>> import drumrs
@@ -79,6 +84,8 @@ class Simulation:
         self._start(config, core)
         require_samples(config, self.time_step)
         require_memory(config, self.count, self.time_step)
+        for sentence in self.warnings:
+            warnings.warn(sentence, DrumrsWarning, stacklevel=2)
 
     def _start(self, config: Config, core: _core.Simulation) -> None:
         self._config = config
@@ -277,8 +284,16 @@ class Simulation:
 
     @property
     def state(self) -> State:
-        """Where the bundles are now; a simulation started from it has new contacts, unlike one loaded."""
-        return State(**{field.name: getattr(self._core, field.name) for field in fields(State)})
+        """Where the bundles and the drum are now, and the contacts: a simulation started from it goes on from here.
+
+        It may have another configuration, so a load can settle before friction or speed changes. Its time begins at 0.
+        """
+        return State(**self._core.state())
+
+    @property
+    def warnings(self) -> list[str]:
+        """What this simulation does that one may not expect, a sentence each; they are warned of at the start."""
+        return self._core.warnings
 
     @property
     def series(self) -> "pl.DataFrame":

@@ -253,6 +253,32 @@ impl Simulation {
         self.by_id(py, |particles| &particles.masses).into_pyarray(py)
     }
 
+    /// Everything that `State` has a field for, all at one moment.
+    fn state<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let (particles, drum_angle, contacts) = self.with(py, |core| {
+            (core.state().particles.clone(), core.drum_angle(), core.contacts_by_id())
+        });
+        let by_id = |values: &[f64]| particles.by_id(values).into_pyarray(py);
+        let state = PyDict::new(py);
+        state.set_item("positions", arrays::vectors(py, &particles.by_id(&particles.positions)))?;
+        state.set_item("velocities", arrays::vectors(py, &particles.by_id(&particles.velocities)))?;
+        state.set_item("angles", by_id(&particles.angles))?;
+        state.set_item("angular_velocities", by_id(&particles.angular_velocities))?;
+        state.set_item("radii", by_id(&particles.radii))?;
+        state.set_item("species", particles.by_id(&particles.species).into_pyarray(py))?;
+        state.set_item("drum_angle", drum_angle)?;
+        let tables = PyDict::new(py);
+        tables.set_item("pairs", arrays::contact_table(py, &contacts.pairs)?)?;
+        tables.set_item("walls", arrays::contact_table(py, &contacts.walls)?)?;
+        state.set_item("contacts", tables)?;
+        Ok(state)
+    }
+
+    #[getter]
+    fn warnings(&self, py: Python<'_>) -> Vec<String> {
+        self.with(py, |core| core.warnings().iter().map(ToString::to_string).collect())
+    }
+
     #[getter]
     fn sample_count(&self, py: Python<'_>) -> usize {
         self.with(py, |core| core.state().series.len())
