@@ -340,14 +340,9 @@ class Simulation:
         means = self._core.summary(start, end)
         # The window as the samples allow it.
         first, last = (means[name] or 0.0 for name in ("window_start", "window_end"))
-        known = {**self._known(), **self._timing(), **self._mean_force(first, last)}
-        return Summary.from_mapping({**known, **means})
-
-    def _known(self) -> dict[str, float]:
-        """Return what no average is needed for."""
         filled = math.fsum((2.0 * self.radii) ** 2) / self._config.drum.diameter**2
-        counts = {"bundle_count": self.count, "steps": self.step}
-        return {**counts, "fill": filled, "time_step": self.time_step}
+        known = {"bundle_count": self.count, "steps": self.step, "fill": filled, "time_step": self.time_step}
+        return Summary.from_mapping({**known, **self._timing(), **self._mean_force(first, last), **means})
 
     def _mean_force(self, start: float, end: float) -> dict[str, float]:
         """Return the force of the load on all parts of the drum, a mean over the interval between two samples."""

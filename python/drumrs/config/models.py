@@ -161,12 +161,15 @@ def _given(values: dict[str, Any]) -> dict[str, Any]:
 class Contact(Part):
     """The contact laws: bundle against bundle, bundle against drum."""
 
-    species: fields.SpeciesCount = _key(1, "Number of species; a state tells which bundle is of which, from 0")
+    species: fields.SpeciesCount = _key(
+        1, "Number of species; a state tells which bundle is of which, from 0"
+    )
     pairs: Annotated[tuple[PairContact, ...], Limit("a list of tables with the key between")] = _key(
         (), "Laws between two species: { between = [0, 1], friction = 0.3 }, the rest as in contact.bundle"
     )
     walls: Annotated[tuple[WallContact, ...], Limit("a list of tables with the key species")] = _key(
-        (), "Laws between a species and the drum: { species = 1, friction = 0.3 }, the rest as in contact.drum"
+        (),
+        "Laws between a species and the drum: { species = 1, friction = 0.3 }, the rest as in contact.drum",
     )
     bundle: LinearContact = Field(default=LinearContact(normal_stiffness=9.25e7, restitution=0.1))
     drum: LinearContact = Field(default=LinearContact(normal_stiffness=9.70e7, restitution=0.1))
@@ -177,9 +180,7 @@ class Contact(Part):
         named += [(f"walls[{index}].species", [law.species]) for index, law in enumerate(self.walls)]
         for index, (key, species) in enumerate(named):
             if species[-1] >= self.species:
-                raise relation(
-                    f"{{at}}{key} is {species}, but must be below {{at}}species = {self.species}"
-                )
+                raise relation(f"{{at}}{key} is {species}, but must be below {{at}}species = {self.species}")
             earlier = next((other for other, its in named[:index] if its == species), None)
             if earlier is not None:
                 raise relation(f"{{at}}{key} is {species}, but must not be that of {{at}}{earlier}")
