@@ -23,7 +23,7 @@ pub mod simd;
 use contacts::ContactRecord;
 use forces::{Bodies, ForcePass, Lists, StepInputs, new_pass};
 use motion::verlet::{DriftSums, FINISH, Part, START, Verlet, WHOLE};
-use motion::{MotionArrays, pad, unpad};
+use motion::{Arrays, FlatArrays, Motion, MotionArrays, pad, unpad};
 use pair_list::PairList;
 use parallel::{CHUNK, Chunked, Threads, chunk_count};
 
@@ -40,6 +40,8 @@ pub struct Engine {
     list: PairList,
     verlet: Verlet,
     sums: Vec<DriftSums>,
+    /// Where the particles move while steps are done, if it is not in their own arrays.
+    flat: Option<FlatArrays>,
     /// The radius where all particles have the same.
     radius: Option<f64>,
     /// A place where no particle touches the rim [m from the axis].
@@ -84,6 +86,7 @@ impl Engine {
             list: PairList::new(count, skin, particles.largest_radius()),
             verlet: Verlet::new(particles, world.time_step, world.gravity),
             sums: vec![DriftSums::default(); chunk_count(count)],
+            flat: FlatArrays::can_hold(count).then(|| FlatArrays::new(count, 0.5 * free)),
             radius,
             inside: 0.5 * free,
             threads,
@@ -110,10 +113,24 @@ impl Engine {
         self.pass.insert(contacts, &bodies(particles, self.radius, world.table));
     }
 
-    /// Begins a run of steps: gives the arrays a few places more, and drifts to the next step.
+    /// Begins a run of steps: makes the arrays ready, and drifts to the next step.
     pub fn begin(&mut self, particles: &mut Particles) {
-        pad(particles, self.inside);
+        self.make_ready(particles);
         self.drift::<START>(particles);
+    }
+
+    fn make_ready(&mut self, particles: &mut Particles) {
+        match &mut self.flat {
+            Some(flat) => flat.load(particles),
+            None => pad(particles, self.inside),
+        }
+    }
+
+    /// Brings the particles up to date with the engine.
+    pub fn show(&mut self, particles: &mut Particles) {
+        if let Some(flat) = &mut self.flat {
+            flat.store(particles);
+        }
     }
 
     /// Ends a step: the velocities are then those at the time of the positions.
@@ -133,13 +150,17 @@ impl Engine {
 
     /// Ends a run of steps, the last of which has been finished.
     pub fn end(&mut self, particles: &mut Particles) {
+        self.show(particles);
         unpad(particles);
     }
 
     fn drift<const PART: Part>(&mut self, particles: &mut Particles) {
         let count = particles.len();
-        let work =
-            Drift { first: 0, arrays: MotionArrays::of(particles).part_of(count), sums: &mut self.sums };
+        let arrays = match &mut self.flat {
+            Some(flat) => flat.part(0..count),
+            None => MotionArrays::of(particles).part_of(count),
+        };
+        let work = Drift { first: 0, arrays, sums: &mut self.sums };
         let verlet = &self.verlet;
         self.threads.for_each_chunk(count, work, &|work: Drift| {
             let sums = verlet.advance::<PART>(work.first, work.arrays);
@@ -167,20 +188,26 @@ impl Engine {
 
     /// The longest way of a particle in the last drift, as seen from the drum [m].
     pub fn measure_ways(&mut self, particles: &mut Particles, world: World, drum: DrumMotion) -> f64 {
-        let (mut arrays, inputs) = parts(particles, self.radius, world, drum);
-        self.list.measure_ways(arrays.lend().0, &inputs)
+        let count = particles.len();
+        let (arrays, inputs) = parts(&mut self.flat, particles, self.radius, world, drum);
+        match arrays {
+            Arrays::Flat(arrays) => self.list.measure_ways(arrays.lend(count).0, &inputs),
+            Arrays::Large(mut arrays) => self.list.measure_ways(arrays.lend(count).0, &inputs),
+        }
     }
 
     /// Brings the pair list up to date with the positions.
     pub fn update_list(&mut self, particles: &mut Particles, world: World, drum: DrumMotion) {
+        if !self.list.is_due() {
+            return;
+        }
+        self.show(particles);
         let count = particles.len();
-        if !self.list.is_due()
-            || self.list.still_holds(&particles.positions[..count], drum.rotation, &self.threads)
-        {
+        if self.list.still_holds(&particles.positions[..count], drum.rotation, &self.threads) {
             return;
         }
         let positions = std::mem::take(&mut particles.positions);
-        let (_, inputs) = parts(particles, self.radius, world, drum);
+        let (_, inputs) = parts(&mut self.flat, particles, self.radius, world, drum);
         self.list.rebuild(&positions, &inputs, &self.threads);
         self.pass.link(&mut self.list);
         particles.positions = positions;
@@ -188,25 +215,25 @@ impl Engine {
 
     /// Evaluates every contact; the forces must be zero.
     pub fn evaluate(&mut self, particles: &mut Particles, world: World, drum: DrumMotion) {
-        let (arrays, inputs) = parts(particles, self.radius, world, drum);
+        let (arrays, inputs) = parts(&mut self.flat, particles, self.radius, world, drum);
         self.pass.evaluate(&mut self.list, arrays, &inputs, &self.threads);
     }
 
     /// Evaluates every contact, ends the step and begins the next.
     pub fn evaluate_and_advance(&mut self, particles: &mut Particles, world: World, drum: DrumMotion) {
-        let (arrays, inputs) = parts(particles, self.radius, world, drum);
-        let Self { pass, list, verlet, sums, threads, .. } = self;
+        let Self { pass, list, verlet, sums, threads, flat, .. } = self;
+        let (arrays, inputs) = parts(flat, particles, self.radius, world, drum);
         pass.evaluate_and_advance(list, arrays, &inputs, verlet, sums, threads);
     }
 
     /// First forces of particles that have not moved yet.
     pub fn open(&mut self, particles: &mut Particles, world: World, drum: DrumMotion) {
-        pad(particles, self.inside);
+        self.make_ready(particles);
         self.update_list(particles, world, drum);
         self.evaluate(particles, world, drum);
         // What the near lists know of displacements does not hold once the particles move.
         self.list.end_near_lists();
-        unpad(particles);
+        self.end(particles);
     }
 
     /// Puts particle `order[k]` at place `k` in memory, between two runs of steps.
@@ -242,37 +269,20 @@ fn bodies<'a>(particles: &'a Particles, radius: Option<f64>, table: &'a SpeciesT
 
 /// The arrays that move, and what a step needs beside them.
 fn parts<'a>(
+    flat: &'a mut Option<FlatArrays>,
     particles: &'a mut Particles,
     radius: Option<f64>,
     world: World<'a>,
     drum: DrumMotion,
-) -> (MotionArrays<'a>, StepInputs<'a>) {
-    let Particles {
-        positions,
-        velocities,
-        angles,
-        angular_velocities,
-        forces,
-        torques,
-        radii,
-        masses,
-        species,
-        ..
-    } = particles;
-    let arrays = MotionArrays {
-        position: bytemuck::must_cast_slice_mut(positions),
-        velocity: bytemuck::must_cast_slice_mut(velocities),
-        angle: angles,
-        angular_velocity: angular_velocities,
-        force: bytemuck::must_cast_slice_mut(forces),
-        torque: torques,
-    };
+) -> (Arrays<'a>, StepInputs<'a>) {
+    let (moving, bodies) = MotionArrays::and_bodies(particles, radius, world.table);
+    let arrays = flat.as_mut().map_or(Arrays::Large(moving), Arrays::Flat);
     let inputs = StepInputs {
         time: forces::StepTime { step: drum.duration, rate: 1.0 / world.time_step },
         drum: world.drum,
         rotation: drum.rotation,
         angular_velocity: drum.angular_velocity,
-        bodies: Bodies { radius, radii, masses, species, table: world.table },
+        bodies,
     };
     (arrays, inputs)
 }

@@ -18,6 +18,7 @@ impl Simulation {
         if way < limit {
             return Ok(());
         }
+        self.engine.show(&mut self.state.particles);
         self.guard_finite()?;
         let fastest = |speed: &dyn Fn(usize) -> f64| {
             let all = 0..self.state.particles.len();

@@ -66,6 +66,9 @@ impl Simulation {
             return Ok(());
         }
         self.engine.evaluate(&mut self.state.particles, self.derived.world(), drum);
+        if looks || self.needs_moments() {
+            self.engine.show(&mut self.state.particles);
+        }
         self.charge(mass_moment, turn);
         self.charge_moments();
         if looks {
@@ -76,6 +79,7 @@ impl Simulation {
             return Ok(());
         }
         self.engine.finish(&mut self.state.particles);
+        self.engine.show(&mut self.state.particles);
         self.record();
         if self.is_sort_due() && !is_last {
             self.engine.end(&mut self.state.particles);

@@ -1,6 +1,7 @@
 //! A list of contacts, four to a block, column by column.
 
 use super::record::{ContactRecord, PairParameters};
+use crate::engine::motion::{at_offset, offset};
 use crate::engine::simd::LANES;
 use crate::physics::columns::{Columns, Of};
 use crate::physics::contact::ContactState;
@@ -9,9 +10,9 @@ use crate::physics::contact::law::ContactLaw;
 /// The bodies of four contacts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ids {
-    /// Bodies i.
+    /// Offsets of bodies i.
     pub own: [u32; LANES],
-    /// Bodies j: later particles, or features of the drum.
+    /// Offsets of bodies j, or features of the drum.
     pub other: [u32; LANES],
 }
 
@@ -35,6 +36,29 @@ pub enum ListParameters<L: ContactLaw> {
     Each(Vec<Of<PairParameters<L>, [f64; LANES]>>),
 }
 
+/// What a list has contacts with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ListKind {
+    /// Other particles, the moments on both bodies being the same.
+    Pairs,
+    /// Other particles, each moment kept.
+    PairsOfTwoMoments,
+    /// Features of the drum.
+    Walls,
+}
+
+impl ListKind {
+    /// Body j as a block has it.
+    pub fn encode(self, other: u32) -> u32 {
+        if self == Self::Walls { other } else { offset(other) }
+    }
+
+    /// What a block has as body j.
+    pub fn decode(self, other: u32) -> u32 {
+        if self == Self::Walls { other } else { at_offset(other) }
+    }
+}
+
 /// Contacts in the order in which they opened. Lanes after the last one are vacant: they refer to bodies that never touch.
 #[derive(Debug, Clone)]
 pub struct ContactList<L: ContactLaw> {
@@ -48,22 +72,22 @@ pub struct ContactList<L: ContactLaw> {
     pub parameters: ListParameters<L>,
     /// By contact, its place in the list of neighbors.
     neighbors: Vec<u32>,
+    kind: ListKind,
     /// The bodies of a vacant lane.
     vacant: (u32, u32),
-    keeps_both_moments: bool,
 }
 
 impl<L: ContactLaw> ContactList<L> {
     /// No contacts yet.
-    pub fn new(parameters: ListParameters<L>, vacant: (u32, u32), keeps_both_moments: bool) -> Self {
+    pub fn new(parameters: ListParameters<L>, vacant: (u32, u32), kind: ListKind) -> Self {
         Self {
             ids: Vec::new(),
             blocks: Vec::new(),
             other_moments: Vec::new(),
             parameters,
             neighbors: Vec::new(),
+            kind,
             vacant,
-            keeps_both_moments,
         }
     }
 
@@ -83,7 +107,7 @@ impl<L: ContactLaw> ContactList<L> {
     #[inline]
     pub fn key(&self, index: usize) -> (u32, u32) {
         let ids = &self.ids[index / LANES];
-        (ids.own[index % LANES], ids.other[index % LANES])
+        (at_offset(ids.own[index % LANES]), self.kind.decode(ids.other[index % LANES]))
     }
 
     /// The overlap of contact `index` [m].
@@ -152,12 +176,13 @@ impl<L: ContactLaw> ContactList<L> {
 
     /// Appends a vacant block. Its parameters are those of a contact, so that it can be worked out.
     fn push_block(&mut self, parameters: &Of<PairParameters<L>, f64>) {
-        self.ids.push(Ids { own: [self.vacant.0; LANES], other: [self.vacant.1; LANES] });
+        let (own, other) = (offset(self.vacant.0), self.kind.encode(self.vacant.1));
+        self.ids.push(Ids { own: [own; LANES], other: [other; LANES] });
         self.blocks.push(Block {
             state: ContactState::build(|_| [0.0; LANES]),
             history: L::History::build(|_| [0.0; LANES]),
         });
-        if self.keeps_both_moments {
+        if self.kind == ListKind::PairsOfTwoMoments {
             self.other_moments.push([0.0; LANES]);
         }
         if let ListParameters::Each(blocks) = &mut self.parameters {
@@ -189,7 +214,7 @@ impl<L: ContactLaw> ContactList<L> {
 
     fn put_key(&mut self, index: usize, (own, other): (u32, u32)) {
         let ids = &mut self.ids[index / LANES];
-        (ids.own[index % LANES], ids.other[index % LANES]) = (own, other);
+        (ids.own[index % LANES], ids.other[index % LANES]) = (offset(own), self.kind.encode(other));
     }
 
     /// Lets contact `index` be with another feature of the drum, which has this place in the list of neighbors.

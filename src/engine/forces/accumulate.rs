@@ -3,38 +3,32 @@
 use wide::f64x2;
 
 use super::reactions::RemoteReactions;
-use crate::engine::motion::{SMALL, masked};
+use crate::engine::motion::{FlatSums, at_offset, flat};
 
 /// Sums of forces and moments by particle. Every particle meets its contacts in the order of their lists.
 pub trait Accumulator {
-    /// Takes the force of a contact off particle `own`, and adds the moment.
+    /// Takes the force of a contact off the particle at offset `own`, and adds the moment.
     fn subtract(&mut self, own: u32, force: f64x2, moment: f64);
-    /// Adds force and moment of a contact to the other particle.
+    /// Adds force and moment of a contact to the particle at offset `other`.
     fn add(&mut self, other: u32, force: f64x2, moment: f64);
 }
 
 /// The sums of a load that is one chunk.
-#[derive(Debug)]
-pub struct SmallSums<'a> {
-    /// Forces [N/m].
-    pub force: &'a mut [[f64; 2]; SMALL],
-    /// Moments [N m/m].
-    pub torque: &'a mut [f64; SMALL],
-}
-
-impl Accumulator for SmallSums<'_> {
+impl Accumulator for FlatSums<'_> {
     #[inline(always)]
     fn subtract(&mut self, own: u32, force: f64x2, moment: f64) {
-        let own = masked(own);
-        self.force[own] = (f64x2::new(self.force[own]) - force).to_array();
-        self.torque[own] += moment;
+        let (own, next) = (flat(own), flat(own) + 1);
+        let sum = f64x2::new([self.force[own], self.force[next]]) - force;
+        [self.force[own], self.force[next]] = sum.to_array();
+        self.torque[own / 2] += moment;
     }
 
     #[inline(always)]
     fn add(&mut self, other: u32, force: f64x2, moment: f64) {
-        let other = masked(other);
-        self.force[other] = (f64x2::new(self.force[other]) + force).to_array();
-        self.torque[other] += moment;
+        let (other, next) = (flat(other), flat(other) + 1);
+        let sum = f64x2::new([self.force[other], self.force[next]]) + force;
+        [self.force[other], self.force[next]] = sum.to_array();
+        self.torque[other / 2] += moment;
     }
 }
 
@@ -54,7 +48,7 @@ pub struct ChunkSums<'a> {
 impl Accumulator for ChunkSums<'_> {
     #[inline(always)]
     fn subtract(&mut self, own: u32, force: f64x2, moment: f64) {
-        let own = (own as usize).wrapping_sub(self.first);
+        let own = (at_offset(own) as usize).wrapping_sub(self.first);
         // A lane without a contact may refer to a place beyond all particles.
         if let (Some(sum), Some(torque)) = (self.force.get_mut(own), self.torque.get_mut(own)) {
             *sum = (f64x2::new(*sum) - force).to_array();
@@ -64,12 +58,12 @@ impl Accumulator for ChunkSums<'_> {
 
     #[inline(always)]
     fn add(&mut self, other: u32, force: f64x2, moment: f64) {
-        let own = (other as usize).wrapping_sub(self.first);
+        let own = (at_offset(other) as usize).wrapping_sub(self.first);
         if let (Some(sum), Some(torque)) = (self.force.get_mut(own), self.torque.get_mut(own)) {
             *sum = (f64x2::new(*sum) + force).to_array();
             *torque += moment;
         } else {
-            self.remote.send(other, force.to_array(), moment);
+            self.remote.send(at_offset(other), force.to_array(), moment);
         }
     }
 }

@@ -5,8 +5,8 @@ use super::accumulate::Accumulator;
 use super::pairs::{self, Scratch};
 use super::totals::Totals;
 use super::walls::{self, Spot};
-use crate::engine::contacts::{ContactList, ContactRecord, ListParameters};
-use crate::engine::motion::{MotionView, far, inside};
+use crate::engine::contacts::{ContactList, ContactRecord, ListKind, ListParameters};
+use crate::engine::motion::{MotionView, at_offset, far, inside};
 use crate::engine::pair_list::{ChunkNeighbors, NearLimits, Opened, Status};
 use crate::engine::parallel::CHUNK;
 use crate::engine::simd::{F64x4, LANES, Vec2x4, lanes, rows};
@@ -50,10 +50,10 @@ impl<L: ContactLaw> ChunkContacts<L> {
             pairs: ContactList::new(
                 parameters(&|| bodies.pair::<L>(0, 0)),
                 (first, far(count)),
-                L::ROLLS || !are_equal,
+                if L::ROLLS || !are_equal { ListKind::PairsOfTwoMoments } else { ListKind::Pairs },
             ),
-            rim: ContactList::new(walls(), (inside(count), RIM), false),
-            outlines: ContactList::new(walls(), (far(count), RIM), false),
+            rim: ContactList::new(walls(), (inside(count), RIM), ListKind::Walls),
+            outlines: ContactList::new(walls(), (far(count), RIM), ListKind::Walls),
             totals: Totals::default(),
         }
     }
@@ -147,6 +147,7 @@ impl<L: ContactLaw> ChunkContacts<L> {
         }
     }
 
+    #[inline(never)]
     fn evaluate_rim(
         &mut self,
         neighbors: &mut ChunkNeighbors,
@@ -192,9 +193,8 @@ impl<L: ContactLaw> ChunkContacts<L> {
             spots.push(spot.unwrap_or_default());
         }
         for block in 0..neighbors.near_features.blocks().len() {
-            let near = neighbors.near_features.blocks()[block];
             let touches = |lane: &usize| {
-                let key = (near.own[*lane], near.other[*lane]);
+                let key = neighbors.near_features.key(block, *lane);
                 key.1 != RIM && Spot::of(key.0, key.1, motion, inputs).is_some_and(|spot| spot.overlap > 0.0)
             };
             let touching = (0..LANES).filter(touches).fold(0, |bits, lane| bits | 1 << lane);
@@ -224,7 +224,7 @@ fn opening((particle, other): (u32, u32)) -> ContactRecord {
 }
 
 /// Takes the pairs that touch out of the near list.
-#[inline(always)]
+#[inline(never)]
 fn find_touching_pairs(
     neighbors: &mut ChunkNeighbors,
     motion: impl MotionView,
@@ -239,7 +239,8 @@ fn find_touching_pairs(
         let [other, other_odd] = rows(|lane| motion.position(near.other[lane]));
         let apart = Vec2x4::from_rows([other - own, other_odd - own_odd]);
         let reach = same.unwrap_or_else(|| {
-            let reach = lanes(|lane| bodies.radius_of(near.own[lane]) + bodies.radius_of(near.other[lane]));
+            let radius = |place: u32| bodies.radius_of(at_offset(place));
+            let reach = lanes(|lane| radius(near.own[lane]) + radius(near.other[lane]));
             reach * reach
         });
         let touching = reach.simd_gt(apart.dot(apart)).to_bitmask();
@@ -250,7 +251,7 @@ fn find_touching_pairs(
 }
 
 /// Takes the particles that touch the rim out of the near list.
-#[inline(always)]
+#[inline(never)]
 fn find_touching_rim(
     neighbors: &mut ChunkNeighbors,
     motion: impl MotionView,
@@ -264,7 +265,7 @@ fn find_touching_rim(
         let near = &neighbors.near_rim.blocks()[block];
         let position = Vec2x4::from_rows(rows(|lane| motion.position(near.own[lane])));
         let free = same.unwrap_or_else(|| {
-            let free = lanes(|lane| rim - bodies.radius_of(near.own[lane]));
+            let free = lanes(|lane| rim - bodies.radius_of(at_offset(near.own[lane])));
             free * free
         });
         let touching = position.dot(position).simd_gt(free).to_bitmask();

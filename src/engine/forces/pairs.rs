@@ -97,7 +97,7 @@ where
     V: MotionView,
     P: Fn(usize) -> Of<PairParameters<L>, F64x4>,
 {
-    #[inline(always)]
+    #[inline(never)]
     fn run(
         &self,
         ids: &[Ids],
@@ -108,6 +108,8 @@ where
         scratch: &mut Scratch,
     ) {
         let Scratch { meetings, ended } = scratch;
+        // In a place of their own the sums stay in registers.
+        let mut own_totals = *totals;
         for (group, (blocks, ids)) in blocks.chunks_mut(GROUP).zip(ids.chunks(GROUP)).enumerate() {
             let first = GROUP * group;
             for (index, (ids, meeting)) in ids.iter().zip(&mut *meetings).enumerate() {
@@ -116,13 +118,21 @@ where
             for (index, ((block, ids), meeting)) in blocks.iter_mut().zip(ids).zip(&*meetings).enumerate() {
                 let index = first + index;
                 let other = if BOTH { Some(&mut other_moments[index]) } else { None };
-                let touching =
-                    self.advance(block, ids, meeting, &(self.parameters)(index), other, sums, totals);
+                let touching = self.advance(
+                    block,
+                    ids,
+                    meeting,
+                    &(self.parameters)(index),
+                    other,
+                    sums,
+                    &mut own_totals,
+                );
                 if touching != ALL_LANES {
                     ended.push(index as u32);
                 }
             }
         }
+        *totals = own_totals;
     }
 
     /// Where the bodies of a block meet.

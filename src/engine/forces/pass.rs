@@ -6,14 +6,14 @@
 
 use std::fmt::Debug;
 
-use super::accumulate::{ChunkSums, SmallSums};
+use super::accumulate::ChunkSums;
 use super::chunk::{ChunkContacts, ChunkScratch};
 use super::reactions::RemoteReactions;
 use super::totals::{FoldedTotals, Totals};
 use super::{Bodies, StepInputs};
 use crate::engine::contacts::{ContactRecord, NOT_LISTED};
 use crate::engine::motion::verlet::{DriftSums, Verlet, WHOLE};
-use crate::engine::motion::{LargeView, MotionArrays, SMALL, SmallView, is_small};
+use crate::engine::motion::{Arrays, FlatArrays, Motion, MotionArrays, MotionView};
 use crate::engine::pair_list::{ChunkNeighbors, NearLimits, PairList};
 use crate::engine::parallel::{CHUNK, Chunked, Threads, chunk_count};
 use crate::physics::columns::Columns;
@@ -52,14 +52,14 @@ impl Lists {
 /// The pass over contacts, whatever their law.
 pub trait ForcePass: Debug + Send + Sync {
     /// Evaluates every contact. The forces must be zero before.
-    fn evaluate(&mut self, list: &mut PairList, arrays: MotionArrays, inputs: &StepInputs, threads: &Threads);
+    fn evaluate(&mut self, list: &mut PairList, arrays: Arrays, inputs: &StepInputs, threads: &Threads);
 
     /// Evaluates every contact and moves the particles on: the second half of this step's kick, the first of the next one's,
     /// and the drift. `sums` tells what each chunk did.
     fn evaluate_and_advance(
         &mut self,
         list: &mut PairList,
-        arrays: MotionArrays,
+        arrays: Arrays,
         inputs: &StepInputs,
         verlet: &Verlet,
         sums: &mut [DriftSums],
@@ -153,25 +153,14 @@ impl<L: ContactLaw> Pass<L> {
     }
 
     /// The contacts of a load that is one chunk.
-    fn evaluate_small(&mut self, list: &mut PairList, arrays: &mut MotionArrays, inputs: &StepInputs) {
+    fn evaluate_one(&mut self, list: &mut PairList, arrays: &mut FlatArrays, inputs: &StepInputs) {
         let limits = list.limits();
         let (Some(chunk), Some(neighbors)) = (self.chunks.first_mut(), list.chunks.first_mut()) else {
             return;
         };
-        let MotionArrays { position, velocity, angular_velocity, force, torque, .. } = arrays;
-        let (Some(position), Some(velocity), Some(angular_velocity), Some(force), Some(torque)) = (
-            position.first_chunk::<SMALL>(),
-            velocity.first_chunk(),
-            angular_velocity.first_chunk(),
-            force.first_chunk_mut(),
-            torque.first_chunk_mut(),
-        ) else {
-            unreachable!("the arrays of a small load are padded")
-        };
-        let motion = SmallView { position, velocity, angular_velocity };
-        let mut sums = SmallSums { force, torque };
         self.surfaces.fill(SurfaceLoad::default());
         let Chunk { contacts, scratch, .. } = chunk;
+        let (motion, mut sums) = arrays.lend_whole();
         contacts.evaluate(neighbors, limits, motion, inputs, &mut sums, &mut self.surfaces, scratch);
     }
 
@@ -179,7 +168,7 @@ impl<L: ContactLaw> Pass<L> {
     fn sweep(
         &mut self,
         list: &mut PairList,
-        arrays: &mut MotionArrays,
+        arrays: &mut impl Motion,
         inputs: &StepInputs,
         verlet: &Verlet,
         sums: &mut [DriftSums],
@@ -187,8 +176,8 @@ impl<L: ContactLaw> Pass<L> {
         let limits = list.limits();
         for (index, sums) in sums.iter_mut().enumerate() {
             let (first, end) = (index * CHUNK, self.count.min((index + 1) * CHUNK));
-            let (motion, force, torque) = arrays.lend();
-            let (force, torque) = (&mut force[first..end], &mut torque[first..end]);
+            let (motion, force, torque) = arrays.lend(end);
+            let (force, torque) = (&mut force[first..], &mut torque[first..]);
             self.chunks[index].evaluate(
                 &mut list.chunks[index],
                 limits,
@@ -216,7 +205,7 @@ impl<L: ContactLaw> Chunk<L> {
         &mut self,
         neighbors: &mut ChunkNeighbors,
         limits: NearLimits,
-        motion: LargeView,
+        motion: impl MotionView,
         inputs: &StepInputs,
         (first, force, torque): (usize, &mut [[f64; 2]], &mut [f64]),
     ) {
@@ -280,14 +269,13 @@ impl<L: ContactLaw> Pass<L> {
     fn evaluate_chunks(
         &mut self,
         list: &mut PairList,
-        arrays: &mut MotionArrays,
+        arrays: &mut impl Motion,
         inputs: &StepInputs,
         threads: &Threads,
     ) {
         let limits = list.limits();
         let count = self.count;
-        let (motion, force, torque) = arrays.lend();
-        let (force, torque) = (&mut force[..count], &mut torque[..count]);
+        let (motion, force, torque) = arrays.lend(count);
         let work =
             Evaluation { first: 0, chunks: &mut self.chunks, neighbors: &mut list.chunks, force, torque };
         threads.for_each_chunk(count, work, &|work: Evaluation<L>| {
@@ -300,7 +288,7 @@ impl<L: ContactLaw> Pass<L> {
     /// Brings reactions to their particles; then moves them on, if there is a `verlet`.
     fn complete(
         &self,
-        arrays: &mut MotionArrays,
+        arrays: &mut impl Motion,
         verlet: Option<&Verlet>,
         sums: &mut [DriftSums],
         threads: &Threads,
@@ -315,43 +303,68 @@ impl<L: ContactLaw> Pass<L> {
     }
 }
 
-impl<L: ContactLaw> ForcePass for Pass<L> {
-    fn evaluate(
+impl<L: ContactLaw> Pass<L> {
+    fn evaluate_all(
         &mut self,
         list: &mut PairList,
-        mut arrays: MotionArrays,
+        arrays: &mut impl Motion,
         inputs: &StepInputs,
         threads: &Threads,
     ) {
-        if is_small(self.count) {
-            return self.evaluate_small(list, &mut arrays, inputs);
-        }
-        self.evaluate_chunks(list, &mut arrays, inputs, threads);
-        self.complete(&mut arrays, None, &mut [], threads);
+        self.evaluate_chunks(list, arrays, inputs, threads);
+        self.complete(arrays, None, &mut [], threads);
         self.add_up();
     }
 
-    fn evaluate_and_advance(
+    fn evaluate_and_advance_all(
         &mut self,
         list: &mut PairList,
-        mut arrays: MotionArrays,
+        arrays: &mut impl Motion,
         inputs: &StepInputs,
         verlet: &Verlet,
         sums: &mut [DriftSums],
         threads: &Threads,
     ) {
-        if is_small(self.count) {
-            self.evaluate_small(list, &mut arrays, inputs);
-            sums[0] = verlet.advance::<WHOLE>(0, arrays.part(0..self.count));
-            return;
-        }
         if threads.serve(self.count) {
-            self.evaluate_chunks(list, &mut arrays, inputs, threads);
-            self.complete(&mut arrays, Some(verlet), sums, threads);
+            self.evaluate_chunks(list, arrays, inputs, threads);
+            self.complete(arrays, Some(verlet), sums, threads);
         } else {
-            self.sweep(list, &mut arrays, inputs, verlet, sums);
+            self.sweep(list, arrays, inputs, verlet, sums);
         }
         self.add_up();
+    }
+}
+
+impl<L: ContactLaw> ForcePass for Pass<L> {
+    fn evaluate(&mut self, list: &mut PairList, arrays: Arrays, inputs: &StepInputs, threads: &Threads) {
+        match arrays {
+            Arrays::Flat(arrays) if self.chunks.len() == 1 => self.evaluate_one(list, arrays, inputs),
+            Arrays::Flat(arrays) => self.evaluate_all(list, arrays, inputs, threads),
+            Arrays::Large(mut arrays) => self.evaluate_all(list, &mut arrays, inputs, threads),
+        }
+    }
+
+    fn evaluate_and_advance(
+        &mut self,
+        list: &mut PairList,
+        arrays: Arrays,
+        inputs: &StepInputs,
+        verlet: &Verlet,
+        sums: &mut [DriftSums],
+        threads: &Threads,
+    ) {
+        match arrays {
+            Arrays::Flat(arrays) if self.chunks.len() == 1 => {
+                self.evaluate_one(list, arrays, inputs);
+                sums[0] = verlet.advance::<WHOLE>(0, arrays.part(0..self.count));
+            }
+            Arrays::Flat(arrays) => {
+                self.evaluate_and_advance_all(list, arrays, inputs, verlet, sums, threads)
+            }
+            Arrays::Large(mut arrays) => {
+                self.evaluate_and_advance_all(list, &mut arrays, inputs, verlet, sums, threads);
+            }
+        }
     }
 
     fn link(&mut self, list: &mut PairList) {

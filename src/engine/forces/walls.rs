@@ -6,7 +6,7 @@ use super::accumulate::Accumulator;
 use super::totals::{LaneTotals, Totals};
 use super::{StepInputs, SurfaceLoad};
 use crate::engine::contacts::{Block, ContactList, Ids, ListParameters, PairParameters};
-use crate::engine::motion::MotionView;
+use crate::engine::motion::{MotionView, offset};
 use crate::engine::simd::{ALL_LANES, F64x4, LANES, Vec2x4, lanes, rows, sum};
 use crate::physics::columns::{Columns, Of};
 use crate::physics::contact::law::ContactLaw;
@@ -99,7 +99,7 @@ impl Spot {
     /// None where some other feature answers.
     #[inline]
     pub fn of(particle: u32, feature: u32, motion: impl MotionView, inputs: &StepInputs) -> Option<Self> {
-        let [x, y] = motion.position(particle);
+        let [x, y] = motion.position(offset(particle));
         let near = inputs.drum.proximity(feature, inputs.rotation.apply_inverse(Vec2::new(x, y)))?;
         let overlap = inputs.bodies.radius_of(particle) - near.distance;
         Some(Self { overlap, normal: inputs.rotation.apply(near.direction) })

@@ -4,13 +4,31 @@ pub mod verlet;
 
 use std::ops::Range;
 
+use crate::engine::forces::Bodies;
+use crate::physics::contact::species::SpeciesTable;
 use crate::physics::particles::Particles;
 
-/// Particles of a load that is one chunk, two places left for those that lanes without a contact refer to.
-pub const SMALL: usize = 512;
+/// Numbers in a flat array of vectors: as many as an offset of 16 bits can reach, and the one after it.
+const FLAT: usize = (1 << 16) + 1;
+
+/// Numbers in a flat array with one for each particle.
+const HALF: usize = 1 << 15;
 
 /// A place far from everything: its distance from any particle is finite, and no contact.
 const FAR: f64 = 1e150;
+
+/// Where a particle's vectors are in flat arrays: twice its number. Contacts keep offsets, not numbers, which spares a shift
+/// wherever they read or write a vector.
+#[inline(always)]
+pub fn offset(particle: u32) -> u32 {
+    2 * particle
+}
+
+/// The particle at an offset.
+#[inline(always)]
+pub fn at_offset(offset: u32) -> u32 {
+    offset / 2
+}
 
 /// The moving part of the particles, flat.
 #[derive(Debug)]
@@ -37,31 +55,26 @@ impl<'a> MotionArrays<'a> {
     }
 }
 
-impl MotionArrays<'_> {
-    /// The arrays of some of the particles.
-    pub fn part(&mut self, range: Range<usize>) -> MotionArrays<'_> {
-        MotionArrays {
-            position: &mut self.position[range.clone()],
-            velocity: &mut self.velocity[range.clone()],
-            angle: &mut self.angle[range.clone()],
-            angular_velocity: &mut self.angular_velocity[range.clone()],
-            force: &mut self.force[range.clone()],
-            torque: &mut self.torque[range],
-        }
-    }
-
-    /// How the particles move, to read; forces and torques, to write to.
-    pub fn lend(&mut self) -> (LargeView<'_>, &mut [[f64; 2]], &mut [f64]) {
-        let view = LargeView {
-            position: self.position,
-            velocity: self.velocity,
-            angular_velocity: self.angular_velocity,
-        };
-        (view, self.force, self.torque)
-    }
-}
-
 impl<'a> MotionArrays<'a> {
+    /// Those of some particles, and what the particles are made of.
+    pub fn and_bodies(
+        particles: &'a mut Particles,
+        radius: Option<f64>,
+        table: &'a SpeciesTable,
+    ) -> (Self, Bodies<'a>) {
+        let Particles { positions, velocities, angles, angular_velocities, forces, torques, .. } = particles;
+        let arrays = Self {
+            position: bytemuck::must_cast_slice_mut(positions),
+            velocity: bytemuck::must_cast_slice_mut(velocities),
+            angle: angles,
+            angular_velocity: angular_velocities,
+            force: bytemuck::must_cast_slice_mut(forces),
+            torque: torques,
+        };
+        let Particles { radii, masses, species, .. } = particles;
+        (arrays, Bodies { radius, radii, masses, species, table })
+    }
+
     /// The arrays of the first `count` particles.
     pub fn part_of(self, count: usize) -> MotionArrays<'a> {
         self.split_at(count).0
@@ -89,17 +102,165 @@ impl<'a> MotionArrays<'a> {
     }
 }
 
-/// Gives the moving arrays places beyond the last particle while steps are done: lanes without a contact refer to them.
-/// One is far from everything, the next at `inside`, where it touches no rim.
+/// The moving part of a load that 16 bits of offset reach, in arrays whose length the compiler knows: no index needs to be
+/// compared with it. The textbook compares every one, here some 50 instructions of 290 for a block of contacts are saved.
+/// The arrays are much longer than most loads; memory that is not used is not touched.
+#[derive(Debug, Clone)]
+pub struct FlatArrays {
+    position: Box<[f64; FLAT]>,
+    velocity: Box<[f64; FLAT]>,
+    force: Box<[f64; FLAT]>,
+    angle: Box<[f64; HALF]>,
+    angular_velocity: Box<[f64; HALF]>,
+    torque: Box<[f64; HALF]>,
+}
+
+/// Zeros that take no memory until they are written to.
+fn zeros<const N: usize>() -> Box<[f64; N]> {
+    vec![0.0; N].into_boxed_slice().try_into().expect("a slice of this length")
+}
+
+impl FlatArrays {
+    /// Whether they can hold `count` particles, and two places more.
+    pub fn can_hold(count: usize) -> bool {
+        count + 2 <= HALF
+    }
+
+    /// Room for `count` particles. Lanes without a contact refer to the places after the last one: a particle far from
+    /// everything, and one at `inside`, where it touches no rim.
+    pub fn new(count: usize, inside: f64) -> Self {
+        let mut position = zeros();
+        position[2 * count] = FAR;
+        position[2 * (count + 1)] = inside;
+        Self {
+            position,
+            velocity: zeros(),
+            force: zeros(),
+            angle: zeros(),
+            angular_velocity: zeros(),
+            torque: zeros(),
+        }
+    }
+
+    /// Takes what moves from the particles.
+    pub fn load(&mut self, particles: &mut Particles) {
+        let count = particles.len();
+        let (own, other) = (self.part(0..count), MotionArrays::of(particles));
+        own.position.copy_from_slice(other.position);
+        own.velocity.copy_from_slice(other.velocity);
+        own.force.copy_from_slice(other.force);
+        own.angle.copy_from_slice(other.angle);
+        own.angular_velocity.copy_from_slice(other.angular_velocity);
+        own.torque.copy_from_slice(other.torque);
+    }
+
+    /// Brings it back to them.
+    pub fn store(&mut self, particles: &mut Particles) {
+        let count = particles.len();
+        let (own, other) = (self.part(0..count), MotionArrays::of(particles));
+        other.position.copy_from_slice(own.position);
+        other.velocity.copy_from_slice(own.velocity);
+        other.force.copy_from_slice(own.force);
+        other.angle.copy_from_slice(own.angle);
+        other.angular_velocity.copy_from_slice(own.angular_velocity);
+        other.torque.copy_from_slice(own.torque);
+    }
+
+    /// How the particles move, to read; forces and torques, to write to.
+    #[inline(always)]
+    pub fn lend_whole(&mut self) -> (FlatView<'_>, FlatSums<'_>) {
+        let Self { position, velocity, angular_velocity, force, torque, .. } = self;
+        (FlatView { position, velocity, angular_velocity }, FlatSums { force, torque })
+    }
+}
+
+/// The arrays that move, however they are kept.
+pub trait Motion {
+    /// How they are read.
+    type View<'a>: MotionView
+    where
+        Self: 'a;
+
+    /// How the particles move, to read; forces and torques of the first `count`, to write to.
+    fn lend(&mut self, count: usize) -> (Self::View<'_>, &mut [[f64; 2]], &mut [f64]);
+
+    /// The arrays of some of the particles.
+    fn part(&mut self, range: Range<usize>) -> MotionArrays<'_>;
+}
+
+impl Motion for FlatArrays {
+    type View<'a> = FlatView<'a>;
+
+    fn lend(&mut self, count: usize) -> (FlatView<'_>, &mut [[f64; 2]], &mut [f64]) {
+        let Self { position, velocity, angular_velocity, force, torque, .. } = self;
+        let view = FlatView { position, velocity, angular_velocity };
+        (view, force[..2 * count].as_chunks_mut().0, &mut torque[..count])
+    }
+
+    fn part(&mut self, range: Range<usize>) -> MotionArrays<'_> {
+        let flat = 2 * range.start..2 * range.end;
+        MotionArrays {
+            position: self.position[flat.clone()].as_chunks_mut().0,
+            velocity: self.velocity[flat.clone()].as_chunks_mut().0,
+            force: self.force[flat].as_chunks_mut().0,
+            angle: &mut self.angle[range.clone()],
+            angular_velocity: &mut self.angular_velocity[range.clone()],
+            torque: &mut self.torque[range],
+        }
+    }
+}
+
+impl Motion for MotionArrays<'_> {
+    type View<'a>
+        = LargeView<'a>
+    where
+        Self: 'a;
+
+    fn lend(&mut self, count: usize) -> (LargeView<'_>, &mut [[f64; 2]], &mut [f64]) {
+        let Self { position, velocity, angular_velocity, force, torque, .. } = self;
+        (LargeView { position, velocity, angular_velocity }, &mut force[..count], &mut torque[..count])
+    }
+
+    fn part(&mut self, range: Range<usize>) -> MotionArrays<'_> {
+        MotionArrays {
+            position: &mut self.position[range.clone()],
+            velocity: &mut self.velocity[range.clone()],
+            angle: &mut self.angle[range.clone()],
+            angular_velocity: &mut self.angular_velocity[range.clone()],
+            force: &mut self.force[range.clone()],
+            torque: &mut self.torque[range],
+        }
+    }
+}
+
+/// Where a simulation's moving arrays are while steps are done.
+#[derive(Debug)]
+pub enum Arrays<'a> {
+    /// Arrays of a length that the compiler knows.
+    Flat(&'a mut FlatArrays),
+    /// The particles' own, two places longer than usual.
+    Large(MotionArrays<'a>),
+}
+
+/// Forces and torques of flat arrays.
+#[derive(Debug)]
+pub struct FlatSums<'a> {
+    /// Forces [N/m].
+    pub force: &'a mut [f64; FLAT],
+    /// Torques [N m/m].
+    pub torque: &'a mut [f64; HALF],
+}
+
+/// Gives the moving arrays places beyond the last particle while steps are done: lanes without a contact refer to them, see
+/// `FlatArrays`.
 pub fn pad(particles: &mut Particles, inside: f64) {
     let count = particles.len();
-    let places = if is_small(count) { SMALL } else { count + 2 };
     let Particles { positions, velocities, angles, angular_velocities, forces, torques, .. } = particles;
     for vectors in [&mut *positions, velocities, forces] {
-        vectors.resize(places, nalgebra::zero());
+        vectors.resize(count + 2, nalgebra::zero());
     }
     for numbers in [angles, angular_velocities, torques] {
-        numbers.resize(places, 0.0);
+        numbers.resize(count + 2, 0.0);
     }
     positions[count].x = FAR;
     positions[count + 1].x = inside;
@@ -117,11 +278,6 @@ pub fn unpad(particles: &mut Particles) {
     }
 }
 
-/// Whether a load of `count` particles is one chunk whose arrays have a length that the compiler knows.
-pub fn is_small(count: usize) -> bool {
-    count + 2 <= SMALL
-}
-
 /// The place of the particle far from everything, in a load of `count`.
 pub fn far(count: usize) -> u32 {
     count as u32
@@ -132,69 +288,68 @@ pub fn inside(count: usize) -> u32 {
     count as u32 + 1
 }
 
-/// How particles move, as contacts read it.
-pub trait MotionView: Copy {
+/// How particles move, as contacts read it, by their offsets.
+pub trait MotionView: Copy + Send + Sync {
     /// Center of a particle [m].
-    fn position(self, particle: u32) -> [f64; 2];
+    fn position(self, offset: u32) -> [f64; 2];
     /// Velocity in the middle of the step [m/s].
-    fn velocity(self, particle: u32) -> [f64; 2];
+    fn velocity(self, offset: u32) -> [f64; 2];
     /// Angular velocity in the middle of the step [rad/s].
-    fn angular_velocity(self, particle: u32) -> f64;
+    fn angular_velocity(self, offset: u32) -> f64;
 }
 
-/// A small load. Indices are masked, so that none can be out of bounds and none has to be compared with them: some 20
-/// instructions of 250 for a block of contacts.
+/// The motion in flat arrays.
 #[derive(Debug, Clone, Copy)]
-pub struct SmallView<'a> {
-    pub position: &'a [[f64; 2]; SMALL],
-    pub velocity: &'a [[f64; 2]; SMALL],
-    pub angular_velocity: &'a [f64; SMALL],
+pub struct FlatView<'a> {
+    position: &'a [f64; FLAT],
+    velocity: &'a [f64; FLAT],
+    angular_velocity: &'a [f64; HALF],
 }
 
-/// The place of a particle of a small load.
+/// An offset as an index that is within flat arrays for sure.
 #[inline(always)]
-pub fn masked(particle: u32) -> usize {
-    particle as usize & (SMALL - 1)
+pub fn flat(offset: u32) -> usize {
+    offset as u16 as usize
 }
 
-impl MotionView for SmallView<'_> {
+impl MotionView for FlatView<'_> {
     #[inline(always)]
-    fn position(self, particle: u32) -> [f64; 2] {
-        self.position[masked(particle)]
+    fn position(self, offset: u32) -> [f64; 2] {
+        [self.position[flat(offset)], self.position[flat(offset) + 1]]
     }
 
     #[inline(always)]
-    fn velocity(self, particle: u32) -> [f64; 2] {
-        self.velocity[masked(particle)]
+    fn velocity(self, offset: u32) -> [f64; 2] {
+        [self.velocity[flat(offset)], self.velocity[flat(offset) + 1]]
     }
 
     #[inline(always)]
-    fn angular_velocity(self, particle: u32) -> f64 {
-        self.angular_velocity[masked(particle)]
+    fn angular_velocity(self, offset: u32) -> f64 {
+        self.angular_velocity[flat(offset) / 2]
     }
 }
 
-/// A load of any size.
+/// The motion of a load of any size.
 #[derive(Debug, Clone, Copy)]
 pub struct LargeView<'a> {
-    pub position: &'a [[f64; 2]],
-    pub velocity: &'a [[f64; 2]],
-    pub angular_velocity: &'a [f64],
+    position: &'a [[f64; 2]],
+    velocity: &'a [[f64; 2]],
+    angular_velocity: &'a [f64],
 }
 
 impl MotionView for LargeView<'_> {
     #[inline(always)]
-    fn position(self, particle: u32) -> [f64; 2] {
-        self.position[particle as usize]
+    fn position(self, offset: u32) -> [f64; 2] {
+        self.position[at_offset(offset) as usize]
     }
 
     #[inline(always)]
-    fn velocity(self, particle: u32) -> [f64; 2] {
-        self.velocity[particle as usize]
+    fn velocity(self, offset: u32) -> [f64; 2] {
+        self.velocity[at_offset(offset) as usize]
     }
 
     #[inline(always)]
-    fn angular_velocity(self, particle: u32) -> f64 {
-        self.angular_velocity[particle as usize]
+    fn angular_velocity(self, offset: u32) -> f64 {
+        self.angular_velocity[at_offset(offset) as usize]
     }
 }

@@ -5,11 +5,11 @@ use std::ops::Range;
 use super::horizon::{Horizon, STEPS};
 use super::near::{NearList, Reach};
 use super::neighbors::{Neighbors, Status};
-use crate::engine::contacts::NOT_LISTED;
+use crate::engine::contacts::{ListKind, NOT_LISTED};
 use crate::engine::forces::StepInputs;
-use crate::engine::motion::{MotionView, far, inside};
+use crate::engine::motion::{MotionView, far, inside, offset};
 use crate::engine::parallel::CHUNK;
-use crate::engine::simd::{F64x4, LANES, Vec2x4, greatest, rows};
+use crate::engine::simd::{F64x4, LANES, Vec2x4, greatest, lanes, rows};
 use crate::physics::drum::RIM;
 use crate::physics::scalar::Scalar;
 use crate::physics::vector::Vec2;
@@ -55,9 +55,9 @@ impl ChunkNeighbors {
             pairs: Neighbors::default(),
             features: Neighbors::default(),
             at_rim: vec![Status::Apart; particles.len()],
-            near_pairs: NearList::new((first, far(count))),
-            near_rim: NearList::new((inside(count), RIM)),
-            near_features: NearList::new((far(count), RIM)),
+            near_pairs: NearList::new(ListKind::Pairs, (first, far(count))),
+            near_rim: NearList::new(ListKind::Walls, (inside(count), RIM)),
+            near_features: NearList::new(ListKind::Walls, (far(count), RIM)),
             watched: Vec::new(),
             horizon: Horizon::default(),
             longest_way: f64::INFINITY,
@@ -93,11 +93,11 @@ impl ChunkNeighbors {
         let last = self.particles.end - 1;
         for first in self.particles.clone().step_by(LANES) {
             let particle = |lane: usize| (first + lane as u32).min(last);
-            let position = Vec2x4::from_rows(rows(|lane| motion.position(particle(lane))));
-            let way = Vec2x4::from_rows(rows(|lane| motion.velocity(particle(lane)))).scaled(time);
+            let position = Vec2x4::from_rows(rows(|lane| motion.position(offset(particle(lane)))));
+            let way = Vec2x4::from_rows(rows(|lane| motion.velocity(offset(particle(lane))))).scaled(time);
             let outwards = position.dot(way).larger(zero);
             let farthest = position.dot(position) + (outwards + outwards) + way.dot(way);
-            let radius = crate::engine::simd::lanes(|lane| inputs.bodies.radius_of(particle(lane)));
+            let radius = lanes(|lane| inputs.bodies.radius_of(particle(lane)));
             let free = (F64x4::splat((rim - 0.5 * self.horizon.budget()) * ROUND_OFF) - radius).larger(zero);
             let inside = (free * free).exceeds(farthest).to_bitmask();
             for lane in (0..LANES).filter(|lane| inside >> lane & 1 == 0) {
@@ -117,7 +117,7 @@ impl ChunkNeighbors {
             if self.features.status()[place] != Status::Apart {
                 continue;
             }
-            let ([x, y], [u, v]) = (motion.position(particle), motion.velocity(particle));
+            let ([x, y], [u, v]) = (motion.position(offset(particle)), motion.velocity(offset(particle)));
             let (position, velocity) = (Vec2::new(x, y), Vec2::new(u, v));
             let seen = velocity - crate::physics::vector::perpendicular(position) * inputs.angular_velocity;
             let way = seen.norm() * time + 0.5 * self.horizon.budget();
@@ -135,8 +135,8 @@ impl ChunkNeighbors {
         let mut most = F64x4::ZERO;
         for first in self.particles.clone().step_by(LANES) {
             let particle = |lane: usize| (first + lane as u32).min(last);
-            let position = Vec2x4::from_rows(rows(|lane| motion.position(particle(lane))));
-            let velocity = Vec2x4::from_rows(rows(|lane| motion.velocity(particle(lane))));
+            let position = Vec2x4::from_rows(rows(|lane| motion.position(offset(particle(lane)))));
+            let velocity = Vec2x4::from_rows(rows(|lane| motion.velocity(offset(particle(lane)))));
             let seen = Vec2x4 { x: velocity.x + position.y * speed, y: velocity.y - position.x * speed };
             most = seen.dot(seen).larger(most);
         }

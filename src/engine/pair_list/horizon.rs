@@ -43,7 +43,11 @@ impl Horizon {
     /// Takes note of a step in which no displacement changed by more than `change` [m].
     #[inline]
     pub fn advance(&mut self, change: f64) {
-        self.steps_left = self.steps_left.saturating_sub(1);
+        // Where there is no list, nothing may be known of the changes either.
+        if self.steps_left == 0 {
+            return;
+        }
+        self.steps_left -= 1;
         self.changes += change;
         self.displaced += self.changes;
     }

@@ -18,7 +18,7 @@ pub use neighbors::Status;
 use search::Search;
 
 use crate::engine::forces::StepInputs;
-use crate::engine::motion::LargeView;
+use crate::engine::motion::MotionView;
 use crate::engine::motion::verlet::DriftSums;
 use crate::engine::parallel::{Threads, chunk_count};
 use crate::physics::vector::{Rotation, Vec2};
@@ -106,7 +106,7 @@ impl PairList {
     }
 
     /// Measures how far particles move in a step as seen from the drum; returns the longest way [m] and the particle.
-    pub fn measure_ways(&mut self, motion: LargeView, inputs: &StepInputs) -> f64 {
+    pub fn measure_ways(&mut self, motion: impl MotionView, inputs: &StepInputs) -> f64 {
         for chunk in &mut self.chunks {
             chunk.longest_way = chunk.measure_way(motion, inputs);
         }

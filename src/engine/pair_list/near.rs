@@ -7,17 +7,17 @@
 //! touch before the list ends (`horizon`).
 
 use super::neighbors::{Neighbors, Status};
-use crate::engine::contacts::NOT_LISTED;
-use crate::engine::motion::MotionView;
+use crate::engine::contacts::{ListKind, NOT_LISTED};
+use crate::engine::motion::{MotionView, at_offset, offset};
 use crate::engine::simd::{ALL_LANES, F64x4, LANES, Vec2x4, lanes, rows};
 use crate::physics::scalar::Scalar;
 
 /// Four pairs that are near.
 #[derive(Debug, Clone, Copy)]
 pub struct NearBlock {
-    /// Bodies i.
+    /// Offsets of bodies i.
     pub own: [u32; LANES],
-    /// Bodies j.
+    /// Offsets of bodies j; at the drum, features.
     pub other: [u32; LANES],
     /// Their places among the neighbors.
     place: [u32; LANES],
@@ -29,6 +29,8 @@ pub struct NearBlock {
 pub struct NearList {
     blocks: Vec<NearBlock>,
     len: usize,
+    kind: ListKind,
+    /// The bodies of a vacant lane.
     vacant: (u32, u32),
 }
 
@@ -37,8 +39,8 @@ pub type Opened = ((u32, u32), u32);
 
 impl NearList {
     /// An empty list; vacant lanes refer to the bodies `vacant`.
-    pub fn new(vacant: (u32, u32)) -> Self {
-        Self { blocks: Vec::new(), len: 0, vacant }
+    pub fn new(kind: ListKind, vacant: (u32, u32)) -> Self {
+        Self { blocks: Vec::new(), len: 0, kind, vacant }
     }
 
     /// Forgets all, keeping the memory.
@@ -68,27 +70,40 @@ impl NearList {
     pub fn push(&mut self, (own, other): (u32, u32), place: u32) {
         let lane = self.len % LANES;
         if lane == 0 {
-            let (own, other) = self.vacant;
+            let (own, other) = self.encode(self.vacant);
             self.blocks.push(NearBlock {
                 own: [own; LANES],
                 other: [other; LANES],
                 place: [NOT_LISTED; LANES],
             });
         }
+        let (own, other) = self.encode((own, other));
         if let Some(block) = self.blocks.last_mut() {
             (block.own[lane], block.other[lane], block.place[lane]) = (own, other, place);
         }
         self.len += 1;
     }
 
+    fn encode(&self, (own, other): (u32, u32)) -> (u32, u32) {
+        (offset(own), self.kind.encode(other))
+    }
+
+    /// The bodies of one lane of a block.
+    pub fn key(&self, block: usize, lane: usize) -> (u32, u32) {
+        let block = &self.blocks[block];
+        (at_offset(block.own[lane]), self.kind.decode(block.other[lane]))
+    }
+
     /// Takes out the pairs of a block that touch, given as bits.
     #[cold]
     #[inline(never)]
     pub fn take(&mut self, block: usize, touching: u32, opened: &mut Vec<Opened>) {
-        let block = &mut self.blocks[block];
+        let vacant = self.encode(self.vacant);
         for lane in (0..LANES).filter(|lane| touching >> lane & 1 == 1) {
-            opened.push(((block.own[lane], block.other[lane]), block.place[lane]));
-            (block.own[lane], block.other[lane]) = self.vacant;
+            let key = self.key(block, lane);
+            let block = &mut self.blocks[block];
+            opened.push((key, block.place[lane]));
+            (block.own[lane], block.other[lane]) = vacant;
             block.place[lane] = NOT_LISTED;
         }
     }
@@ -120,8 +135,8 @@ impl NearList {
             let [other, other_odd] = rows(|lane| value(pairs[lane].1));
             Vec2x4::from_rows([other - own, other_odd - own_odd])
         };
-        let apart = between(&|particle| motion.position(particle));
-        let velocity = between(&|particle| motion.velocity(particle));
+        let apart = between(&|particle| motion.position(offset(particle)));
+        let velocity = between(&|particle| motion.velocity(offset(particle)));
         let distance = reach.of(|lane| pairs[lane]);
         // The gap is (d² − reach²) / (d + reach). The approach is over d, which is no less than the reach.
         let excess = apart.dot(apart) - distance * distance;
