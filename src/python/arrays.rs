@@ -45,9 +45,11 @@ pub fn initial_state(state: &Bound<'_, PyDict>) -> Result<InitialState, Error> {
             "angular_velocities" => initial.angular_velocities = Some(numbers(&name, &value)?),
             "radii" => initial.radii = Some(numbers(&name, &value)?),
             "species" => initial.species = Some(column(&format!("state.{name}"), &value)?),
-            "drum_angle" => initial.drum_angle = value.extract().map_err(|_| {
-                Error::config("state.drum_angle", "something else", "a number")
-            })?,
+            "drum_angle" => {
+                initial.drum_angle = value
+                    .extract()
+                    .map_err(|_| Error::config("state.drum_angle", "something else", "a number"))?
+            }
             "contacts" => {
                 initial.contacts = Lists {
                     pairs: records("state.contacts.pairs", &value, "pairs")?,

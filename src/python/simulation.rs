@@ -255,9 +255,8 @@ impl Simulation {
 
     /// Everything that `State` has a field for, all at one moment.
     fn state<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let (particles, drum_angle, contacts) = self.with(py, |core| {
-            (core.state().particles.clone(), core.drum_angle(), core.contacts_by_id())
-        });
+        let (particles, drum_angle, contacts) =
+            self.with(py, |core| (core.state().particles.clone(), core.drum_angle(), core.contacts_by_id()));
         let by_id = |values: &[f64]| particles.by_id(values).into_pyarray(py);
         let state = PyDict::new(py);
         state.set_item("positions", arrays::vectors(py, &particles.by_id(&particles.positions)))?;

@@ -139,7 +139,8 @@ impl Simulation {
                 effective_mass: BodyPair::at_wall(body(place)).effective_mass,
             })
         };
-        let pairs = species().flat_map(|(one, _)| species().skip(one.into()).map(move |(other, _)| (one, other)));
+        let pairs =
+            species().flat_map(|(one, _)| species().skip(one.into()).map(move |(other, _)| (one, other)));
         (pairs.filter_map(|(one, other)| pair(one, other)).collect(), species().filter_map(wall).collect())
     }
 }
@@ -161,7 +162,8 @@ fn overdamped(meetings: &[Meeting]) -> Option<Warning> {
 fn two_lightest(particles: &Particles, species: u16) -> [Option<usize>; 2] {
     let mut found: [Option<usize>; 2] = [None, None];
     let order = |place: usize| (particles.masses[place], particles.ids[place]);
-    let is_before = |place: usize, other: Option<usize>| other.is_none_or(|other| order(place) < order(other));
+    let is_before =
+        |place: usize, other: Option<usize>| other.is_none_or(|other| order(place) < order(other));
     for place in (0..particles.len()).filter(|&place| particles.species[place] == species) {
         if is_before(place, found[0]) {
             found = [Some(place), found[0]];
