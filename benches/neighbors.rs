@@ -5,7 +5,7 @@ mod scenes;
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use drumrs::neighbors::{Surroundings, VerletList};
 use drumrs::physics::vector::Rotation;
-use drumrs::threads::Threads;
+use drumrs::engine::parallel::Threads;
 
 fn rebuilds(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("rebuild");

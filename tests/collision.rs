@@ -5,8 +5,9 @@
 mod common;
 
 use common::*;
-use drumrs::contact::History;
-use drumrs::contact::linear::{LinearLaw, Tension};
+use drumrs::physics::contact::law::ContactLaw;
+use drumrs::physics::contact::linear::{Linear, LinearHistory};
+use drumrs::physics::contact::parameters::Tension;
 use drumrs::physics::vector::cross;
 use drumrs::simulation::Simulation;
 
@@ -114,21 +115,18 @@ fn normal_dissipation_is_the_energy_that_restitution_takes() {
 /// and what sliding takes.
 #[test]
 fn friction_accounts_for_its_own_work() {
-    let law = LinearLaw::from(&common::law(9.25e7));
+    let law = linear_law(&common::law(9.25e7));
     for (stretch, slip) in
         [(0.0, 3e-7), (4e-7, 3e-7), (4.9e-7, 5e-8), (5e-7, -2e-7), (-5e-7, -4e-7), (2e-7, 1e-8)]
     {
-        let history = History {
-            overlap: 1e-6,
-            tangential_displacement: stretch,
-            tangential_force: law.tangential_stiffness * stretch,
-            ..History::default()
-        };
-        let response = respond(&law, 1e-6, (0.0, slip), &history);
-        let work = 0.5 * (history.tangential_force + response.tangential_force) * slip;
-        let after = History { tangential_displacement: response.tangential_displacement, ..history };
-        let gained = law.stored(&after).1 - law.stored(&history).1;
-        assert!((work - gained - response.dissipated_sliding).abs() < 1e-12 * law.stored(&history).0);
+        let before = LinearHistory { tangential_displacement: stretch };
+        let (response, after) = respond(&law, 1e-6, [0.0, slip], [1e-6, stretch]);
+        let work = 0.5 * (law.tangential_stiffness * stretch + response.tangential_force) * slip;
+        let [held, holds] = [before, after].map(|history| Linear::<true>::stored(&law, 1e-6, &history));
+        let left = work
+            - (holds.elastic_tangential - held.elastic_tangential)
+            - response.flows.dissipated_sliding;
+        assert!(left.abs() < 1e-12 * held.elastic_normal);
     }
 }
 

@@ -3,14 +3,13 @@
 mod common;
 
 use common::*;
-use drumrs::forces::LARGE;
 use drumrs::io::checkpoint;
 use drumrs::io::config::SimulationConfig;
-use drumrs::order;
+use drumrs::engine::memory_order;
 use drumrs::physics::vector::Vec2;
 use drumrs::simulation::Simulation;
-use drumrs::start::InitialState;
-use drumrs::threads::Threads;
+use drumrs::simulation::initial_state::InitialState;
+use drumrs::engine::parallel::Threads;
 use proptest::prelude::*;
 
 /// Long enough for bundles to roll over each other, the rim and baffles once they lie in a bed.
@@ -78,10 +77,10 @@ fn any_number_of_threads_gives_the_same_bits() {
     }
 }
 
-/// A load so large that each thread takes a stretch of it through evaluation and motion at once: a dense lattice, shaken.
+/// A dense lattice, shaken: nearly every bundle has contacts, many of them with other chunks.
 #[test]
-fn threads_do_not_show_in_a_load_that_is_swept() {
-    let count = LARGE + 2000;
+fn threads_do_not_show_in_a_dense_load() {
+    let count = 12_000;
     let spacing = 2.0 * RADIUS * (1.0 - 1e-3);
     let mut config = baseline(count, 0);
     config.drum.radius = Some(0.75 * spacing * (count as f64).sqrt());
@@ -173,7 +172,7 @@ fn a_restart_at_an_odd_step_gives_the_same_bits() {
 
 /// A load that is sorted in memory, with ids in no order, close to its second sort.
 fn to_be_sorted(skin: Option<f64>) -> Simulation {
-    let count = order::LEAST_COUNT + 51;
+    let count = memory_order::LEAST_COUNT + 51;
     let mut config = baseline(count, 3);
     config.drum.radius = Some(0.8);
     config.run.skin = skin;
@@ -186,7 +185,7 @@ fn to_be_sorted(skin: Option<f64>) -> Simulation {
         ..InitialState::default()
     };
     let mut simulation = start(&config, initial);
-    simulation.run(order::INTERVAL - 150).expect("a stable run");
+    simulation.run(memory_order::INTERVAL - 150).expect("a stable run");
     simulation
 }
 
@@ -221,36 +220,33 @@ fn what_leaves_is_in_id_order() {
     }
 }
 
-#[test]
-fn a_run_in_pieces_is_the_run_in_one() {
-    let config = baseline(60, 3);
-    let mut pieces = packed(&config, 1);
-    for steps in [1, 10, 989, 2000] {
-        pieces.run(steps).unwrap();
+/// Runs `config` for `steps` in pieces of these lengths, again and again.
+fn in_pieces(config: &SimulationConfig, steps: u64, lengths: &[u64]) -> Simulation {
+    let mut simulation = packed(config, 1);
+    let mut lengths = lengths.iter().cycle();
+    while simulation.state().step < steps {
+        let left = steps - simulation.state().step;
+        let length = left.min(*lengths.next().unwrap());
+        simulation.run(length).unwrap();
     }
-    assert_eq!(bits(&pieces), bits(&after(&config, 1, 3000)));
+    simulation
 }
 
-/// Slices leave the particles behind; who looks in between gets them as they are after one more step.
+/// Whoever looks, whenever: a run in pieces is the run at once, and what is read in between is what a run to there gives.
 #[test]
-fn slices_of_a_run_do_not_show() {
-    for (config, slices) in [(baseline(60, 3), [1, 10, 989, 1999]), (large(), [1, 1, 150, 97])] {
-        let mut sliced = packed(&config, 1);
-        let mut looks = 0;
-        for steps in slices {
-            sliced.run_on(steps).unwrap();
-            let before = sliced.state().step;
-            sliced.arrive().unwrap();
-            looks += sliced.state().step - before;
-            assert_eq!(bits(&sliced), bits(&after(&config, 1, sliced.state().step)));
-            let step = sliced.state().step;
-            sliced.arrive().unwrap();
-            assert_eq!(sliced.state().step, step, "the particles were up to date");
+fn pieces_of_a_run_do_not_show() {
+    for baffle_count in [0, 3] {
+        let mut config = baseline(100, baffle_count);
+        config.load.start_speed = 2.0;
+        config.rotation.knots = vec![[0.0, SPEED], [0.003, -SPEED], [0.006, 0.0]];
+        let steps = 3000;
+        let at_once = after(&config, 1, steps);
+        assert!(touching(&at_once).0 > 10, "{:?}", touching(&at_once));
+        for lengths in [&[1][..], &[7], &[50], &[1, 10, 989]] {
+            let pieces = in_pieces(&config, steps, lengths);
+            assert_eq!(bits(&at_once), bits(&pieces), "{baffle_count} baffles, pieces of {lengths:?}");
+            assert_eq!(at_once.to_checkpoint().unwrap(), pieces.to_checkpoint().unwrap());
         }
-        assert!(looks > 2, "{looks} slices left the particles behind");
-        sliced.run_on(70).unwrap();
-        sliced.run(30).unwrap();
-        assert_eq!(bits(&sliced), bits(&after(&config, 1, sliced.state().step)));
     }
 }
 

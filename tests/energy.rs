@@ -3,7 +3,7 @@
 mod common;
 
 use common::*;
-use drumrs::contact::linear::Tension;
+use drumrs::physics::contact::parameters::Tension;
 use drumrs::io::config::SimulationConfig;
 use drumrs::simulation::Simulation;
 

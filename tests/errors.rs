@@ -3,10 +3,10 @@
 mod common;
 
 use common::*;
-use drumrs::error::Error;
+use drumrs::error::{Error, Incident};
 use drumrs::physics::vector::Vec2;
 use drumrs::simulation::Simulation;
-use drumrs::start::InitialState;
+use drumrs::simulation::initial_state::InitialState;
 
 fn refusal(config: &drumrs::io::config::SimulationConfig, initial: InitialState) -> String {
     Simulation::with_state(config.clone(), 1, 1, initial).unwrap_err().to_string()
@@ -21,19 +21,38 @@ fn every_variant_has_its_message() {
         packing.to_string(),
         "load.count is 400, but must be at most 361: no more bundles of diameter 0.02375 m fit into this drum"
     );
-    let non_finite = Error::NonFinite { step: 7, particle: 3 };
+    let incident = Incident {
+        particle: 812,
+        step: 40_210,
+        time: 0.148_777,
+        position: [0.200_04, -0.1],
+        speed: 1.25,
+    };
+    let non_finite = Error::NonFinite { incident: incident.clone() };
     assert_eq!(
         non_finite.to_string(),
-        "the state of bundle 3 is no longer finite at step 7; shorten run.time_step"
+        "the state of bundle 812 is no longer finite at step 40210 (t = 0.148777 s); shorten run.time_step"
     );
-    let overlap = Error::Overlap { step: 40_210, particle: 812, ratio: 0.61, limit: 0.5 };
+    let overlap = Error::Overlap { incident: incident.clone(), ratio: 0.61, limit: 0.5 };
     assert_eq!(
         overlap.to_string(),
-        "the overlap of bundle 812 reached 0.610 of its radius at step 40210, beyond run.overlap_limit = 0.5; \
+        "the overlap of bundle 812 reached 0.610 of its radius at step 40210 (t = 0.148777 s) near \
+         [0.2000, -0.1000] m at 1.250 m/s, beyond run.overlap_limit = 0.5; shorten run.time_step or raise the \
+         stiffness"
+    );
+    let escaped = Error::Escaped { incident: incident.clone(), surface: "rim".into() };
+    assert_eq!(
+        escaped.to_string(),
+        "bundle 812 passed through the rim by step 40210 (t = 0.148777 s) near [0.2000, -0.1000] m at 1.250 m/s; \
          shorten run.time_step or raise the stiffness"
     );
-    let escaped = Error::Escaped { step: 9, particle: 1 };
-    assert_eq!(escaped.to_string(), "bundle 1 left the drum at step 9; shorten run.time_step");
+    let too_fast = Error::TooFast { incident, way: 0.0123, limit: 0.0059 };
+    assert_eq!(
+        too_fast.to_string(),
+        "bundle 812 moved 1.230e-2 m in one step at step 40210 (t = 0.148777 s) near [0.2000, -0.1000] m at \
+         1.250 m/s, as seen from the drum, more than half of the smallest radius, 5.900e-3 m; shorten \
+         run.time_step, or start slower"
+    );
     let checkpoint = Error::Checkpoint { reason: "it is damaged".into() };
     assert_eq!(checkpoint.to_string(), "cannot use this checkpoint: it is damaged");
     let system = Error::System { action: "reading run.ckpt".into(), reason: "no such file".into() };
@@ -46,13 +65,15 @@ fn failures_carry_step_and_bundle() {
     let overfull = Simulation::new(baseline(5000, 0), 1, 1).unwrap_err();
     assert!(matches!(overfull, Error::Packing { requested: 5000, fits: 300..=400, .. }), "{overfull}");
 
-    // 300 m/s go a bundle's radius deep into the rim in ten steps; 6 km/s pass through it in one.
+    // 300 m/s go a bundle's radius deep into the rim in ten steps.
     let at_speed = |speed: f64| {
         let mut simulation = start(&baseline(1, 0), single([0.2, 0.0], [speed, 0.0], 0.0));
         simulation.run(1000).unwrap_err()
     };
     let deep = at_speed(300.0);
-    assert!(matches!(deep, Error::Overlap { particle: 0, ratio, .. } if ratio > 0.5), "{deep}");
+    let Error::Overlap { incident, ratio, limit } = deep else { panic!("{deep}") };
+    assert_eq!((incident.particle, incident.step, limit), (0, 32, 0.5), "the whole load is looked at then");
+    assert!(ratio > 0.5 && incident.position[0] > 0.22 && incident.time == 32.0 * TIME_STEP, "{incident}");
     // The particles stay where they were when it happened, as if somebody had looked at every step.
     let thrown = || start(&baseline(1, 0), single([0.2, 0.0], [300.0, 0.0], 0.0));
     let (mut at_once, mut in_steps) = (thrown(), thrown());
@@ -60,8 +81,18 @@ fn failures_carry_step_and_bundle() {
     while in_steps.run(1).is_ok() {}
     assert_eq!(at_once.state().step, in_steps.state().step);
     assert_eq!(at_once.state().particles, in_steps.state().particles);
-    let through = at_speed(3e4);
-    assert!(matches!(through, Error::Escaped { step: 1, particle: 0 }), "{through}");
+    assert_eq!(at_once.failure(), in_steps.failure());
+
+    // 1.5 km/s pass through the rim; 1.6 km/s are more than half a radius a step, wherever that leads to.
+    let through = at_speed(1500.0);
+    assert!(
+        matches!(&through, Error::Escaped { incident, surface } if incident.step == 32 && surface == "rim"),
+        "{through}"
+    );
+    let fast = at_speed(1700.0);
+    let Error::TooFast { incident, way, limit } = fast else { panic!("{fast}") };
+    assert_eq!((incident.step, limit), (1, 0.5 * RADIUS));
+    assert!((way - 1700.0 * TIME_STEP).abs() < 1e-3 * way && incident.speed > 1699.0, "{way} {incident}");
 }
 
 #[test]

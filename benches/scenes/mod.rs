@@ -13,7 +13,7 @@ use drumrs::io::config::SimulationConfig;
 use drumrs::physics::drum::Drum;
 use drumrs::physics::vector::{Vec2, perpendicular};
 use drumrs::simulation::Simulation;
-use drumrs::start::InitialState;
+use drumrs::simulation::initial_state::InitialState;
 
 /// Whether this is `cargo bench`, and not a test that only sees each bench run once.
 pub fn measuring() -> bool {

@@ -14,12 +14,13 @@ impl Simulation {
         if longest_way < limit {
             return Ok(());
         }
+        self.engine.show(&mut self.state.particles);
+        // Measuring would pass over ways that are no numbers.
+        self.guard_finite()?;
         let way = self.engine.measure_ways(&mut self.state.particles, self.derived.world(), drum);
         if way < limit {
             return Ok(());
         }
-        self.engine.show(&mut self.state.particles);
-        self.guard_finite()?;
         let fastest = |speed: &dyn Fn(usize) -> f64| {
             let all = 0..self.state.particles.len();
             all.max_by(|&a, &b| speed(a).total_cmp(&speed(b))).unwrap_or(0)

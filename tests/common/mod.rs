@@ -4,7 +4,10 @@
 
 use drumrs::io::config::{ContactTables, LoadParameters, RunParameters, SimulationConfig};
 use drumrs::observe::summary::summarize;
+use drumrs::physics::contact::law::{BodyPair, ContactLaw};
+use drumrs::physics::contact::linear::{Linear, LinearHistory, LinearLaw};
 use drumrs::physics::contact::parameters::{ContactParameters, Tension};
+use drumrs::physics::contact::{ContactState, Kinematics, Motion, Response};
 use drumrs::physics::drum::DrumParameters;
 use drumrs::physics::drum::baffle::{BaffleParameters, BaffleShape};
 use drumrs::physics::rotation::RotationSchedule;
@@ -32,6 +35,31 @@ pub fn law(normal_stiffness: f64) -> ContactParameters {
         friction: 0.5,
         tension: Tension::Allowed,
     }
+}
+
+/// The linear law between two bundles of Table 1.
+pub fn linear_law(parameters: &ContactParameters) -> LinearLaw<f64> {
+    let bodies = BodyPair { effective_mass: 0.5 * mass(), effective_radius: 0.5 * RADIUS };
+    Linear::<true>::between(parameters, bodies)
+}
+
+/// A step for which a rate times its length and back is exact [s].
+pub const EXACT_STEP: f64 = 1.0 / (1 << 18) as f64;
+
+/// One step of the law, at whose end the bodies overlap by `overlap` [m]; in it they approached and slipped by so much [m],
+/// and at its start they overlapped by `last_overlap` and stretched the tangential spring by `stretch` [m].
+pub fn respond(
+    law: &LinearLaw<f64>,
+    overlap: f64,
+    [approach, slip]: [f64; 2],
+    [last_overlap, stretch]: [f64; 2],
+) -> (Response<f64>, LinearHistory<f64>) {
+    let [separation_rate, slip_rate] = [-approach, slip].map(|way| way / EXACT_STEP);
+    let motion = Motion { overlap, separation_rate, slip_rate, rolling_rate: 0.0 };
+    let last =
+        ContactState { overlap: last_overlap, separation_rate, force_x: 0.0, force_y: 0.0, moment: 0.0 };
+    let contact = Kinematics::new(&motion, &last, [EXACT_STEP, 1.0 / EXACT_STEP]);
+    Linear::<true>::respond(law, &contact, &LinearHistory { tangential_displacement: stretch })
 }
 
 pub fn baffles(count: usize) -> BaffleParameters {

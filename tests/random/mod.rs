@@ -2,9 +2,9 @@
 
 use std::f64::consts::PI;
 
-use drumrs::contact::laws::Laws;
-use drumrs::contact::linear::{LinearParameters, Tension};
-use drumrs::io::config::{ContactParameters, LoadParameters, RunParameters, SimulationConfig};
+use drumrs::io::config::{ContactTables, LoadParameters, RunParameters, SimulationConfig};
+use drumrs::physics::contact::parameters::{ContactParameters, Tension};
+use drumrs::physics::contact::species::SpeciesTable;
 use drumrs::physics::drum::DrumParameters;
 use drumrs::physics::drum::baffle::{BaffleParameters, BaffleShape};
 use drumrs::physics::rotation::RotationSchedule;
@@ -117,8 +117,14 @@ fn put_together(draw: &Draw, mut baffles: BaffleParameters, mut walls: Vec<Vec<[
     let mass = draw.density * PI * diameter * diameter / 4.0;
     let parameters =
         |which: usize| parameters(&draw.laws[which], draw.hardness[which], mass, speed, diameter);
-    let contact = ContactParameters { bundle: parameters(0), drum: parameters(1) };
-    let (pairs, rim) = Laws::new(&contact.bundle, &contact.drum).collision_times(mass);
+    let contact = ContactTables {
+        bundle: parameters(0),
+        drum: parameters(1),
+        species: 1,
+        pairs: Vec::new(),
+        walls: Vec::new(),
+    };
+    let (pairs, rim) = SpeciesTable::new(1, &contact.bundle, &contact.drum).collision_times(mass);
     let time_step = pairs.min(rim) / draw.steps_a_collision;
     // Knots all over the run's 2 000 steps, the last beyond them.
     let knot = |(index, speed): (usize, &f64)| [500.0 * index as f64 * time_step, speed * natural / radius];
@@ -148,10 +154,10 @@ fn put_together(draw: &Draw, mut baffles: BaffleParameters, mut walls: Vec<Vec<[
 }
 
 /// Springs of a hardness k d² / (m v²): at 1000 a bundle that hits another at the greatest speed is pressed by a thirtieth of its size.
-fn parameters(law: &Law, hardness: f64, mass: f64, speed: f64, diameter: f64) -> LinearParameters {
+fn parameters(law: &Law, hardness: f64, mass: f64, speed: f64, diameter: f64) -> ContactParameters {
     let normal_stiffness = hardness * mass * (speed / diameter) * (speed / diameter);
     let critical = 2.0 * (normal_stiffness * mass).sqrt();
-    LinearParameters {
+    ContactParameters {
         normal_stiffness,
         stiffness_ratio: law.stiffness_ratio,
         restitution: law.loss.ok(),

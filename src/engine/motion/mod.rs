@@ -8,8 +8,8 @@ use crate::engine::forces::Bodies;
 use crate::physics::contact::species::SpeciesTable;
 use crate::physics::particles::Particles;
 
-/// Numbers in a flat array of vectors: as many as an offset of 16 bits can reach, and the one after it.
-const FLAT: usize = (1 << 16) + 1;
+/// Numbers in a flat array of vectors: as many as an offset of 16 bits can reach.
+const FLAT: usize = 1 << 16;
 
 /// Numbers in a flat array with one for each particle.
 const HALF: usize = 1 << 15;
@@ -306,10 +306,10 @@ pub struct FlatView<'a> {
     angular_velocity: &'a [f64; HALF],
 }
 
-/// An offset as an index that is within flat arrays for sure.
+/// An offset as an index that is even and within flat arrays for sure.
 #[inline(always)]
 pub fn flat(offset: u32) -> usize {
-    offset as u16 as usize
+    (offset & (FLAT as u32 - 2)) as usize
 }
 
 impl MotionView for FlatView<'_> {
