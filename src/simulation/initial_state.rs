@@ -75,7 +75,8 @@ impl InitialState {
         if !self.drum_angle.is_finite() {
             return Err(Error::config("state.drum_angle", self.drum_angle, "a finite number"));
         }
-        if !self.contacts.are_finite() {
+        let Lists { pairs, walls } = &self.contacts;
+        if !pairs.iter().chain(walls).all(ContactRecord::is_finite) {
             return Err(Error::config("state.contacts", "not finite", "finite"));
         }
         particles.validate()?;

@@ -90,7 +90,8 @@ impl Simulation {
             let found = Self::contacts_at_start(&config, &derived, &mut particles.clone(), rotation)?;
             let fresh = initial_state::missing(found, &contacts);
             initial_state::require_apart(&fresh, &particles, &derived.drum)?;
-            contacts.append(fresh);
+            contacts.pairs.extend(fresh.pairs);
+            contacts.walls.extend(fresh.walls);
         }
         let surfaces = columns(derived.drum.baffle_count(), derived.drum.wall_count()).len();
         let state = State {

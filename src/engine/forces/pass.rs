@@ -36,17 +36,6 @@ impl Lists {
     pub fn counts(&self) -> (usize, usize) {
         (self.pairs.len(), self.walls.len())
     }
-
-    /// Whether all numbers of all contacts are finite.
-    pub fn are_finite(&self) -> bool {
-        self.pairs.iter().chain(&self.walls).all(ContactRecord::is_finite)
-    }
-
-    /// Appends others.
-    pub fn append(&mut self, mut others: Self) {
-        self.pairs.append(&mut others.pairs);
-        self.walls.append(&mut others.walls);
-    }
 }
 
 /// The pass over contacts, whatever their law.
