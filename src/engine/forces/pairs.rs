@@ -193,7 +193,7 @@ where
         totals.add_flows(L::FLOWS, &response.flows);
         block.state = ContactState {
             overlap: contact.overlap.to_array(),
-            separation_rate: motion.separation_rate.to_array(),
+            separation_rate: contact.last_rate.to_array(),
             force_x: force.x.to_array(),
             force_y: force.y.to_array(),
             moment: moment.to_array(),
