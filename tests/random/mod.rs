@@ -164,5 +164,6 @@ fn parameters(law: &Law, hardness: f64, mass: f64, speed: f64, diameter: f64) ->
         normal_damping: law.loss.err().map(|ratio| ratio * critical),
         friction: law.friction,
         tension: if law.clipped { Tension::Clipped } else { Tension::Allowed },
+        rolling_friction: 0.0,
     }
 }

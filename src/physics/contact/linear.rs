@@ -218,6 +218,7 @@ mod tests {
             normal_damping: None,
             friction: 0.5,
             tension,
+            rolling_friction: 0.0,
         }
     }
 

@@ -16,6 +16,7 @@ pub mod law;
 pub mod linear;
 pub mod model;
 pub mod parameters;
+pub mod rolling;
 pub mod species;
 
 pub use kinematics::{Kinematics, Motion};
@@ -47,6 +48,8 @@ columns! {
         dissipated_normal,
         /// taken by sliding
         dissipated_sliding,
+        /// taken by rolling
+        dissipated_rolling,
     }
 }
 
@@ -57,6 +60,8 @@ columns! {
         elastic_normal,
         /// held by tangential springs
         elastic_tangential,
+        /// held by rolling springs
+        elastic_rolling,
     }
 }
 

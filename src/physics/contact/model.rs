@@ -2,10 +2,11 @@
 
 use super::law::WithTerms;
 use super::linear::Linear;
+use super::rolling::RollingResistance;
 use super::species::SpeciesTable;
 
 /// The terms that act with a base law, in this order.
-pub type Terms = ();
+pub type Terms = RollingResistance;
 
 /// The base law alone, tension allowed.
 pub type BareLaw = Linear<false>;
