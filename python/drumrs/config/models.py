@@ -120,6 +120,9 @@ class LinearContact(Part):
     rolling_friction: NonNegative = _key(
         0.0, "Coefficient of rolling friction: a rotational spring that yields at it; 0 for none"
     )
+    tangential_damping_ratio: NonNegative = _key(
+        0.0, "Damping ratio of a dashpot beside the tangential spring; 0 for none"
+    )
 
 
 class _SomeOfContact(Part):
@@ -132,6 +135,7 @@ class _SomeOfContact(Part):
     friction: NonNegative | None = None
     tension: Tension | None = None
     rolling_friction: NonNegative | None = None
+    tangential_damping_ratio: NonNegative | None = None
 
     @model_validator(mode="after")
     def _has_not_both_of_the_pair(self) -> Self:

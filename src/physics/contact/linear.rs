@@ -219,6 +219,7 @@ mod tests {
             friction: 0.5,
             tension,
             rolling_friction: 0.0,
+            tangential_damping_ratio: 0.0,
         }
     }
 

@@ -18,6 +18,7 @@ pub mod model;
 pub mod parameters;
 pub mod rolling;
 pub mod species;
+pub mod tangential_dashpot;
 
 pub use kinematics::{Kinematics, Motion};
 
@@ -48,6 +49,8 @@ columns! {
         dissipated_normal,
         /// taken by sliding
         dissipated_sliding,
+        /// taken by tangential dashpots
+        dissipated_tangential,
         /// taken by rolling
         dissipated_rolling,
     }

@@ -4,9 +4,10 @@ use super::law::WithTerms;
 use super::linear::Linear;
 use super::rolling::RollingResistance;
 use super::species::SpeciesTable;
+use super::tangential_dashpot::TangentialDashpot;
 
 /// The terms that act with a base law, in this order.
-pub type Terms = RollingResistance;
+pub type Terms = (RollingResistance, TangentialDashpot);
 
 /// The base law alone, tension allowed.
 pub type BareLaw = Linear<false>;
