@@ -36,6 +36,9 @@ fn config(stored: &Value) -> SimulationConfig {
     let contact = config["contact"].as_object_mut().expect("a table");
     contact.insert("species".into(), 1.into());
     for table in ["bundle", "drum"] {
+        contact[table]["adhesion"] = 0.0.into();
+    }
+    for table in ["bundle", "drum"] {
         contact[table]["tangential_damping_ratio"] = 0.0.into();
     }
     for table in ["bundle", "drum"] {

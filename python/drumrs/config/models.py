@@ -123,6 +123,7 @@ class LinearContact(Part):
     tangential_damping_ratio: NonNegative = _key(
         0.0, "Damping ratio of a dashpot beside the tangential spring; 0 for none"
     )
+    adhesion: NonNegative = _key(0.0, "Constant pull while bodies touch [N/m of depth]; 0 for none")
 
 
 class _SomeOfContact(Part):
@@ -136,6 +137,7 @@ class _SomeOfContact(Part):
     tension: Tension | None = None
     rolling_friction: NonNegative | None = None
     tangential_damping_ratio: NonNegative | None = None
+    adhesion: NonNegative | None = None
 
     @model_validator(mode="after")
     def _has_not_both_of_the_pair(self) -> Self:

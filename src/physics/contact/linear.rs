@@ -220,6 +220,7 @@ mod tests {
             tension,
             rolling_friction: 0.0,
             tangential_damping_ratio: 0.0,
+            adhesion: 0.0,
         }
     }
 

@@ -10,6 +10,7 @@
 //! Fₜ = kₛ ξ. The moments about the centers are M = a Fₜ + M_r on `i`, with a the arm from its center to the contact and
 //! M_r the rolling moment, and a' Fₜ − M_r on `j`.
 
+pub mod adhesion;
 mod friction;
 mod kinematics;
 pub mod law;
@@ -65,6 +66,8 @@ columns! {
         elastic_tangential,
         /// held by rolling springs
         elastic_rolling,
+        /// of adhesion, below zero while bodies touch
+        adhesion,
     }
 }
 

@@ -26,6 +26,8 @@ pub struct ContactParameters {
     pub rolling_friction: f64,
     /// Damping ratio ζₜ of the dashpot beside the tangential spring; 0 for none.
     pub tangential_damping_ratio: f64,
+    /// Pull F_c while the bodies touch [N/m]; 0 for none.
+    pub adhesion: f64,
 }
 
 /// What happens where spring and dashpot together would pull the bodies towards each other.
@@ -46,12 +48,13 @@ impl ContactParameters {
         require_non_negative(&format!("{key}.friction"), self.friction)?;
         require_non_negative(&format!("{key}.rolling_friction"), self.rolling_friction)?;
         require_non_negative(&format!("{key}.tangential_damping_ratio"), self.tangential_damping_ratio)?;
+        require_non_negative(&format!("{key}.adhesion"), self.adhesion)?;
         self.validate_damping(key)
     }
 
     /// Whether any term acts beside the base law.
     pub fn has_terms(&self) -> bool {
-        self.rolling_friction > 0.0 || self.tangential_damping_ratio > 0.0
+        [self.rolling_friction, self.tangential_damping_ratio, self.adhesion].iter().any(|&term| term > 0.0)
     }
 
     fn validate_damping(&self, key: &str) -> Result<(), Error> {
