@@ -3,9 +3,9 @@
 mod scenes;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use drumrs::engine::parallel::Threads;
 use drumrs::neighbors::{Surroundings, VerletList};
 use drumrs::physics::vector::Rotation;
-use drumrs::engine::parallel::Threads;
 
 fn rebuilds(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("rebuild");

@@ -29,6 +29,22 @@ pub enum Error {
         diameter: f64,
     },
 
+    /// Bodies that overlap at the start.
+    #[error(
+        "{one} and {other} overlap by {:.3} % of the smaller radius, but may by at most {:.0} %: springs would throw them apart; move them, or start from a state of a simulation, which brings its contacts along",
+        100.0 * .ratio, 100.0 * .limit
+    )]
+    StartOverlap {
+        /// The key of a bundle.
+        one: String,
+        /// The index of another one, or a part of the drum.
+        other: String,
+        /// Overlap over the smaller radius.
+        ratio: f64,
+        /// The limit of that ratio.
+        limit: f64,
+    },
+
     /// A particle's state stopped being a number.
     #[error("the state of bundle {} is no longer finite at {}; shorten run.time_step", .incident.particle, .incident.moment())]
     NonFinite {

@@ -123,9 +123,8 @@ fn friction_accounts_for_its_own_work() {
         let (response, after) = respond(&law, 1e-6, [0.0, slip], [1e-6, stretch]);
         let work = 0.5 * (law.tangential_stiffness * stretch + response.tangential_force) * slip;
         let [held, holds] = [before, after].map(|history| Linear::<true>::stored(&law, 1e-6, &history));
-        let left = work
-            - (holds.elastic_tangential - held.elastic_tangential)
-            - response.flows.dissipated_sliding;
+        let left =
+            work - (holds.elastic_tangential - held.elastic_tangential) - response.flows.dissipated_sliding;
         assert!(left.abs() < 1e-12 * held.elastic_normal);
     }
 }

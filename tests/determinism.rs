@@ -3,13 +3,13 @@
 mod common;
 
 use common::*;
+use drumrs::engine::memory_order;
+use drumrs::engine::parallel::Threads;
 use drumrs::io::checkpoint;
 use drumrs::io::config::SimulationConfig;
-use drumrs::engine::memory_order;
 use drumrs::physics::vector::Vec2;
 use drumrs::simulation::Simulation;
 use drumrs::simulation::initial_state::InitialState;
-use drumrs::engine::parallel::Threads;
 use proptest::prelude::*;
 
 /// Long enough for bundles to roll over each other, the rim and baffles once they lie in a bed.

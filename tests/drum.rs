@@ -231,7 +231,8 @@ fn a_run_that_blows_up_is_not_finite() {
     config.contact.drum.normal_stiffness = 1e-280;
     config.run.time_step = None;
     config.gravity = [0.0, -1e200];
-    let mut simulation = start(&config, several(&[([0.0, 0.0], [0.0, 0.0], 0.0), ([1.0, 0.0], [0.0, 0.0], 0.0)]));
+    let mut simulation =
+        start(&config, several(&[([0.0, 0.0], [0.0, 0.0], 0.0), ([1.0, 0.0], [0.0, 0.0], 0.0)]));
     let error = simulation.run(1_000_000).unwrap_err();
     let Error::NonFinite { incident } = &error else { panic!("{error}") };
     assert_eq!((incident.particle, incident.step), (0, 1));

@@ -3,8 +3,8 @@
 mod common;
 
 use common::*;
-use drumrs::physics::contact::parameters::Tension;
 use drumrs::io::config::SimulationConfig;
+use drumrs::physics::contact::parameters::Tension;
 use drumrs::simulation::Simulation;
 
 fn tumbled(config: &SimulationConfig, seconds: f64) -> Simulation {

@@ -21,13 +21,8 @@ fn every_variant_has_its_message() {
         packing.to_string(),
         "load.count is 400, but must be at most 361: no more bundles of diameter 0.02375 m fit into this drum"
     );
-    let incident = Incident {
-        particle: 812,
-        step: 40_210,
-        time: 0.148_777,
-        position: [0.200_04, -0.1],
-        speed: 1.25,
-    };
+    let incident =
+        Incident { particle: 812, step: 40_210, time: 0.148_777, position: [0.200_04, -0.1], speed: 1.25 };
     let non_finite = Error::NonFinite { incident: incident.clone() };
     assert_eq!(
         non_finite.to_string(),

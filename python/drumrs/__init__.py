@@ -13,7 +13,7 @@ from typing import Any
 
 from drumrs import errors
 from drumrs.config import Config, baseline
-from drumrs.errors import CheckpointError, ConfigError, DrumrsError, UnstableError
+from drumrs.errors import CheckpointError, ConfigError, DrumrsError, DrumrsWarning, UnstableError
 from drumrs.frames import Frames
 from drumrs.protocol import run
 from drumrs.result import Result, Summary, load
@@ -30,6 +30,7 @@ __all__ = [
     "Config",
     "ConfigError",
     "DrumrsError",
+    "DrumrsWarning",
     "Frames",
     "Result",
     "Simulation",

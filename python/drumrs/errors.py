@@ -1,4 +1,4 @@
-"""What can go wrong, as four exceptions; each message is one sentence with the value and the limit.
+"""What can go wrong, as four exceptions and a warning; each message is one sentence with the value and the limit.
 
 The core raises the same classes, by importing this module: so every error pickles, whichever side it comes from.
 """
@@ -26,3 +26,7 @@ class UnstableError(DrumrsError, RuntimeError):
 
 class CheckpointError(DrumrsError, ValueError):
     """A checkpoint that is truncated, damaged or of another version."""
+
+
+class DrumrsWarning(UserWarning):
+    """Something that a configuration does and that its author may not expect; said at the start, with ways out."""

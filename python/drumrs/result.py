@@ -19,6 +19,9 @@ if TYPE_CHECKING:
 
     from drumrs.viewer import Player
 
+# What a run leaves instead of summary.json where it ended unstable.
+UNSTABLE = "unstable.json"
+
 
 @dataclass(frozen=True)
 class Summary:
@@ -188,14 +191,12 @@ class Result:
         """
         folder = Path(folder)
         folder.mkdir(parents=True, exist_ok=True)
-        write_whole(folder / "config.toml", self.config.to_toml().encode())
-        write_table(folder / "series.parquet", self.series, {"units": json.dumps(dict(self.units))})
-        self.frames.save(folder / "frames.parquet")
+        written = write_tables(folder, self.config, self.series, self.frames, self.units)
         drawn = self._draw(folder) if pictures else []
         # The summary comes last: a folder that has one is complete.
         write_whole(folder / "summary.json", f"{self.summary.to_json()}\n".encode())
-        names = ("config.toml", "series.parquet", "frames.parquet", "summary.json")
-        return [folder / name for name in names] + drawn
+        (folder / UNSTABLE).unlink(missing_ok=True)
+        return [*written, folder / "summary.json", *drawn]
 
     def _draw(self, folder: Path) -> list[Path]:
         from drumrs import figures
@@ -217,6 +218,16 @@ class Result:
         return [folder / name for name in drawings] + players
 
 
+def write_tables(
+    folder: Path, config: Config, series: "pl.DataFrame", frames: Frames, units: "Mapping[str, str]"
+) -> list[Path]:
+    """Write config.toml, series.parquet and frames.parquet; return their paths."""
+    write_whole(folder / "config.toml", config.to_toml().encode())
+    write_table(folder / "series.parquet", series, {"units": json.dumps(dict(units))})
+    frames.save(folder / "frames.parquet")
+    return [folder / name for name in ("config.toml", "series.parquet", "frames.parquet")]
+
+
 def load(folder: str | Path) -> Result:
     """Read what `Result.save` wrote.
 
@@ -229,6 +240,12 @@ def load(folder: str | Path) -> Result:
 
     folder = Path(folder)
     if not (folder / "summary.json").is_file():
+        ended = read_object(folder / UNSTABLE)
+        if ended is not None:
+            raise ConfigError(
+                f"{str(folder)!r} holds a run that ended unstable, but must be the folder of a finished run: "
+                f"{ended.get('error')}; its series.parquet, frames.parquet and player.html show it to the end"
+            )
         raise ConfigError(f"{str(folder)!r} holds no summary.json, but must be the folder of a finished run")
     try:
         series = io.BytesIO(read_plain(folder / "series.parquet"))

@@ -5,8 +5,8 @@ import math
 import os
 import threading
 import time
+import warnings
 from collections.abc import Callable, Mapping
-from dataclasses import fields
 from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from drumrs import _core
 from drumrs.checkpoint import read_checkpoint, write_checkpoint
 from drumrs.config import Config
-from drumrs.errors import CheckpointError, ConfigError, DrumrsError
+from drumrs.errors import CheckpointError, ConfigError, DrumrsError, DrumrsWarning
 from drumrs.frames import Frames
 from drumrs.limits import (
     check_steps,
@@ -55,6 +55,11 @@ class Simulation:
     ConfigError
         Where no such simulation can be; the sentence names key, value and limit.
 
+    Warns
+    -----
+    DrumrsWarning
+        Where contacts stick for ever, or make the time step "auto" much shorter.
+
     Examples
     --------
     >>> import drumrs
@@ -79,6 +84,8 @@ class Simulation:
         self._start(config, core)
         require_samples(config, self.time_step)
         require_memory(config, self.count, self.time_step)
+        for sentence in self.warnings:
+            warnings.warn(sentence, DrumrsWarning, stacklevel=2)
 
     def _start(self, config: Config, core: _core.Simulation) -> None:
         self._config = config
@@ -277,8 +284,16 @@ class Simulation:
 
     @property
     def state(self) -> State:
-        """Where the bundles are now; a simulation started from it has new contacts, unlike one loaded."""
-        return State(**{field.name: getattr(self._core, field.name) for field in fields(State)})
+        """Where the bundles and the drum are now, and the contacts: a simulation started from it goes on from here.
+
+        It may have another configuration, so a load can settle before friction or speed changes. Its time begins at 0.
+        """
+        return State(**self._core.state())
+
+    @property
+    def warnings(self) -> list[str]:
+        """What this simulation does that one may not expect, a sentence each; they are warned of at the start."""
+        return self._core.warnings
 
     @property
     def series(self) -> "pl.DataFrame":
@@ -325,14 +340,9 @@ class Simulation:
         means = self._core.summary(start, end)
         # The window as the samples allow it.
         first, last = (means[name] or 0.0 for name in ("window_start", "window_end"))
-        known = {**self._known(), **self._timing(), **self._mean_force(first, last)}
-        return Summary.from_mapping({**known, **means})
-
-    def _known(self) -> dict[str, float]:
-        """Return what no average is needed for."""
         filled = math.fsum((2.0 * self.radii) ** 2) / self._config.drum.diameter**2
-        counts = {"bundle_count": self.count, "steps": self.step}
-        return {**counts, "fill": filled, "time_step": self.time_step}
+        known = {"bundle_count": self.count, "steps": self.step, "fill": filled, "time_step": self.time_step}
+        return Summary.from_mapping({**known, **self._timing(), **self._mean_force(first, last), **means})
 
     def _mean_force(self, start: float, end: float) -> dict[str, float]:
         """Return the force of the load on all parts of the drum, a mean over the interval between two samples."""
@@ -398,7 +408,9 @@ def _restored(config: Config, data: bytes, threads: int) -> Simulation:
 # A fork keeps none of this process's other threads: it has to wait until none of them is inside a simulation.
 if hasattr(os, "register_at_fork"):
     os.register_at_fork(
-        before=_core.close_gate, after_in_parent=_core.open_gate, after_in_child=_core.open_gate_alone
+        before=_core.close_fork_guard,
+        after_in_parent=_core.open_fork_guard,
+        after_in_child=_core.open_fork_guard_in_child,
     )
 
 

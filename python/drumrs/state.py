@@ -1,13 +1,28 @@
 """`State`: a given start, instead of a random packing."""
 
-from dataclasses import dataclass, fields
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from drumrs.config.fields import GREATEST_SPECIES
+from drumrs.config.report import show
 from drumrs.errors import ConfigError
 
+_FLOATS = ("positions", "velocities", "angles", "angular_velocities", "radii")
 _PAIRS_OF_NUMBERS = {"positions", "velocities"}
+# What a contact is told by; the core's `ContactRecord` has the same fields.
+_CONTACT: dict[str, type] = {
+    "particle": np.uint32,
+    "other": np.uint32,
+    "overlap": np.float64,
+    "separation_rate": np.float64,
+    "force": np.float64,
+    "moments": np.float64,
+    "history": np.float64,
+}
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,6 +39,17 @@ class State:
         Angles [rad] and spins [rad/s], counter-clockwise, shape (n,).
     radii
         Radii [m], shape (n,).
+    species
+        Species, whole numbers below ``contact.species``, shape (n,).
+    drum_angle
+        Angle of the drum at t = 0 [rad].
+    contacts
+        The contacts with what they remember, as `Simulation.state` has them: tables "pairs" and "walls" of arrays, in
+        the order in which the contacts opened. A contact whose bodies do not overlap as it says is left out.
+
+    Notes
+    -----
+    Bodies may overlap at the start by at most 10 % of the smaller radius, but for those whose contact comes along.
     """
 
     positions: ArrayLike
@@ -31,28 +57,63 @@ class State:
     angles: ArrayLike | None = None
     angular_velocities: ArrayLike | None = None
     radii: ArrayLike | None = None
+    species: ArrayLike | None = None
+    drum_angle: float = 0.0
+    contacts: Mapping[str, Mapping[str, ArrayLike]] | None = None
 
-    def arrays(self) -> dict[str, NDArray[np.float64]]:
-        """Return the given arrays as the core reads them.
+    def arrays(self) -> dict[str, Any]:
+        """Return what is given as the core reads it.
 
         Raises
         ------
         ConfigError
             Where an array has another shape or holds something but numbers.
         """
-        given = {field.name: getattr(self, field.name) for field in fields(self)}
-        arrays = {name: _floats(name, value) for name, value in given.items() if value is not None}
+        given = {name: getattr(self, name) for name in (*_FLOATS, "species")}
+        arrays = {name: _numbers(name, value) for name, value in given.items() if value is not None}
         count = len(arrays["positions"]) if arrays["positions"].ndim else 0
         for name, array in arrays.items():
             pairs = name in _PAIRS_OF_NUMBERS
             if array.shape != ((count, 2) if pairs else (count,)) or not count:
                 wanted = f"{'(n, 2)' if pairs else '(n,)'} with n = {count or 'at least 1'}"
                 raise ConfigError(f"state.{name} is of shape {array.shape}, but must be of shape {wanted}")
-        return arrays
+        told: dict[str, Any] = {**arrays, "drum_angle": _angle(self.drum_angle)}
+        return told if self.contacts is None else {**told, "contacts": _contacts(self.contacts)}
 
 
-def _floats(name: str, value: ArrayLike) -> NDArray[np.float64]:
+def _numbers(name: str, value: ArrayLike) -> NDArray[Any]:
+    if name != "species":
+        return _floats(f"state.{name}", value)
+    whole = _floats("state.species", value)
+    if not ((whole >= 0) & (whole < GREATEST_SPECIES) & (whole == np.floor(whole))).all():
+        raise ConfigError(
+            f"state.species is {show(whole.tolist())}, "
+            f"but must be of whole numbers from 0 to {GREATEST_SPECIES - 1}"
+        )
+    return whole.astype(np.uint16)
+
+
+def _floats(key: str, value: ArrayLike) -> NDArray[np.float64]:
     try:
         return np.ascontiguousarray(value, dtype=np.float64)
     except (TypeError, ValueError):
-        raise ConfigError(f"state.{name} is {value!r:.60}, but must be an array of numbers") from None
+        raise ConfigError(f"{key} is {value!r:.60}, but must be an array of numbers") from None
+
+
+def _angle(value: float) -> float:
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        raise ConfigError(f"state.drum_angle is {value!r:.60}, but must be a number") from None
+
+
+def _contacts(contacts: Mapping[str, Mapping[str, ArrayLike]]) -> dict[str, dict[str, NDArray[Any]]]:
+    try:
+        return {
+            kind: {name: np.ascontiguousarray(contacts[kind][name], kept) for name, kept in _CONTACT.items()}
+            for kind in ("pairs", "walls")
+        }
+    except (TypeError, ValueError, KeyError, IndexError, OverflowError):
+        raise ConfigError(
+            f"state.contacts is {show(contacts)}, but must be the contacts of a simulation's state"
+        ) from None

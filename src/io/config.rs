@@ -85,14 +85,27 @@ impl ContactTables {
         Ok(table)
     }
 
+    /// The key of what acts between two species; of several that say it, the last counts.
+    pub fn pair_key(&self, one: u16, other: u16) -> String {
+        let named = |(a, b, _): &(u16, u16, _)| (*a, *b) == (one, other) || (*a, *b) == (other, one);
+        let found = self.pairs.iter().rposition(named);
+        found.map_or_else(|| "contact.bundle".into(), |index| format!("contact.pairs[{index}]"))
+    }
+
+    /// The key of what acts between a species and the drum.
+    pub fn wall_key(&self, species: u16) -> String {
+        let found = self.walls.iter().rposition(|(own, _)| *own == species);
+        found.map_or_else(|| "contact.drum".into(), |index| format!("contact.walls[{index}]"))
+    }
+
     fn validate(&self) -> Result<(), Error> {
         self.bundle.validate("contact.bundle")?;
         self.drum.validate("contact.drum")?;
-        for (one, other, parameters) in &self.pairs {
-            parameters.validate(&format!("contact.pairs[{one}, {other}]"))?;
+        for (index, (_, _, parameters)) in self.pairs.iter().enumerate() {
+            parameters.validate(&format!("contact.pairs[{index}]"))?;
         }
-        for (species, parameters) in &self.walls {
-            parameters.validate(&format!("contact.walls[{species}]"))?;
+        for (index, (_, parameters)) in self.walls.iter().enumerate() {
+            parameters.validate(&format!("contact.walls[{index}]"))?;
         }
         self.table().map(|_| ())
     }

@@ -1,13 +1,15 @@
 //! Between numpy arrays and the core's vectors. What leaves is handed over, not copied again.
 
 use numpy::ndarray::{Array2, Array3};
-use numpy::{IntoPyArray, PyArray2, PyArray3, PyReadonlyArray1, PyReadonlyArray2};
+use numpy::{Element, IntoPyArray, PyArray2, PyArray3, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
+use crate::engine::contacts::ContactRecord;
+use crate::engine::forces::Lists;
 use crate::error::Error;
 use crate::physics::vector::Vec2;
-use crate::start::InitialState;
+use crate::simulation::initial_state::InitialState;
 
 /// Vectors as an array of shape (n, 2).
 pub fn vectors<'py>(py: Python<'py>, vectors: &[Vec2]) -> Bound<'py, PyArray2<f64>> {
@@ -42,8 +44,20 @@ pub fn initial_state(state: &Bound<'_, PyDict>) -> Result<InitialState, Error> {
             "angles" => initial.angles = Some(numbers(&name, &value)?),
             "angular_velocities" => initial.angular_velocities = Some(numbers(&name, &value)?),
             "radii" => initial.radii = Some(numbers(&name, &value)?),
+            "species" => initial.species = Some(column(&format!("state.{name}"), &value)?),
+            "drum_angle" => {
+                initial.drum_angle = value
+                    .extract()
+                    .map_err(|_| Error::config("state.drum_angle", "something else", "a number"))?
+            }
+            "contacts" => {
+                initial.contacts = Lists {
+                    pairs: records("state.contacts.pairs", &value, "pairs")?,
+                    walls: records("state.contacts.walls", &value, "walls")?,
+                };
+            }
             _ => {
-                let known = "positions, velocities, angles, angular_velocities or radii";
+                let known = "positions, velocities, angles, angular_velocities, radii, species, drum_angle or contacts";
                 return Err(Error::config("a field of the state", name, known));
             }
         }
@@ -62,8 +76,80 @@ fn pairs(name: &str, value: &Bound<'_, PyAny>) -> Result<Vec<Vec2>, Error> {
 }
 
 fn numbers(name: &str, value: &Bound<'_, PyAny>) -> Result<Vec<f64>, Error> {
-    let array: PyReadonlyArray1<f64> = value.extract().map_err(|_| {
-        Error::config(format!("state.{name}"), "something else", "an array of floats of shape (n,)")
-    })?;
+    column(&format!("state.{name}"), value)
+}
+
+fn column<T: Element + Copy>(key: &str, value: &Bound<'_, PyAny>) -> Result<Vec<T>, Error> {
+    let array: PyReadonlyArray1<T> = value
+        .extract()
+        .map_err(|_| Error::config(key, "something else", "an array of numbers of shape (n,)"))?;
     Ok(array.as_array().to_vec())
+}
+
+/// Rows of `N` numbers.
+fn rows<const N: usize>(key: &str, value: &Bound<'_, PyAny>) -> Result<Vec<[f64; N]>, Error> {
+    let limit = || format!("an array of floats of shape (n, {N})");
+    let array: PyReadonlyArray2<f64> =
+        value.extract().map_err(|_| Error::config(key, "something else", limit()))?;
+    let array = array.as_array();
+    if array.ncols() != N {
+        return Err(Error::config(key, "of another shape", limit()));
+    }
+    Ok(array.rows().into_iter().map(|row| std::array::from_fn(|k| row[k])).collect())
+}
+
+/// Contacts as a dict of arrays, one for each field of a record.
+///
+/// # Errors
+/// What Python answers.
+pub fn contact_table<'py>(py: Python<'py>, records: &[ContactRecord]) -> PyResult<Bound<'py, PyDict>> {
+    fn grid<'py, const N: usize>(
+        py: Python<'py>,
+        records: &[ContactRecord],
+        value: fn(&ContactRecord) -> [f64; N],
+    ) -> Bound<'py, PyArray2<f64>> {
+        let flat: Vec<f64> = records.iter().flat_map(value).collect();
+        Array2::from_shape_vec((records.len(), N), flat).expect("N numbers a record").into_pyarray(py)
+    }
+    let ids = |value: fn(&ContactRecord) -> u32| records.iter().map(value).collect::<Vec<_>>();
+    let floats = |value: fn(&ContactRecord) -> f64| records.iter().map(value).collect::<Vec<_>>();
+    let table = PyDict::new(py);
+    table.set_item("particle", ids(|record| record.particle).into_pyarray(py))?;
+    table.set_item("other", ids(|record| record.other).into_pyarray(py))?;
+    table.set_item("overlap", floats(|record| record.overlap).into_pyarray(py))?;
+    table.set_item("separation_rate", floats(|record| record.separation_rate).into_pyarray(py))?;
+    table.set_item("force", grid(py, records, |record| record.force))?;
+    table.set_item("moments", grid(py, records, |record| record.moments))?;
+    table.set_item("history", grid(py, records, |record| record.history))?;
+    Ok(table)
+}
+
+/// The contacts of one kind in what `contact_table` gave, by kind.
+fn records(key: &str, contacts: &Bound<'_, PyAny>, kind: &str) -> Result<Vec<ContactRecord>, Error> {
+    let wrong = || Error::config(key, "something else", "the contacts of a simulation's state");
+    let table = contacts.get_item(kind).map_err(|_| wrong())?;
+    let field = |name: &str| table.get_item(name).map_err(|_| wrong());
+    let particle: Vec<u32> = column(key, &field("particle")?)?;
+    let other: Vec<u32> = column(key, &field("other")?)?;
+    let overlap: Vec<f64> = column(key, &field("overlap")?)?;
+    let separation_rate: Vec<f64> = column(key, &field("separation_rate")?)?;
+    let force = rows(key, &field("force")?)?;
+    let moments = rows(key, &field("moments")?)?;
+    let history = rows(key, &field("history")?)?;
+    let count = particle.len();
+    let lengths =
+        [other.len(), overlap.len(), separation_rate.len(), force.len(), moments.len(), history.len()];
+    if lengths.iter().any(|&length| length != count) {
+        return Err(Error::config(key, "of several lengths", "of one length"));
+    }
+    let record = |k: usize| ContactRecord {
+        particle: particle[k],
+        other: other[k],
+        overlap: overlap[k],
+        separation_rate: separation_rate[k],
+        force: force[k],
+        moments: moments[k],
+        history: history[k],
+    };
+    Ok((0..count).map(record).collect())
 }

@@ -8,7 +8,7 @@ use crate::error::Error;
 /// The Python exception for a core error. The classes live in Python, so that they pickle by name.
 pub fn to_python(py: Python<'_>, error: &Error) -> PyErr {
     let class = match error {
-        Error::Config { .. } | Error::Packing { .. } => "ConfigError",
+        Error::Config { .. } | Error::Packing { .. } | Error::StartOverlap { .. } => "ConfigError",
         Error::NonFinite { .. } | Error::Overlap { .. } | Error::Escaped { .. } | Error::TooFast { .. } => {
             "UnstableError"
         }

@@ -2,7 +2,8 @@
 
 mod arrays;
 mod error;
-mod gate;
+mod fair_lock;
+mod fork_guard;
 mod simulation;
 
 /// The compiled core of drumrs. Use the package `drumrs` instead.
@@ -29,20 +30,20 @@ mod _core {
 
     /// Before a fork: waits until no thread is inside a simulation, and keeps them out.
     #[pyfunction]
-    fn close_gate(py: Python<'_>) {
-        py.detach(super::gate::close);
+    fn close_fork_guard(py: Python<'_>) {
+        py.detach(super::fork_guard::close);
     }
 
     /// After a fork, in the parent.
     #[pyfunction]
-    fn open_gate() {
-        super::gate::open();
+    fn open_fork_guard() {
+        super::fork_guard::open();
     }
 
     /// After a fork, in the child.
     #[pyfunction]
-    fn open_gate_alone() {
-        super::gate::open_alone();
+    fn open_fork_guard_in_child() {
+        super::fork_guard::open_in_child();
     }
 }
 

@@ -1,11 +1,11 @@
 //! `drumrs._core.Simulation`: the one class.
 //!
 //! The simulation sits behind a lock that is only ever waited for with the interpreter released, so that other Python
-//! threads may look at it, or stop it, between two slices of a run. The lock is taken behind a turnstile: who waits for
-//! the simulation holds the turnstile, so a run cannot take the next slice before its reader.
+//! threads may look at it, or stop it, between two slices of a run. Every slice leaves it up to date: looking never moves
+//! anything, and where slices end does not show in a bit.
 
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Mutex, MutexGuard, PoisonError, mpsc};
+use std::sync::mpsc;
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -15,7 +15,8 @@ use pyo3::types::{PyBytes, PyDict};
 
 use super::arrays;
 use super::error::to_python;
-use super::gate::Inside;
+use super::fair_lock::FairLock;
+use super::fork_guard::Entered;
 use crate::error::Error;
 use crate::io::config::SimulationConfig;
 use crate::observe::recorder::{Column, columns};
@@ -23,41 +24,32 @@ use crate::observe::summary::summarize;
 use crate::physics::particles::Particles;
 use crate::simulation::Simulation as Core;
 
-/// How long a run keeps the interpreter waiting for signals at most, but for the least number of steps.
+/// How long a slice of a run takes, after which signals are looked for.
 const SLICE: Duration = Duration::from_millis(30);
+/// The least number of steps of a slice: to end one and to begin another costs a small part of a step.
+const SLICE_STEPS: u64 = 50;
+/// How long so many steps may take, so that a signal is heard within a second at any size.
+const LONGEST_SLICE: Duration = Duration::from_millis(500);
+/// Particles times steps of the first slice, whose speed is not known yet: a tenth of a second on a slow machine.
+const FIRST_SLICE: u64 = 500_000;
 
 /// A drum with its load; see `drumrs.Simulation`.
 #[pyclass(frozen, module = "drumrs._core")]
 pub struct Simulation {
-    core: Mutex<Core>,
-    turnstile: Mutex<()>,
+    core: FairLock<Core>,
     stop: AtomicBool,
 }
 
 impl Simulation {
     fn around(core: Core) -> Self {
-        Self { core: Mutex::new(core), turnstile: Mutex::new(()), stop: AtomicBool::new(false) }
+        Self { core: FairLock::new(core), stop: AtomicBool::new(false) }
     }
 
-    fn lock(&self) -> MutexGuard<'_, Core> {
-        let _next = self.turnstile.lock().unwrap_or_else(PoisonError::into_inner);
-        self.core.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
-    /// Shows `look` the core with the interpreter released.
-    fn with<T: Send>(&self, py: Python<'_>, look: impl FnOnce(&mut Core) -> T + Send) -> T {
-        self.under_way(py, |core| {
-            // Between two slices of a run. Where that fails, who runs it is told.
-            let _ = core.arrive();
-            look(core)
-        })
-    }
-
-    /// The same for a core whose particles may not be up to date.
-    fn under_way<T: Send>(&self, py: Python<'_>, work: impl FnOnce(&mut Core) -> T + Send) -> T {
+    /// Lets `work` have the core, between two slices of a run, with the interpreter released.
+    fn with<T: Send>(&self, py: Python<'_>, work: impl FnOnce(&mut Core) -> T + Send) -> T {
         py.detach(|| {
-            let _inside = Inside::enter();
-            work(&mut self.lock())
+            let _entered = Entered::enter();
+            work(&mut self.core.lock())
         })
     }
 
@@ -66,24 +58,20 @@ impl Simulation {
         self.with(py, |core| core.state().particles.by_id(values(&core.state().particles)))
     }
 
-    /// Does steps until step `end` or until a slice of time is over; returns the step. Somebody else may have done one since the
-    /// last slice, to look.
+    /// Does steps until step `end` or until a slice of time is over; returns the step.
     fn slice(&self, py: Python<'_>, end: u64, pace: &mut Pace) -> Result<u64, Error> {
-        self.under_way(py, |core| {
-            let (start, left) = (now(), end.saturating_sub(core.state().step));
-            if pace.steps < left {
-                core.run_on(pace.steps)?;
-            } else {
-                core.run(left)?;
-            }
-            pace.adapt(start.elapsed());
+        self.with(py, |core| {
+            let steps = pace.steps.min(end.saturating_sub(core.state().step));
+            let start = now();
+            core.run(steps)?;
+            pace.adapt(steps, start.elapsed());
             Ok(core.state().step)
         })
     }
 
     /// Runs slice by slice until step `end`, a signal or a stop.
     fn run_until(&self, py: Python<'_>, end: u64, progress: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
-        let (mut step, mut pace) = (self.step(py), Pace { steps: 1 });
+        let (mut step, mut pace) = (self.step(py), Pace::of(self.count(py)));
         while step < end && !self.stop.load(Ordering::Relaxed) {
             step = self.slice(py, end, &mut pace).map_err(|error| to_python(py, &error))?;
             py.check_signals()?;
@@ -101,10 +89,17 @@ struct Pace {
 }
 
 impl Pace {
-    fn adapt(&mut self, elapsed: Duration) {
+    /// Of the first slice of a load.
+    fn of(count: usize) -> Self {
+        Self { steps: (FIRST_SLICE / (count as u64).max(1)).clamp(1, SLICE_STEPS) }
+    }
+
+    fn adapt(&mut self, steps: u64, elapsed: Duration) {
+        let step = (elapsed.as_secs_f64() / steps.max(1) as f64).max(1e-9);
+        let fitting = |time: Duration| (time.as_secs_f64() / step) as u64;
         // The first steps are slower than the rest, and few: slices grow fast, but not at one bound.
-        let factor = (SLICE.as_secs_f64() / elapsed.as_secs_f64().max(1e-6)).min(4.0);
-        self.steps = ((self.steps as f64 * factor) as u64).max(1);
+        let wanted = fitting(SLICE).min(4 * self.steps);
+        self.steps = wanted.max(SLICE_STEPS.min(fitting(LONGEST_SLICE))).max(1);
     }
 }
 
@@ -171,10 +166,7 @@ impl Simulation {
     #[pyo3(signature = (steps, progress = None))]
     fn run(&self, py: Python<'_>, steps: u64, progress: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
         self.stop.store(false, Ordering::Relaxed);
-        let outcome = self.run_until(py, self.step(py).saturating_add(steps), progress);
-        // Whatever ended it, the particles are left up to date.
-        let arrived = self.under_way(py, Core::arrive).map_err(|error| to_python(py, &error));
-        outcome.and(arrived)
+        self.run_until(py, self.step(py).saturating_add(steps), progress)
     }
 
     fn stop(&self) {
@@ -259,6 +251,31 @@ impl Simulation {
     #[getter]
     fn masses<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
         self.by_id(py, |particles| &particles.masses).into_pyarray(py)
+    }
+
+    /// Everything that `State` has a field for, all at one moment.
+    fn state<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let (particles, drum_angle, contacts) =
+            self.with(py, |core| (core.state().particles.clone(), core.drum_angle(), core.contacts_by_id()));
+        let by_id = |values: &[f64]| particles.by_id(values).into_pyarray(py);
+        let state = PyDict::new(py);
+        state.set_item("positions", arrays::vectors(py, &particles.by_id(&particles.positions)))?;
+        state.set_item("velocities", arrays::vectors(py, &particles.by_id(&particles.velocities)))?;
+        state.set_item("angles", by_id(&particles.angles))?;
+        state.set_item("angular_velocities", by_id(&particles.angular_velocities))?;
+        state.set_item("radii", by_id(&particles.radii))?;
+        state.set_item("species", particles.by_id(&particles.species).into_pyarray(py))?;
+        state.set_item("drum_angle", drum_angle)?;
+        let tables = PyDict::new(py);
+        tables.set_item("pairs", arrays::contact_table(py, &contacts.pairs)?)?;
+        tables.set_item("walls", arrays::contact_table(py, &contacts.walls)?)?;
+        state.set_item("contacts", tables)?;
+        Ok(state)
+    }
+
+    #[getter]
+    fn warnings(&self, py: Python<'_>) -> Vec<String> {
+        self.with(py, |core| core.warnings().iter().map(ToString::to_string).collect())
     }
 
     #[getter]

@@ -72,9 +72,13 @@ impl Simulation {
         }
     }
 
-    /// Records the frame at which a run has stopped on an error, so that what went wrong can be looked at.
+    /// Records the frame at which a run has stopped on an error, so that what went wrong can be looked at. The step that fails
+    /// records none itself. What single precision cannot hold is no picture.
     pub(super) fn record_end(&mut self) {
-        if self.state.particles.first_non_finite().is_none() && !self.is_frame_due() {
+        let particles = &self.state.particles;
+        let is_shown = |v: &Vec2| (v.x as f32).is_finite() && (v.y as f32).is_finite();
+        let shown = particles.positions.iter().chain(&particles.velocities).all(is_shown);
+        if shown && particles.first_non_finite().is_none() {
             self.push_frame();
         }
     }

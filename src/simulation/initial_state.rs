@@ -1,8 +1,11 @@
 //! How a simulation starts: a load that is packed at random, or a given state.
 
+use std::collections::BTreeSet;
+
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
+use crate::engine::contacts::ContactRecord;
 use crate::engine::forces::Lists;
 use crate::error::Error;
 use crate::io::config::SimulationConfig;
@@ -72,25 +75,80 @@ impl InitialState {
         if !self.drum_angle.is_finite() {
             return Err(Error::config("state.drum_angle", self.drum_angle, "a finite number"));
         }
+        let Lists { pairs, walls } = &self.contacts;
+        if !pairs.iter().chain(walls).all(ContactRecord::is_finite) {
+            return Err(Error::config("state.contacts", "not finite", "finite"));
+        }
         particles.validate()?;
         Ok(particles)
     }
 }
 
-/// Refuses bundles whose centers are outside of the drum or within a baffle.
+/// The deepest overlap of two bodies at the start, over the smaller radius, that no contact of the state accounts for. The
+/// springs of Table 1 throw bundles apart that overlap by as much with 12 m/s.
+pub const START_OVERLAP_LIMIT: f64 = 0.1;
+
+/// Refuses bundles as large as the drum, and such whose centers are outside of it, in a baffle or on a wall.
 ///
 /// # Errors
 /// `Error::Config` naming the first of them.
 pub fn require_inside(drum: &Drum, particles: &Particles, rotation: Rotation) -> Result<(), Error> {
-    let inside = |center: &Vec2| drum.clearance(rotation.apply_inverse(*center)) > 0.0;
-    match particles.positions.iter().position(|center| !inside(center)) {
+    let (radii, positions) = (&particles.radii, &particles.positions);
+    let rim = drum.radius().unwrap_or(f64::INFINITY);
+    if let Some(i) = radii.iter().position(|&radius| radius >= rim) {
+        let limit = format!("smaller than the drum's radius {rim}");
+        return Err(Error::config(format!("state.radii[{i}]"), radii[i], limit));
+    }
+    let in_frame = |i: usize| rotation.apply_inverse(positions[i]);
+    match (0..positions.len()).find(|&i| drum.clearance(in_frame(i)) <= 0.0) {
         None => Ok(()),
         Some(i) => {
-            let (x, y) = (particles.positions[i].x, particles.positions[i].y);
+            let (x, y) = (positions[i].x, positions[i].y);
+            let on_wall = || (0..drum.feature_count()).find(|&f| drum.distance_to(f, in_frame(i)) == 0.0);
+            let surface = drum.solid_at(in_frame(i)).or_else(|| Some(drum.surface_of(on_wall()?)));
             let limit = "inside the drum and outside of its baffles";
+            let limit = format!("{limit}: there is the {}", drum.surface_name(surface.unwrap_or(0)));
             Err(Error::config(format!("state.positions[{i}]"), format!("[{x}, {y}]"), limit))
         }
     }
+}
+
+/// Refuses bodies that overlap by more than `START_OVERLAP_LIMIT` at the start.
+///
+/// # Errors
+/// `Error::StartOverlap` naming the two that overlap most.
+pub fn require_apart(contacts: &Lists, particles: &Particles, drum: &Drum) -> Result<(), Error> {
+    let radius = |place: u32| particles.radii[place as usize];
+    let name = |place: u32| particles.ids[place as usize];
+    let pairs = contacts.pairs.iter().map(|record| {
+        (record.overlap / radius(record.particle).min(radius(record.other)), record.key(), true)
+    });
+    let walls =
+        contacts.walls.iter().map(|record| (record.overlap / radius(record.particle), record.key(), false));
+    let deepest = pairs.chain(walls).max_by(|a, b| a.0.total_cmp(&b.0));
+    match deepest {
+        Some((ratio, (particle, other), is_pair)) if ratio > START_OVERLAP_LIMIT => {
+            let (one, other) = if is_pair {
+                let (one, other) = (name(particle), name(other));
+                (one.min(other), format!("[{}]", one.max(other)))
+            } else {
+                (name(particle), format!("the {}", drum.surface_name(drum.surface_of(other))))
+            };
+            let limit = START_OVERLAP_LIMIT;
+            Err(Error::StartOverlap { one: format!("state.positions[{one}]"), other, ratio, limit })
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Of the contacts `found` those that are not among the `given`.
+pub fn missing(found: Lists, given: &Lists) -> Lists {
+    let keys = |records: &[ContactRecord]| records.iter().map(ContactRecord::key).collect::<BTreeSet<_>>();
+    let (pairs, walls) = (keys(&given.pairs), keys(&given.walls));
+    let fresh = |records: Vec<ContactRecord>, known: &BTreeSet<_>| {
+        records.into_iter().filter(|record| !known.contains(&record.key())).collect()
+    };
+    Lists { pairs: fresh(found.pairs, &pairs), walls: fresh(found.walls, &walls) }
 }
 
 /// The configured load at packed positions, each bundle with the start speed in a random direction.
@@ -110,7 +168,7 @@ pub fn packed(config: &SimulationConfig, positions: Vec<Vec2>, seed: u64) -> Par
     particles
 }
 
-/// Of some contacts those whose bodies, at these places, overlap as the contacts say.
+/// Of some contacts those whose bodies, at these places, overlap as the contacts say; of equal keys the first.
 pub fn matching(contacts: &Lists, particles: &Particles, drum: &Drum, rotation: Rotation) -> Lists {
     let count = particles.len();
     let is_same =
@@ -135,7 +193,11 @@ pub fn matching(contacts: &Lists, particles: &Particles, drum: &Drum, rotation: 
             })
         }
     });
-    Lists { pairs: pairs.copied().collect(), walls: walls.copied().collect() }
+    let (mut known_pairs, mut known_walls) = (BTreeSet::new(), BTreeSet::new());
+    Lists {
+        pairs: pairs.filter(|record| known_pairs.insert(record.key())).copied().collect(),
+        walls: walls.filter(|record| known_walls.insert(record.key())).copied().collect(),
+    }
 }
 
 /// Adds what contacts do to the forces and torques of their particles. Returns what the drum's surfaces do to the load.

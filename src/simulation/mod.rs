@@ -7,6 +7,7 @@ pub mod initial_state;
 mod run;
 pub mod state;
 mod views;
+pub mod warnings;
 
 use derived::Derived;
 use initial_state::InitialState;
@@ -33,6 +34,8 @@ pub struct Simulation {
     /// Follows from the configuration.
     derived: Derived,
     engine: Engine,
+    /// The step at which the load is looked at, recorded or sorted next.
+    next_event: u64,
     failure: Option<Error>,
 }
 
@@ -85,6 +88,13 @@ impl Simulation {
             particles.reorder(&order);
             relabel(&mut contacts, &places);
         }
+        if contacts != Lists::default() {
+            let found = Self::contacts_at_start(&config, &derived, &mut particles.clone(), rotation)?;
+            let fresh = initial_state::missing(found, &contacts);
+            initial_state::require_apart(&fresh, &particles, &derived.drum)?;
+            contacts.pairs.extend(fresh.pairs);
+            contacts.walls.extend(fresh.walls);
+        }
         let surfaces = columns(derived.drum.baffle_count(), derived.drum.wall_count()).len();
         let state = State {
             step: 0,
@@ -101,9 +111,26 @@ impl Simulation {
         let engine_state = EngineState { contacts, totals: Vec::new() };
         let mut simulation = Self::assemble(config, seed, threads, state, &engine_state, derived);
         simulation.open(&engine_state);
+        if engine_state.contacts == Lists::default() {
+            let found = simulation.contacts();
+            initial_state::require_apart(&found, &simulation.state.particles, simulation.drum())?;
+        }
         simulation.guard(simulation.state.particles.mass_moment())?;
         simulation.record();
         Ok(simulation)
+    }
+
+    /// The contacts that particles have which have just been put there.
+    fn contacts_at_start(
+        config: &SimulationConfig,
+        derived: &Derived,
+        particles: &mut Particles,
+        rotation: Rotation,
+    ) -> Result<Lists, Error> {
+        let mut engine = Engine::new(particles, derived.world(), skin(config, particles), Threads::new(1)?);
+        let angular_velocity = config.rotation.angular_velocity(0.0);
+        engine.open(particles, derived.world(), DrumMotion { rotation, angular_velocity, duration: 0.0 });
+        Ok(engine.pass().contacts())
     }
 
     /// Puts a simulation together around a state; the pair list will be built at the first step.
@@ -127,11 +154,11 @@ impl Simulation {
         engine_state: &EngineState,
         derived: Derived,
     ) -> Self {
-        let skin = config.run.skin.unwrap_or(DEFAULT_SKIN * state.particles.largest_radius());
+        let skin = skin(&config, &state.particles);
         let mut engine = Engine::new(&state.particles, derived.world(), skin, threads);
         engine.insert(&engine_state.contacts, &state.particles, derived.world());
         engine.pass_mut().set_totals(&engine_state.totals);
-        Self { config, seed, state, derived, engine, failure: None }
+        Self { config, seed, state, derived, engine, next_event: 0, failure: None }
     }
 
     /// First forces, opened accounts.
@@ -175,3 +202,7 @@ impl Simulation {
 
 /// Margin of the pair list in radii of the largest bundle; speed is flat from 0.4 to 1 at 100 … 10 000 bundles.
 const DEFAULT_SKIN: f64 = 0.8;
+
+fn skin(config: &SimulationConfig, particles: &Particles) -> f64 {
+    config.run.skin.unwrap_or(DEFAULT_SKIN * particles.largest_radius())
+}

@@ -4,6 +4,7 @@ use super::Simulation;
 use super::derived;
 use super::state::State;
 use crate::engine::forces::Lists;
+use crate::engine::relabel;
 use crate::error::Error;
 use crate::io::config::SimulationConfig;
 use crate::physics::drum::Drum;
@@ -42,6 +43,13 @@ impl Simulation {
     /// The contacts.
     pub fn contacts(&self) -> Lists {
         self.engine.pass().contacts()
+    }
+
+    /// The contacts by id, in the same order.
+    pub fn contacts_by_id(&self) -> Lists {
+        let mut contacts = self.contacts();
+        relabel(&mut contacts, &self.state.particles.ids);
+        contacts
     }
 
     /// The drum.

@@ -52,7 +52,9 @@ fn steps(simulation: &mut Simulation) {
             let bytes = simulation.to_checkpoint().expect("a good simulation has a checkpoint");
             assert!(Simulation::from_checkpoint(&bytes, 1).is_ok(), "its own checkpoint is accepted");
         }
-        Err(Error::NonFinite { .. } | Error::Overlap { .. } | Error::Escaped { .. } | Error::TooFast { .. }) => {}
+        Err(
+            Error::NonFinite { .. } | Error::Overlap { .. } | Error::Escaped { .. } | Error::TooFast { .. },
+        ) => {}
         Err(other) => panic!("no error of a run: {other}"),
     }
 }

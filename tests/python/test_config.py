@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from pydantic import BaseModel
 
 import drumrs
-from drumrs.config import Config
+from drumrs.config import Config, PairContact, WallContact
 from drumrs.config.report import dotted_keys, part_of
 from drumrs.errors import ConfigError
 
@@ -25,6 +25,16 @@ tension = st.sampled_from(["allowed", "clipped"])
 def knots(times):
     return tuple((time, 10.0 * time - 3.0) for time in sorted(times))
 
+
+contact_keys = {
+    "normal_stiffness": positive,
+    "stiffness_ratio": positive,
+    "restitution": st.floats(0.001, 1.0),
+    "friction": non_negative,
+    "tension": tension,
+}
+pair_law = st.fixed_dictionaries({"between": st.just((0, 0))}, optional=contact_keys)
+wall_law = st.fixed_dictionaries({"species": st.just(0)}, optional=contact_keys)
 
 # A strategy for every key. Keys whose limits depend on others have values that suit the baseline.
 VALUES = {
@@ -46,6 +56,9 @@ VALUES = {
     "load.count": st.integers(1, 1000),
     "load.start_speed": non_negative,
     "load.spin_locked": st.booleans(),
+    "contact.species": st.integers(1, 256),
+    "contact.pairs": st.lists(pair_law.map(lambda law: PairContact(**law)), max_size=1).map(tuple),
+    "contact.walls": st.lists(wall_law.map(lambda law: WallContact(**law)), max_size=1).map(tuple),
     "gravity": point,
     "run.time_step": positive | st.just("auto"),
     "run.duration": st.floats(30.0, 1e6),
@@ -59,14 +72,7 @@ VALUES = {
 } | {
     f"contact.{kind}.{key}": strategy
     for kind in ("bundle", "drum")
-    for key, strategy in {
-        "normal_stiffness": positive,
-        "stiffness_ratio": positive,
-        "restitution": st.floats(0.001, 1.0),
-        "normal_damping": non_negative,
-        "friction": non_negative,
-        "tension": tension,
-    }.items()
+    for key, strategy in {**contact_keys, "normal_damping": non_negative}.items()
 }
 
 

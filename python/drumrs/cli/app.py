@@ -1,7 +1,10 @@
 """The command `drumrs`: its list of commands, and what an error becomes."""
 
 import sys
-from collections.abc import Sequence
+import warnings
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from typing import Any
 
 from cyclopts import App, CycloptsError
 
@@ -14,7 +17,7 @@ from drumrs.cli.run import run
 from drumrs.cli.sweep import sweep
 from drumrs.cli.verify import verify
 from drumrs.cli.view import view
-from drumrs.errors import CheckpointError, ConfigError, UnstableError
+from drumrs.errors import CheckpointError, ConfigError, DrumrsWarning, UnstableError
 from drumrs.files import NO_ROOM
 
 _BAD_INPUT = 2
@@ -55,7 +58,8 @@ def run_command(arguments: Sequence[str] | None = None) -> int:
     """Run the command line; return 0, 1 (the run failed), 2 (bad input) or 130 (Ctrl-C)."""
     words = sys.argv[1:] if arguments is None else list(arguments)
     try:
-        status = app(words, exit_on_error=False, print_error=False)
+        with _warnings_in_a_line():
+            status = app(words, exit_on_error=False, print_error=False)
     except (ConfigError, CheckpointError) as error:
         return _complain(str(error), _BAD_INPUT)
     except CycloptsError as error:
@@ -72,6 +76,23 @@ def run_command(arguments: Sequence[str] | None = None) -> int:
             raise
         return _complain(str(interrupt) or "interrupted", _INTERRUPTED)
     return status if isinstance(status, int) else 0
+
+
+@contextmanager
+def _warnings_in_a_line() -> Iterator[None]:
+    """Show warnings of drumrs as the command's other sentences; others as always."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("default", DrumrsWarning)
+        shown = warnings.showwarning
+
+        def show(message: Warning | str, category: type[Warning], *place: Any, **more: Any) -> None:
+            if issubclass(category, DrumrsWarning):
+                sys.stderr.write(f"drumrs: note that {message}\n")
+            else:
+                shown(message, category, *place, **more)
+
+        warnings.showwarning = show
+        yield
 
 
 def _complain(sentence: str, status: int) -> int:

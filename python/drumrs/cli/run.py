@@ -11,11 +11,13 @@ from drumrs.cli.options import Seed, Settings, Threads, check_folder, layered
 from drumrs.cli.tables import print_paths, print_table
 from drumrs.config import Config
 from drumrs.config.softening import softening
-from drumrs.errors import ConfigError
+from drumrs.errors import ConfigError, UnstableError
 from drumrs.precision import Goal, pursue
 from drumrs.progress import board
 from drumrs.protocol import announce, finish
+from drumrs.result import UNSTABLE
 from drumrs.simulation import Simulation
+from drumrs.unstable import UnstableRun, refuse_to_repeat
 
 _CHECKPOINT = "checkpoint.bin"
 
@@ -45,7 +47,8 @@ def run(
     case
         TOML file with some keys of `drumrs config`.
     out
-        Folder for summary.json, series.parquet, frames.parquet, config.toml, pictures, player.html and checkpoints.
+        Folder for summary.json, series.parquet, frames.parquet, config.toml, pictures, player.html and checkpoints. A
+        run that ends unstable leaves unstable.json instead of summary.json and pictures; the rest shows its end.
     json
         Print the summary as one JSON object, and nothing else, on standard output.
     resume
@@ -66,6 +69,7 @@ def run(
             )
         out = resume
         simulation = Simulation.load(out / _CHECKPOINT, threads)
+        refuse_to_repeat(out, simulation)
         goal = _goal(until, limit, _first_duration(out, simulation.config))
         check_folder(out, "--resume")
     else:
@@ -75,7 +79,11 @@ def run(
             check_folder(out)
         simulation = Simulation(config, threads=threads)
         _open_folder(out, simulation.config)
-    reached = _finish(simulation, out, goal)
+    try:
+        reached = _finish(simulation, out, goal)
+    except UnstableError as error:
+        _keep_unstable(simulation, out, error)
+        raise
     result = simulation.result()
     written = result.save(out) if out is not None else []
     if json:
@@ -115,12 +123,22 @@ def _open_folder(folder: Path | None, config: Config) -> None:
         return
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        (folder / "summary.json").unlink(missing_ok=True)
+        for name in ("summary.json", UNSTABLE):
+            (folder / name).unlink(missing_ok=True)
         (folder / "config.toml").write_text(config.to_toml(), encoding="utf-8")
     except OSError as error:
         raise ConfigError(
             f"--out is {str(folder)!r}, but must be a folder that can be written: {error.strerror}"
         ) from None
+
+
+def _keep_unstable(simulation: Simulation, out: Path | None, error: UnstableError) -> None:
+    """Save what was recorded until a run ended unstable, and say where."""
+    if out is None:
+        sys.stderr.write("drumrs: nothing is kept of this run without --out\n")
+        return
+    UnstableRun.of(simulation, error).save(out)
+    sys.stderr.write(f"drumrs: what was recorded is in {out}; look at its end with: drumrs view {out}\n")
 
 
 def _finish(simulation: Simulation, out: Path | None, goal: Goal | None) -> str:

@@ -6,7 +6,17 @@ writes TOML, `boundary` translates for the compiled core.
 """
 
 from drumrs.config.layers import merge, nest, parse_settings
-from drumrs.config.models import Baffles, Contact, Drum, LinearContact, Load, Rotation, Run
+from drumrs.config.models import (
+    Baffles,
+    Contact,
+    Drum,
+    LinearContact,
+    Load,
+    PairContact,
+    Rotation,
+    Run,
+    WallContact,
+)
 from drumrs.config.root import Config, baseline, read_toml_file
 
 __all__ = [
@@ -16,8 +26,10 @@ __all__ = [
     "Drum",
     "LinearContact",
     "Load",
+    "PairContact",
     "Rotation",
     "Run",
+    "WallContact",
     "baseline",
     "merge",
     "nest",

@@ -4,7 +4,7 @@ import math
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from drumrs.config.models import Drum, Rotation, Run
+    from drumrs.config.models import Contact, Drum, Rotation, Run
     from drumrs.config.root import Config
 
 
@@ -14,7 +14,7 @@ def core_config(config: "Config", bundle_count: int) -> dict[str, Any]:
         "drum": _drum(config.drum),
         "rotation": {"knots": _knots(config.rotation)},
         "load": {**config.load.model_dump(exclude={"fill"}), "count": bundle_count},
-        "contact": config.contact.model_dump(),
+        "contact": _contact(config.contact),
         "gravity": list(config.gravity),
         "run": _run(config.run),
     }
@@ -26,6 +26,16 @@ def _drum(drum: "Drum") -> dict[str, Any]:
         "radius": drum.diameter / 2.0 if drum.rim else None,
         "baffles": {**baffles, "phase": math.radians(drum.baffles.phase)},
         "walls": drum.walls,
+    }
+
+
+def _contact(contact: "Contact") -> dict[str, Any]:
+    return {
+        "bundle": contact.bundle.model_dump(),
+        "drum": contact.drum.model_dump(),
+        "species": contact.species,
+        "pairs": [(*law.between, law.over(contact.bundle).model_dump()) for law in contact.pairs],
+        "walls": [(law.species, law.over(contact.drum).model_dump()) for law in contact.walls],
     }
 
 

@@ -53,7 +53,13 @@ def literal(value: Any) -> str:
     --------
     >>> literal(9.25e7), literal((0.0, -9.81)), literal("auto"), literal(True)
     ('9.25e+7', '[0.0, -9.81]', '"auto"', 'true')
+    >>> literal({"species": 1, "friction": 0.3})
+    '{ species = 1, friction = 0.3 }'
     """
+    if isinstance(value, BaseModel):
+        value = value.model_dump(exclude_none=True)
+    if isinstance(value, dict):
+        return f"{{ {', '.join(f'{key} = {literal(item)}' for key, item in value.items())} }}"
     if isinstance(value, (list, tuple)):
         return f"[{', '.join(literal(item) for item in value)}]"
     if isinstance(value, float) and abs(value) >= _LARGE:

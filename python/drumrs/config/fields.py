@@ -60,6 +60,25 @@ BundleCount = Annotated[
 BaffleCount = Annotated[
     int, BeforeValidator(_plain), _WHOLE, Field(ge=0, le=1000), Limit("a whole number from 0 to 1000")
 ]
+GREATEST_SPECIES = 256
+
+SpeciesCount = Annotated[
+    int,
+    BeforeValidator(_plain),
+    _WHOLE,
+    Field(ge=1, le=GREATEST_SPECIES),
+    Limit(f"a whole number from 1 to {GREATEST_SPECIES}"),
+]
+Species = Annotated[
+    int,
+    BeforeValidator(_plain),
+    _WHOLE,
+    Field(ge=0, lt=GREATEST_SPECIES),
+    Limit(f"a whole number from 0 to {GREATEST_SPECIES - 1}"),
+]
+TwoSpecies = Annotated[
+    tuple[Species, Species], BeforeValidator(_plain), Limit("a pair [species, species] of whole numbers")
+]
 Seed = Annotated[
     int,
     BeforeValidator(_plain),

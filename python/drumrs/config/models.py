@@ -7,6 +7,7 @@ from pydantic import Field, model_validator
 
 from drumrs.config import fields
 from drumrs.config.fields import Flag, Limit, NonNegative, Positive, Real
+from drumrs.config.layers import both_given, merge
 from drumrs.config.part import Part
 from drumrs.config.report import relation, show
 
@@ -116,13 +117,84 @@ class LinearContact(Part):
     )
     friction: NonNegative = _key(0.5, "Coefficient of friction")
     tension: Tension = _key("allowed", "Whether the dashpot may pull: 'allowed' (the paper) or 'clipped'")
+    rolling_friction: NonNegative = _key(
+        0.0, "Coefficient of rolling friction: a rotational spring that yields at it; 0 for none"
+    )
+    tangential_damping_ratio: NonNegative = _key(
+        0.0, "Damping ratio of a dashpot beside the tangential spring; 0 for none"
+    )
+    adhesion: NonNegative = _key(0.0, "Constant pull while bodies touch [N/m of depth]; 0 for none")
+
+
+class _SomeOfContact(Part):
+    """Some keys of a contact table; the rest is that of a whole one."""
+
+    normal_stiffness: Positive | None = None
+    stiffness_ratio: Positive | None = None
+    restitution: fields.Restitution | None = None
+    normal_damping: NonNegative | None = None
+    friction: NonNegative | None = None
+    tension: Tension | None = None
+    rolling_friction: NonNegative | None = None
+    tangential_damping_ratio: NonNegative | None = None
+    adhesion: NonNegative | None = None
+
+    @model_validator(mode="after")
+    def _has_not_both_of_the_pair(self) -> Self:
+        if self.restitution is not None and self.normal_damping is not None:
+            values = {"restitution": self.restitution, "normal_damping": self.normal_damping}
+            raise relation(both_given("{at}", values, values))
+        return self
+
+    def over(self, whole: LinearContact) -> LinearContact:
+        """Return the whole table with these keys in place of its own."""
+        own = {key: getattr(self, key) for key in LinearContact.model_fields}
+        return LinearContact.model_validate(merge(LinearContact, whole.model_dump(), _given(own)))
+
+
+class PairContact(_SomeOfContact):
+    """What acts between two species instead of ``contact.bundle``."""
+
+    between: fields.TwoSpecies
+
+
+class WallContact(_SomeOfContact):
+    """What acts between a species and the drum instead of ``contact.drum``."""
+
+    species: fields.Species
+
+
+def _given(values: dict[str, Any]) -> dict[str, Any]:
+    return {key: value for key, value in values.items() if value is not None}
 
 
 class Contact(Part):
     """The contact laws: bundle against bundle, bundle against drum."""
 
+    species: fields.SpeciesCount = _key(
+        1, "Number of species; a state tells which bundle is of which, from 0"
+    )
+    pairs: Annotated[tuple[PairContact, ...], Limit("a list of tables with the key between")] = _key(
+        (), "Laws between two species: { between = [0, 1], friction = 0.3 }, the rest as in contact.bundle"
+    )
+    walls: Annotated[tuple[WallContact, ...], Limit("a list of tables with the key species")] = _key(
+        (),
+        "Laws between a species and the drum: { species = 1, friction = 0.3 }, the rest as in contact.drum",
+    )
     bundle: LinearContact = Field(default=LinearContact(normal_stiffness=9.25e7, restitution=0.1))
     drum: LinearContact = Field(default=LinearContact(normal_stiffness=9.70e7, restitution=0.1))
+
+    @model_validator(mode="after")
+    def _laws_are_of_species_that_there_are(self) -> Self:
+        named = [(f"pairs[{index}].between", sorted(law.between)) for index, law in enumerate(self.pairs)]
+        named += [(f"walls[{index}].species", [law.species]) for index, law in enumerate(self.walls)]
+        for index, (key, species) in enumerate(named):
+            if species[-1] >= self.species:
+                raise relation(f"{{at}}{key} is {species}, but must be below {{at}}species = {self.species}")
+            earlier = next((other for other, its in named[:index] if its == species), None)
+            if earlier is not None:
+                raise relation(f"{{at}}{key} is {species}, but must not be that of {{at}}{earlier}")
+        return self
 
 
 class Run(Part):

@@ -17,7 +17,7 @@ def sentence(root: type[BaseModel], error: ValidationError) -> str:
     problems = error.errors(include_url=False)
     problem = next((p for p in problems if p["type"] == "extra_forbidden"), problems[0])
     if problem["type"] == "extra_forbidden":
-        return _unknown_key(root, [str(part) for part in problem["loc"]])
+        return _unknown_key(root, problem["loc"])
     if problem["type"] == _RELATION:
         at = "".join(f"{part}." for part in problem["loc"])
         return str(problem["ctx"]["text"]).replace("{at}", at)
@@ -58,14 +58,20 @@ def dotted_keys(model: type[BaseModel], at: str = "") -> Iterator[str]:
             yield from dotted_keys(part, f"{at}{key}.")
 
 
-def _unknown_key(root: type[BaseModel], path: Sequence[str]) -> str:
-    key = ".".join(path)
-    sought = key[:_LONGEST_VALUE]
-    table: type[BaseModel] | None = root
+def _unknown_key(root: type[BaseModel], path: Sequence[str | int]) -> str:
+    annotation: Any = root
+    prefix = ""
     for part in path[:-1]:
-        table = part_of(table, part) if table is not None else None
-    prefix = "".join(f"{part}." for part in path[:-1])
-    siblings = [f"{prefix}{name}" for name in table.model_fields] if table is not None else []
+        if isinstance(part, int):
+            annotation = _element(annotation, part)
+            prefix = f"{prefix.removesuffix('.')}[{part}]."
+        else:
+            field = annotation.model_fields.get(part) if _is_table(annotation) else None
+            annotation = field.annotation if field is not None else None
+            prefix = f"{prefix}{part}."
+    key = f"{prefix}{path[-1]}"
+    sought = key[:_LONGEST_VALUE]
+    siblings = [f"{prefix}{name}" for name in annotation.model_fields] if _is_table(annotation) else []
     known = list(dotted_keys(root))
     close = difflib.get_close_matches(sought, siblings, n=1, cutoff=0.8)
     close = close or [name for name in known if name.endswith(f".{path[-1]}")]
@@ -74,6 +80,10 @@ def _unknown_key(root: type[BaseModel], path: Sequence[str]) -> str:
     if close:
         return f"{shown} is not a key; did you mean {close[0]}?"
     return f"{shown} is not a key; the keys there are {', '.join(siblings)}"
+
+
+def _is_table(annotation: Any) -> bool:
+    return isinstance(annotation, type) and issubclass(annotation, BaseModel)
 
 
 def _refused_value(root: type[BaseModel], problem: ErrorDetails) -> str:
@@ -93,7 +103,7 @@ def _locate(root: type[BaseModel], path: Sequence[str | int]) -> tuple[str, str]
     key, limit = "", "a table of keys"
     annotation: Any = root
     for step in path:
-        if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        if _is_table(annotation):
             field = annotation.model_fields.get(str(step))
             if field is None:
                 break

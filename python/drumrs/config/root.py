@@ -15,7 +15,7 @@ from drumrs.config.layers import merge, nest, read_toml
 from drumrs.config.models import Contact, Drum, Load, Rotation, Run
 from drumrs.config.part import Part
 from drumrs.config.report import relation
-from drumrs.config.softening import softening
+from drumrs.config.softening import layer, softening
 from drumrs.errors import ConfigError
 
 
@@ -122,7 +122,7 @@ class Config(Part):
         >>> config.contact.bundle.normal_stiffness, f"{config.run.time_step:.3g}"
         (925000.0, '3.7e-05')
         """
-        return self.replace({key: after for key, (_, after) in softening(self, factor).items()})
+        return self.replace(layer(self, softening(self, factor)))
 
     def to_toml(self, *, comments: bool = True) -> str:
         """Return the configuration as TOML, each key with its unit and meaning unless `comments` is false."""

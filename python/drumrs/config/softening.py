@@ -1,11 +1,14 @@
 """Softer springs and the time step to match: what changes, and from what to what."""
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from drumrs.errors import ConfigError
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from drumrs.config.models import Contact, LinearContact, PairContact, WallContact
     from drumrs.config.root import Config
 
 
@@ -24,12 +27,31 @@ def softening(config: "Config", factor: float, name: str = "softer") -> dict[str
         raise ConfigError(f"{name} is {factor}, but must be a finite number of at least 1")
     root = math.sqrt(factor)
     changes: dict[str, tuple[float, float]] = {}
-    for side, law in (("bundle", config.contact.bundle), ("drum", config.contact.drum)):
-        at = f"contact.{side}.normal"
-        changes[f"{at}_stiffness"] = (law.normal_stiffness, law.normal_stiffness / factor)
+    for at, law in _laws(config.contact):
+        if law.normal_stiffness is not None:
+            changes[f"{at}_stiffness"] = (law.normal_stiffness, law.normal_stiffness / factor)
         if law.normal_damping is not None:
             changes[f"{at}_damping"] = (law.normal_damping, law.normal_damping / root)
     step = config.run.time_step
     if not isinstance(step, str):
         changes["run.time_step"] = (step, step * root)
     return changes
+
+
+def _laws(contact: "Contact") -> "Iterator[tuple[str, LinearContact | PairContact | WallContact]]":
+    """List the tables that hold a stiffness, each with the beginning of its keys."""
+    yield from (("contact.bundle.normal", contact.bundle), ("contact.drum.normal", contact.drum))
+    yield from ((f"contact.pairs[{index}].normal", law) for index, law in enumerate(contact.pairs))
+    yield from ((f"contact.walls[{index}].normal", law) for index, law in enumerate(contact.walls))
+
+
+def layer(config: "Config", changes: dict[str, tuple[float, float]]) -> dict[str, Any]:
+    """Return the changes as a layer: those of a table in a list need the whole list."""
+    after: dict[str, Any] = {key: new for key, (_, new) in changes.items() if "[" not in key}
+    for name, laws in (("pairs", config.contact.pairs), ("walls", config.contact.walls)):
+        tables = [law.model_dump(exclude_none=True) for law in laws]
+        for index, table in enumerate(tables):
+            at = f"contact.{name}[{index}]."
+            table |= {key.removeprefix(at): new for key, (_, new) in changes.items() if key.startswith(at)}
+        after |= {f"contact.{name}": tables} if tables else {}
+    return after

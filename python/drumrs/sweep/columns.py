@@ -1,5 +1,6 @@
 """Columns of a sweep's table: what a case is, its seed, the summary of its run, what its series tells."""
 
+import json
 from collections.abc import Iterator
 from dataclasses import asdict, fields
 from functools import cache
@@ -96,6 +97,8 @@ def _flat(values: dict[str, Any], kinds: dict[str, Any], at: str = "") -> Iterat
 
 
 def _plain(value: Any, kind: Any) -> Any:
+    if _is_table(_element(kind)):
+        return [json.dumps({key: item for key, item in table.items() if item is not None}) for table in value]
     return None if isinstance(value, str) and get_origin(_bare(kind)) is not Literal else value
 
 
@@ -110,10 +113,23 @@ def _bare(kind: Any) -> Any:
     return kind
 
 
+def _element(kind: Any) -> Any:
+    """Return the type of the elements of a list, `None` for what is none."""
+    kind = _bare(kind)
+    return _bare(get_args(kind)[0]) if get_origin(kind) is tuple else None
+
+
+def _is_table(kind: Any) -> bool:
+    return isinstance(kind, type) and issubclass(kind, BaseModel)
+
+
 def _type(kind: Any) -> Any:
+    """Return the polars type of a column; a table in a list stands there as JSON."""
     import polars as pl
 
     kind = _bare(kind)
+    if _is_table(kind):
+        return pl.String
     if get_origin(kind) is tuple:
         return pl.List(_type(get_args(kind)[0]))
     if get_origin(kind) is Literal:

@@ -87,16 +87,17 @@ def _panel(panel: Panel) -> Mapping[str, Any]:
 
 
 def _thinned(frames: Frames) -> Frames:
-    """Leave out frames, evenly, where there are more than a page can hold."""
+    """Leave out frames, evenly, where there are more than a page can hold; the last one stays."""
     every = math.ceil(len(frames) * frames.count / _MOST_PLACES)
     if every <= 1:
         return frames
+    kept = np.unique([*range(0, len(frames), every), len(frames) - 1])
     return Frames(
-        times=frames.times[::every],
-        drum_angles=frames.drum_angles[::every],
-        positions=frames.positions[::every],
-        angles=frames.angles[::every],
-        speeds=frames.speeds[::every],
+        times=frames.times[kept],
+        drum_angles=frames.drum_angles[kept],
+        positions=frames.positions[kept],
+        angles=frames.angles[kept],
+        speeds=frames.speeds[kept],
         radii=frames.radii,
         drum_radius=frames.drum_radius,
         baffles=frames.baffles,

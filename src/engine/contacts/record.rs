@@ -47,6 +47,13 @@ impl ContactRecord {
         (self.particle, self.other)
     }
 
+    /// Whether all its numbers are finite.
+    pub fn is_finite(&self) -> bool {
+        let rates = [self.overlap, self.separation_rate];
+        let numbers = rates.iter().chain(&self.force).chain(&self.moments).chain(&self.history);
+        numbers.copied().all(f64::is_finite)
+    }
+
     /// The same contact between two particles at other places in memory; the first is body i.
     #[must_use]
     pub fn between(mut self, particle: u32, other: u32) -> Self {

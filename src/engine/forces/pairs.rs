@@ -108,31 +108,28 @@ where
         scratch: &mut Scratch,
     ) {
         let Scratch { meetings, ended } = scratch;
-        // In a place of their own the sums stay in registers.
-        let mut own_totals = *totals;
         for (group, (blocks, ids)) in blocks.chunks_mut(GROUP).zip(ids.chunks(GROUP)).enumerate() {
             let first = GROUP * group;
-            for (index, (ids, meeting)) in ids.iter().zip(&mut *meetings).enumerate() {
-                *meeting = self.meet(ids, &(self.parameters)(first + index).1);
-            }
+            self.meet_all(first, ids, meetings);
             for (index, ((block, ids), meeting)) in blocks.iter_mut().zip(ids).zip(&*meetings).enumerate() {
                 let index = first + index;
                 let other = if BOTH { Some(&mut other_moments[index]) } else { None };
-                let touching = self.advance(
-                    block,
-                    ids,
-                    meeting,
-                    &(self.parameters)(index),
-                    other,
-                    sums,
-                    &mut own_totals,
-                );
+                let touching =
+                    self.advance(block, ids, meeting, &(self.parameters)(index), other, sums, totals);
                 if touching != ALL_LANES {
                     ended.push(index as u32);
                 }
             }
         }
-        *totals = own_totals;
+    }
+
+    /// Where the bodies of some blocks meet, the first of which is `first`. A function of its own, for which the registers
+    /// suffice.
+    #[inline(never)]
+    fn meet_all(&self, first: usize, ids: &[Ids], meetings: &mut [Meeting; GROUP]) {
+        for (index, (ids, meeting)) in ids.iter().zip(meetings).enumerate() {
+            *meeting = self.meet(ids, &(self.parameters)(first + index).1);
+        }
     }
 
     /// Where the bodies of a block meet.
@@ -196,7 +193,7 @@ where
         totals.add_flows(L::FLOWS, &response.flows);
         block.state = ContactState {
             overlap: contact.overlap.to_array(),
-            separation_rate: contact.middle_rate.to_array(),
+            separation_rate: contact.last_rate.to_array(),
             force_x: force.x.to_array(),
             force_y: force.y.to_array(),
             moment: moment.to_array(),

@@ -43,8 +43,8 @@ pub struct Kinematics<S: Scalar> {
     pub roll: S,
     /// Rate of separation at the time of the force [m/s].
     pub separation_rate: S,
-    /// Rate of separation in the middle of the step [m/s].
-    pub middle_rate: S,
+    /// Rate of separation in the middle of the step [m/s], to be remembered.
+    pub last_rate: S,
     /// Rate of slip in the middle of the step [m/s].
     pub slip_rate: S,
     /// Whether the contact has just opened.
@@ -67,10 +67,11 @@ impl<S: Scalar> Kinematics<S> {
         let mut approach = motion.overlap - last.overlap;
         let mut slip = (motion.slip_rate * time_step).within(touching);
         let mut roll = (motion.rolling_rate * time_step).within(touching);
+        // By how much the bodies parted in the step; the velocity along the normal at its end also turns with the normal.
+        let mut rate = -(approach * step_rate);
         let mut last_rate = last.separation_rate;
-        let mut middle_rate = -(approach * step_rate);
         if S::any(opening) {
-            middle_rate = S::select(opening, motion.separation_rate, middle_rate);
+            rate = S::select(opening, motion.separation_rate, rate);
             last_rate = S::select(opening, motion.separation_rate, last_rate);
             approach = S::select(opening, -(motion.separation_rate * time_step), approach);
             let is_shorter = opening & approach.exceeds(travel);
@@ -78,7 +79,7 @@ impl<S: Scalar> Kinematics<S> {
             slip = slip * contact_fraction;
             roll = roll * contact_fraction;
         }
-        let foretold = middle_rate * S::splat(1.5) - last_rate * S::splat(0.5);
+        let foretold = rate * S::splat(1.5) - last_rate * S::splat(0.5);
         Self {
             touching,
             overlap,
@@ -88,7 +89,7 @@ impl<S: Scalar> Kinematics<S> {
             slip,
             roll,
             separation_rate: foretold,
-            middle_rate,
+            last_rate: rate,
             slip_rate: motion.slip_rate,
             opening,
             time_step,

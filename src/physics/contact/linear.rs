@@ -135,6 +135,11 @@ pub fn damping_ratio(parameters: &ContactParameters, effective_mass: f64) -> f64
     damping(parameters, effective_mass) / (2.0 * (parameters.normal_stiffness * effective_mass).sqrt())
 }
 
+/// How long a collision without damping lasts [s]: π / ω₀, ω₀ = √(kₙ / m*).
+pub fn undamped_collision_time(parameters: &ContactParameters, effective_mass: f64) -> f64 {
+    PI / (parameters.normal_stiffness / effective_mass).sqrt()
+}
+
 /// The time [s] that a step has to resolve: the duration of a collision, π / (ω₀ √(1 − ζ²)), ω₀ = √(kₙ / m*), with tension
 /// clipped 2 acos ζ / (ω₀ √(1 − ζ²)).
 ///
@@ -213,6 +218,9 @@ mod tests {
             normal_damping: None,
             friction: 0.5,
             tension,
+            rolling_friction: 0.0,
+            tangential_damping_ratio: 0.0,
+            adhesion: 0.0,
         }
     }
 

@@ -1,0 +1,118 @@
+"""`UnstableRun`: what a run leaves that ended unstable, in memory and in a folder."""
+
+import json
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from drumrs.config import Config
+from drumrs.errors import ConfigError, UnstableError
+from drumrs.files import read_object, write_whole
+from drumrs.frames import Frames
+from drumrs.result import UNSTABLE, Summary, write_tables
+from drumrs.simulation import Simulation, units
+
+if TYPE_CHECKING:
+    import polars as pl
+
+    from drumrs.viewer import Player
+
+# A time step that is a collision's duration over at least this resolves it.
+_RESOLVED = 49.0
+
+
+@dataclass(frozen=True, eq=False)
+class UnstableRun:
+    """A run that ended unstable, up to its end.
+
+    Attributes
+    ----------
+    config
+        The configuration, seed included.
+    error
+        The sentence of the error.
+    step, time
+        When it ended [1, s].
+    summary
+        Averages over the part of the window that was simulated; `None` where there is none.
+    series, frames
+        What was recorded; the last frame shows the end.
+    """
+
+    config: Config
+    error: str
+    step: int
+    time: float
+    summary: Summary | None
+    series: "pl.DataFrame"
+    frames: Frames
+
+    @classmethod
+    def of(cls, simulation: Simulation, error: UnstableError) -> "UnstableRun":
+        """Take what a simulation has recorded until it raised `error`."""
+        return cls(
+            config=simulation.config,
+            error=str(error),
+            step=simulation.step,
+            time=simulation.time,
+            summary=_summary(simulation),
+            series=simulation.series,
+            frames=simulation.frames,
+        )
+
+    def player(self) -> "Player":
+        """Return the run as a player, which shows the end."""
+        from drumrs.viewer import Player
+
+        title = f"{self.config.title}: ended unstable at t = {self.time:.4g} s"
+        return Player(self.frames, self.series, title=title, window=self.config.run.averaging_window)
+
+    def save(self, folder: Path) -> list[Path]:
+        """Write config.toml, series.parquet, frames.parquet, player.html and, last, unstable.json.
+
+        Returns
+        -------
+        list of Path
+            The files written.
+        """
+        known = {column: units(column) for column in self.series.columns}
+        written = write_tables(folder, self.config, self.series, self.frames, known)
+        written.append(self.player().save(folder / "player.html"))
+        summary = asdict(self.summary) if self.summary is not None else None
+        told = {"error": self.error, "step": self.step, "time": self.time, "summary": summary}
+        write_whole(folder / UNSTABLE, f"{json.dumps(told, indent=2)}\n".encode())
+        return [*written, folder / UNSTABLE]
+
+
+def _summary(simulation: Simulation) -> Summary | None:
+    start, end = simulation.config.run.averaging_window
+    end = min(end, simulation.time)
+    try:
+        return simulation.summary((start, end)) if start < end else None
+    except ConfigError:
+        # Too few samples for a mean.
+        return None
+
+
+def refuse_to_repeat(folder: Path, simulation: Simulation) -> None:
+    """Say how a run ended that is to be resumed, and what to do instead, where it ended unstable.
+
+    Raises
+    ------
+    ConfigError
+        Where it did.
+    """
+    told = read_object(folder / UNSTABLE)
+    if told is None:
+        return
+    settings = "--set run.time_step=auto"
+    if simulation.time_step <= min(simulation.collision_times.values()) / _RESOLVED:
+        # The steps are as short as "auto": it is the springs that are too soft.
+        contact = simulation.config.contact
+        for side, law in (("bundle", contact.bundle), ("drum", contact.drum)):
+            settings += f" --set contact.{side}.normal_stiffness={10.0 * law.normal_stiffness:.3g}"
+    raise ConfigError(
+        f"the run in {str(folder)!r} ended unstable, and going on would repeat that: {told.get('error')}. "
+        f"Look at its end with: drumrs view {folder}; start it anew, changed, with, for instance: "
+        f"drumrs run {folder / 'config.toml'} {settings} --out OTHER"
+    )

@@ -1,0 +1,175 @@
+//! What a user should know of a configuration before it runs, though nothing is wrong with it.
+
+use std::fmt;
+
+use super::Simulation;
+use crate::physics::contact::law::BodyPair;
+use crate::physics::contact::linear::{collision_time, damping_ratio, undamped_collision_time};
+use crate::physics::contact::parameters::{ContactParameters, Tension};
+use crate::physics::particles::Particles;
+
+/// How many times shorter than without damping "auto" may make the time step unsaid.
+const MUCH_SHORTER: f64 = 10.0;
+/// Steps in the shortest collision where the time step is "auto".
+const STEPS_IN_A_COLLISION: f64 = 50.0;
+
+/// What a user should know.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Warning {
+    /// Bodies that stick together once they touch: the dashpot may pull, and does so for ever.
+    Overdamped {
+        /// The two bodies.
+        bodies: String,
+        /// The table that damps them, such as `contact.bundle`.
+        key: String,
+        /// Its normal damping [N s/m].
+        damping: f64,
+        /// Damping over the critical one.
+        ratio: f64,
+    },
+    /// Damping so strong that it makes the time step much shorter.
+    ShortStep {
+        /// The table that damps, such as `contact.bundle`.
+        key: String,
+        /// What it says.
+        parameters: ContactParameters,
+        /// Damping over the critical one.
+        ratio: f64,
+        /// The time step [s].
+        time_step: f64,
+        /// What it would be without damping [s].
+        undamped: f64,
+    },
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, formatter: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Self::Overdamped { bodies, key, damping, ratio } => write!(
+                formatter,
+                "{bodies} will stick together where they touch: {key}.normal_damping = {damping} is {ratio:.3} times the critical damping of their masses, and {key}.tension = \"allowed\" lets it pull; give {key}.restitution instead of normal_damping, or set {key}.tension = \"clipped\""
+            ),
+            Self::ShortStep { key, parameters, ratio, time_step, undamped } => {
+                let (cause, way_out) = match (parameters.restitution, parameters.normal_damping) {
+                    (Some(restitution), _) => {
+                        (format!("{key}.restitution = {restitution:e} with tension = \"clipped\""), "raise")
+                    }
+                    (None, damping) => {
+                        (format!("{key}.normal_damping = {:e}", damping.unwrap_or_default()), "lower")
+                    }
+                };
+                write!(
+                    formatter,
+                    "run.time_step = \"auto\" is {time_step:.3e} s, {:.0} times shorter than {undamped:.3e} s without damping, since {cause} is {ratio:.3} times the critical damping; {way_out} it, or set run.time_step to at most {:.3e} s",
+                    undamped / time_step,
+                    0.1 * STEPS_IN_A_COLLISION * time_step
+                )
+            }
+        }
+    }
+}
+
+/// A contact that there may be: who, by which table.
+struct Meeting<'a> {
+    bodies: String,
+    key: String,
+    parameters: &'a ContactParameters,
+    effective_mass: f64,
+}
+
+impl Meeting<'_> {
+    fn ratio(&self) -> f64 {
+        damping_ratio(self.parameters, self.effective_mass)
+    }
+}
+
+impl Simulation {
+    /// What a user should know before this simulation runs.
+    pub fn warnings(&self) -> Vec<Warning> {
+        let meetings = self.lightest_meetings();
+        let (pairs, walls) = &meetings;
+        let overdamped = [pairs, walls].into_iter().filter_map(|meetings| overdamped(meetings));
+        let all = || pairs.iter().chain(walls);
+        let short = if self.config.run.time_step.is_none() { self.short_step(all()) } else { None };
+        overdamped.chain(short).collect()
+    }
+
+    fn short_step<'a>(&self, meetings: impl Iterator<Item = &'a Meeting<'a>> + Clone) -> Option<Warning> {
+        let undamped = meetings
+            .clone()
+            .map(|meeting| undamped_collision_time(meeting.parameters, meeting.effective_mass))
+            .fold(f64::INFINITY, f64::min)
+            / STEPS_IN_A_COLLISION;
+        let time = |meeting: &Meeting| collision_time(meeting.parameters, meeting.effective_mass);
+        let shortest = meetings.min_by(|a, b| time(a).total_cmp(&time(b)))?;
+        let time_step = self.time_step();
+        (undamped > MUCH_SHORTER * time_step).then(|| Warning::ShortStep {
+            key: shortest.key.clone(),
+            parameters: shortest.parameters.clone(),
+            ratio: shortest.ratio(),
+            time_step,
+            undamped,
+        })
+    }
+
+    /// Between any two species, and between each and the drum, the contact of the lightest bodies: none is damped more.
+    fn lightest_meetings(&self) -> (Vec<Meeting<'_>>, Vec<Meeting<'_>>) {
+        let (table, contact, particles) = (&self.derived.table, &self.config.contact, &self.state.particles);
+        let lightest: Vec<[Option<usize>; 2]> =
+            (0..table.count()).map(|species| two_lightest(particles, species as u16)).collect();
+        let body = |place: usize| (particles.masses[place], particles.radii[place]);
+        let species = || (0_u16..).zip(&lightest);
+        let pair = |one: u16, other: u16| {
+            let (first, second) = (lightest[usize::from(one)], lightest[usize::from(other)]);
+            let (i, j) = (first[0]?, if one == other { second[1]? } else { second[0]? });
+            let (low, high) = (self.id_of(i).min(self.id_of(j)), self.id_of(i).max(self.id_of(j)));
+            Some(Meeting {
+                bodies: format!("bundles {low} and {high}"),
+                key: contact.pair_key(one, other),
+                parameters: table.pair(one, other),
+                effective_mass: BodyPair::of_discs(body(i), body(j)).effective_mass,
+            })
+        };
+        let wall = |(own, lightest): (u16, &[Option<usize>; 2])| {
+            let place = lightest[0]?;
+            Some(Meeting {
+                bodies: format!("bundle {} and the drum", self.id_of(place)),
+                key: contact.wall_key(own),
+                parameters: table.wall(own),
+                effective_mass: BodyPair::at_wall(body(place)).effective_mass,
+            })
+        };
+        let pairs =
+            species().flat_map(|(one, _)| species().skip(one.into()).map(move |(other, _)| (one, other)));
+        (pairs.filter_map(|(one, other)| pair(one, other)).collect(), species().filter_map(wall).collect())
+    }
+}
+
+/// The most overdamped of contacts whose dashpot may pull.
+fn overdamped(meetings: &[Meeting]) -> Option<Warning> {
+    let pulling = meetings.iter().filter(|meeting| meeting.parameters.tension == Tension::Allowed);
+    let worst = pulling.max_by(|a, b| a.ratio().total_cmp(&b.ratio()))?;
+    let ratio = worst.ratio();
+    (ratio >= 1.0).then(|| Warning::Overdamped {
+        bodies: worst.bodies.clone(),
+        key: worst.key.clone(),
+        damping: worst.parameters.normal_damping.unwrap_or_default(),
+        ratio,
+    })
+}
+
+/// Places of the two lightest particles of a species, the lightest first.
+fn two_lightest(particles: &Particles, species: u16) -> [Option<usize>; 2] {
+    let mut found: [Option<usize>; 2] = [None, None];
+    let order = |place: usize| (particles.masses[place], particles.ids[place]);
+    let is_before =
+        |place: usize, other: Option<usize>| other.is_none_or(|other| order(place) < order(other));
+    for place in (0..particles.len()).filter(|&place| particles.species[place] == species) {
+        if is_before(place, found[0]) {
+            found = [Some(place), found[0]];
+        } else if is_before(place, found[1]) {
+            found[1] = Some(place);
+        }
+    }
+    found
+}

@@ -1,0 +1,225 @@
+"""Given starts: what is refused, and going on from a simulation's state with another configuration."""
+
+import numpy as np
+import pytest
+
+import drumrs
+from drumrs import ConfigError, State
+
+RADIUS = 0.02375 / 2.0
+WALL = {"drum.rim": False, "rotation.rpm": 0.0, "drum.walls": [[[-0.1, 0.0], [0.1, 0.0]]]}
+
+
+@pytest.mark.parametrize(
+    ("changes", "state", "sentence"),
+    [
+        ({}, State([[0.0, 0.0], [0.0, 0.0]]), r"state.positions\[0\] and \[1\] overlap by 200.000 %"),
+        (
+            {},
+            State([[0.0, 0.0], [0.8 * RADIUS, 0.0]]),
+            r"state.positions\[0\] and \[1\] overlap by 120.000 %",
+        ),
+        (
+            {},
+            State([[0.1, 0.0], [0.0, 0.0], [1.51 * RADIUS, 0.0]]),
+            r"state.positions\[1\] and \[2\] overlap by 49.000 % of the smaller radius, but may by at most 10 %",
+        ),
+        (
+            {"drum.baffles.count": 3},
+            State([[0.1875 - 0.3 * RADIUS, 0.0]]),
+            r"\[0\] and the baffle 1 overlap by 70",
+        ),
+        (WALL, State([[0.0, 0.0]]), r"state.positions\[0\] is \[0, 0\], but must be .*: there is the wall 1"),
+        (WALL, State([[0.0, 0.8 * RADIUS]]), r"state.positions\[0\] and the wall 1 overlap by 20.000 %"),
+        ({}, State([[0.0, -0.2375]]), r"state.positions\[0\] is .*: there is the rim"),
+        (
+            {},
+            State([[0.0, 0.0]], radii=[1.0]),
+            r"state.radii\[0\] is 1, but must be smaller than the drum's radius",
+        ),
+        ({}, State([[0.0, 0.0]], species=[1]), r"state.species\[0\] is 1, but must be below 1"),
+        ({}, State([[0.0, 0.0]], species=[0.5]), "state.species is .*whole numbers"),
+        ({}, State([[0.0, 0.0]], drum_angle=float("nan")), "state.drum_angle is NaN"),
+        ({}, State([[0.0, 0.0]], drum_angle="up"), "state.drum_angle is 'up'"),
+        ({}, State([[0.0, 0.0]], contacts={"pairs": {}}), "state.contacts is "),
+    ],
+)
+def test_bad_starts_are_named(changes, state, sentence):
+    with pytest.raises(ConfigError, match=sentence):
+        drumrs.Simulation(drumrs.baseline().replace(changes), state=state)
+
+
+def test_a_slight_overlap_is_taken():
+    drumrs.Simulation(drumrs.baseline(), state=State([[0.0, 0.0], [1.91 * RADIUS, 0.0]]))
+
+
+def test_of_many_discs_the_two_are_found():
+    side = 100
+    places = np.stack(np.meshgrid(np.arange(side), np.arange(side)), axis=-1).reshape(-1, 2) * 0.002 - 0.1
+    places[4321] = places[1234] + 1e-4
+    state = State(places, radii=np.full(side**2, 0.0009))
+    with pytest.raises(ConfigError, match=r"state.positions\[1234\] and \[4321\] overlap"):
+        drumrs.Simulation(drumrs.baseline().replace({"run.time_step": "auto"}), state=state)
+
+
+@pytest.fixture(scope="module")
+def config():
+    return drumrs.baseline(baffles=True).softer(100.0)
+
+
+@pytest.fixture(scope="module")
+def settled(config):
+    simulation = drumrs.Simulation(config)
+    simulation.run(duration=1.1)
+    return simulation
+
+
+def test_a_state_goes_on(config, settled, tmp_path):
+    settled.save(tmp_path / "kept")
+    one = drumrs.Simulation.load(tmp_path / "kept")
+    other = drumrs.Simulation(config, state=one.state)
+    assert other.time == 0.0
+    assert other.drum_angle == one.drum_angle
+    for steps in (0, 20):
+        one.run(steps=steps)
+        other.run(steps=steps)
+        assert np.abs(one.positions - other.positions).max() < 1e-12
+        assert np.abs(one.velocities - other.velocities).max() < 1e-9
+        assert np.abs(one.angular_velocities - other.angular_velocities).max() < 1e-7
+    # Without the springs that the contacts have wound up, it is another motion.
+    bare = State(**{**vars(other.state), "contacts": None})
+    assert other.state.contacts["pairs"]["particle"].size > 20
+    new = drumrs.Simulation(config, state=bare)
+    new.run(steps=20)
+    other.run(steps=20)
+    assert np.abs(new.positions - other.positions).max() > 1e-12
+
+
+def test_the_ledger_of_a_state_that_goes_on_closes(config, settled):
+    simulation = drumrs.Simulation(config, state=settled.state)
+    simulation.run(duration=0.5)
+    assert simulation.series["energy_residual"].abs().max() < 1e-12
+    assert simulation.series["elastic_normal"][0] > 0.0
+
+
+@pytest.mark.parametrize("seed", range(1, 41))
+def test_a_load_settles_and_then_friction_or_speed_changes(config, seed):
+    simulation = drumrs.Simulation(config, seed=seed)
+    simulation.run(duration=0.25 + 0.02 * seed)
+    for changes in (
+        {"contact.bundle.friction": 0.3},
+        {"rotation.rpm": 20.0},
+        {"contact.drum.tension": "clipped"},
+    ):
+        other = drumrs.Simulation(config.replace(changes), state=simulation.state)
+        other.run(steps=200)
+        assert other.series["max_overlap_ratio"].max() < 0.1
+
+
+def test_order_of_memory_does_not_show_in_contacts():
+    config = (
+        drumrs.baseline()
+        .softer(1e3)
+        .replace({"load.diameter": 0.004, "load.fill": 0.5, "run.time_step": "auto"})
+    )
+    simulation = drumrs.Simulation(config)
+    simulation.run(steps=3000)
+    assert simulation.count > 2048
+    state = simulation.state
+    pairs = state.contacts["pairs"]
+    own, other = pairs["particle"], pairs["other"]
+    places, radii = np.asarray(state.positions), np.asarray(state.radii)
+    gaps = radii[own] + radii[other] - np.linalg.norm(places[own] - places[other], axis=1)
+    assert (own < other).all()
+    assert pairs["overlap"] == pytest.approx(gaps, abs=1e-12)
+    again = drumrs.Simulation(config, state=state)
+    assert len(again.state.contacts["pairs"]["particle"]) == len(own)
+    simulation.run(steps=20)
+    again.run(steps=20)
+    assert np.abs(simulation.positions - again.positions).max() < 1e-12
+
+
+def test_contacts_that_do_not_fit_are_found_anew(config, settled):
+    state = settled.state
+    moved = np.array(state.positions) * 0.999
+    simulation = drumrs.Simulation(config, state=State(**{**vars(state), "positions": moved}))
+    assert simulation.state.contacts["pairs"]["overlap"].size > 0
+    simulation.run(steps=100)
+
+
+SLIDE = {
+    "drum.rim": False,
+    "rotation.rpm": 0.0,
+    "drum.walls": [[[-0.5, 0.0], [0.5, 0.0]]],
+    "run.time_step": "auto",
+    "contact.species": 2,
+}
+
+
+def test_a_disc_of_one_species_slides_where_the_other_rolls():
+    config = drumrs.baseline().replace({**SLIDE, "contact.walls": [{"species": 1, "friction": 0.0}]})
+    state = State([[-0.2, RADIUS], [0.1, RADIUS]], [[0.5, 0.0], [0.5, 0.0]], species=[0, 1])
+    simulation = drumrs.Simulation(config, state=state)
+    simulation.run(duration=0.2)
+    rolls, slides = simulation.velocities[:, 0]
+    assert rolls == pytest.approx(0.5 * 2.0 / 3.0, rel=1e-2)
+    assert slides == pytest.approx(0.5)
+    assert simulation.angular_velocities[1] == 0.0
+    assert list(simulation.state.species) == [0, 1]
+
+
+def test_two_species_meet_by_their_own_law():
+    config = drumrs.baseline().replace(
+        {
+            "contact.species": 2,
+            "gravity": [0.0, 0.0],
+            "contact.pairs": [{"between": [1, 0], "restitution": 0.5}],
+        }
+    )
+    for species, restitution in (([0, 1], 0.5), ([1, 1], 0.1)):
+        gap = 1.0001 * RADIUS
+        state = State([[-gap, 0.0], [gap, 0.0]], [[1.0, 0.0], [-1.0, 0.0]], species=species)
+        simulation = drumrs.Simulation(config, state=state)
+        simulation.run(duration=0.001)
+        assert simulation.velocities[1, 0] == pytest.approx(restitution, abs=0.01)
+
+
+@pytest.mark.parametrize(
+    ("changes", "sentence"),
+    [
+        (
+            {"contact.pairs": [{"between": [0, 1]}]},
+            r"contact.pairs\[0\].between is \[0, 1\], but must be below",
+        ),
+        (
+            {"contact.walls": [{"species": 1}]},
+            r"contact.walls\[0\].species is \[1\], but must be below contact.species",
+        ),
+        ({"contact.pairs": [{"friction": 0.3}]}, r"contact.pairs\[0\].between is missing"),
+        (
+            {"contact.pairs": [{"between": [0, 0], "frction": 0.3}]},
+            r"did you mean contact.pairs\[0\].friction",
+        ),
+        ({"contact.pairs": [{"between": [0, 0], "friction": -1.0}]}, r"contact.pairs\[0\].friction is -1"),
+        (
+            {"contact.walls": [{"species": 0}, {"species": 0}]},
+            r"contact.walls\[1\].species is \[0\], but must not be that",
+        ),
+        (
+            {"contact.pairs": [{"between": [0, 0], "restitution": 0.3, "normal_damping": 3.0}]},
+            r"contact.pairs.0.restitution and contact.pairs.0.normal_damping are both given",
+        ),
+        ({"contact.species": 0}, "contact.species is 0, but must be a whole number from 1 to 256"),
+    ],
+)
+def test_bad_laws_by_species_are_named(changes, sentence):
+    with pytest.raises(ConfigError, match=sentence):
+        drumrs.baseline().replace(changes)
+
+
+def test_softer_lowers_the_laws_by_species_too():
+    laws = [{"between": [0, 0], "normal_stiffness": 4e7}, {"between": [0, 1], "normal_damping": 100.0}]
+    config = drumrs.baseline().replace({"contact.species": 2, "contact.pairs": laws}).softer(4.0)
+    first, second = config.contact.pairs
+    assert first.normal_stiffness == 1e7
+    assert (second.normal_damping, second.normal_stiffness) == (50.0, None)
