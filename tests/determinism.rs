@@ -170,6 +170,45 @@ fn a_restart_at_an_odd_step_gives_the_same_bits() {
     }
 }
 
+/// Bundles in a bed of two chunks, which meet across the border of the chunks.
+fn two_chunks(baffle_count: usize) -> SimulationConfig {
+    let mut config = baseline(700, baffle_count);
+    config.drum.radius = Some(0.42);
+    config
+}
+
+/// A restart in the midst of impacts, at odd steps, goes on bit for bit: of loads of one chunk, of two, of ten.
+#[test]
+fn restarts_while_contacts_are_open_do_not_show() {
+    let mut many = large();
+    many.load.count = 5000;
+    let mut many_bare = many.clone();
+    many_bare.drum.baffles.count = 0;
+    let small = [(100, 0), (100, 3), (300, 0), (240, 3)].map(|(count, baffles)| baseline(count, baffles));
+    for mut config in small.into_iter().chain([two_chunks(0), two_chunks(3), many, many_bare]) {
+        config.load.start_speed = 4.0;
+        config.run.sample_every = 300.0 * TIME_STEP;
+        let mut straight = packed(&config, 1);
+        straight.run(1501).unwrap();
+        for steps in [1, 33, 76, 7] {
+            let case = format!("{} bundles, step {}", config.load.count, straight.state().step);
+            let saved = straight.to_checkpoint().unwrap();
+            let mut resumed = Simulation::from_checkpoint(&saved, 2).unwrap();
+            assert_eq!(saved, resumed.to_checkpoint().unwrap(), "{case}");
+            let mut open = touching(&straight);
+            while open.0 + open.1 == 0 {
+                straight.run(1).unwrap();
+                resumed.run(1).unwrap();
+                open = touching(&straight);
+            }
+            straight.run(steps).unwrap();
+            resumed.run(steps).unwrap();
+            assert_eq!(bits(&straight), bits(&resumed), "{case}");
+            assert_eq!(straight.to_checkpoint().unwrap(), resumed.to_checkpoint().unwrap(), "{case}");
+        }
+    }
+}
+
 /// A load that is sorted in memory, with ids in no order, close to its second sort.
 fn to_be_sorted(skin: Option<f64>) -> Simulation {
     let count = memory_order::LEAST_COUNT + 51;
@@ -200,6 +239,11 @@ fn a_sort_in_memory_changes_no_promise() {
     let mut resumed = Simulation::from_checkpoint(&saved, 1).unwrap();
     resumed.run(300).unwrap();
     assert_eq!(bits(&straight), bits(&resumed));
+    let mut pieces = Simulation::from_checkpoint(&saved, 1).unwrap();
+    while pieces.state().step < straight.state().step {
+        pieces.run(7.min(straight.state().step - pieces.state().step)).unwrap();
+    }
+    assert_eq!(bits(&straight), bits(&pieces), "pieces of 7 steps");
     let mut other_skin = to_be_sorted(Some(0.05 * RADIUS));
     other_skin.run(300).unwrap();
     assert_eq!(bits(&straight), bits(&other_skin));
