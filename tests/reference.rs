@@ -35,6 +35,15 @@ fn config(stored: &Value) -> SimulationConfig {
     let mut config = stored["config"].clone();
     let contact = config["contact"].as_object_mut().expect("a table");
     contact.insert("species".into(), 1.into());
+    for table in ["bundle", "drum"] {
+        contact[table]["adhesion"] = 0.0.into();
+    }
+    for table in ["bundle", "drum"] {
+        contact[table]["tangential_damping_ratio"] = 0.0.into();
+    }
+    for table in ["bundle", "drum"] {
+        contact[table]["rolling_friction"] = 0.0.into();
+    }
     contact.insert("pairs".into(), Value::Array(Vec::new()));
     contact.insert("walls".into(), Value::Array(Vec::new()));
     let mut config = SimulationConfig::from_json(&config.to_string()).expect("a valid configuration");

@@ -73,8 +73,8 @@ quantities! { BEFORE_FLOWS:
     "drum_torque", "N m/m", "mean torque of the drum on the load about the axis since the last sample", |s| s.drum_torque();
     "work_drum", "J/m", "work of the drum on the load since t = 0", |s| s.ledger.drum_work();
     "balance_work", "J/m", "the same from the balance of moments, integral of angular velocity x (M g x + dL/dt)", |s| s.ledger.moments.work();
-    "work_normal", "J/m", "energy taken by normal dashpots, and held by normal springs, since t = 0", |s| s.work(true);
-    "work_tangential", "J/m", "energy taken by sliding, and held by tangential springs, since t = 0", |s| s.work(false);
+    "work_normal", "J/m", "energy taken by normal dashpots, and held by normal springs, since t = 0", |s| s.work(is_normal);
+    "work_tangential", "J/m", "energy taken by sliding, and held by tangential springs, since t = 0", |s| s.work(is_tangential);
 }
 
 quantities! { BEFORE_STORED:
@@ -112,6 +112,21 @@ pub fn quantities() -> impl Iterator<Item = (&'static str, &'static str, String)
         .chain(of(AFTER_STORED))
 }
 
+/// The energies that contact laws take or hold.
+pub fn contact_energies() -> impl Iterator<Item = &'static str> {
+    Flows::NAMES.iter().chain(Stored::NAMES).copied()
+}
+
+/// Whether an energy of contacts is exchanged along their normals.
+pub fn is_normal(name: &str) -> bool {
+    name.ends_with("normal")
+}
+
+/// Whether an energy of contacts is exchanged along their tangents.
+pub fn is_tangential(name: &str) -> bool {
+    name.ends_with("tangential") || name.ends_with("sliding")
+}
+
 impl Snapshot<'_> {
     /// The values of the quantities that every simulation records.
     fn values(&self) -> impl Iterator<Item = f64> {
@@ -124,8 +139,7 @@ impl Snapshot<'_> {
     }
 
     /// Work into contacts in one direction, as far as laws account for it: what they took and hold more than at the start.
-    fn work(&self, normal: bool) -> f64 {
-        let is_meant = |name: &&str| name.ends_with("normal") == normal;
+    fn work(&self, is_meant: fn(&str) -> bool) -> f64 {
         let taken = Flows::NAMES.iter().enumerate().filter(|(_, name)| is_meant(name));
         let held = self.ledger.stored_since_start(&self.stored);
         let stored = Stored::NAMES.iter().enumerate().filter(|(_, name)| is_meant(name));

@@ -1,7 +1,8 @@
 //! Means over a window of samples, with the uncertainty of the power.
 
 use crate::error::Error;
-use crate::observe::recorder::{Series, quantities};
+use crate::observe::recorder::{Series, contact_energies, is_normal, is_tangential, quantities};
+use crate::physics::contact::Stored;
 
 /// A named statistic; none where it is not defined.
 pub type Statistic = (&'static str, Option<f64>);
@@ -25,13 +26,13 @@ pub fn summarize(series: &Series, mass: f64, start: f64, end: f64) -> Result<Vec
     let window = table.window(start, end)?;
     let time = table.change("time", window);
     let rate = |name| table.change(name, window) / time;
-    let dissipated_normal = rate("dissipated_normal");
-    let dissipated_sliding = rate("dissipated_sliding");
-    let normal = dissipated_normal + rate("elastic_normal");
-    let tangential = dissipated_sliding + rate("elastic_tangential");
+    let contact_rates = |is_meant: fn(&str) -> bool| -> f64 {
+        contact_energies().filter(|name| is_meant(name)).map(rate).sum()
+    };
+    let (normal, tangential) = (contact_rates(is_normal), contact_rates(is_tangential));
     let power = rate("work_drum");
     let motion = rate("kinetic_translation") + rate("kinetic_rotation") + rate("gravitational");
-    let by_ledger = motion + normal + tangential + rate("numerical");
+    let by_ledger = motion + contact_rates(|_| true) + rate("numerical");
     let powers = [power, by_ledger, rate("balance_work")];
     let spread = Spread::of(&table.interval_powers(window), table.interval(window));
     let mean = |name| table.mean(name, window);
@@ -49,8 +50,8 @@ pub fn summarize(series: &Series, mass: f64, start: f64, end: f64) -> Result<Vec
         ("normal_tangential_ratio", (tangential != 0.0).then(|| normal / tangential)),
         ("work_normal_power", Some(rate("work_normal"))),
         ("work_tangential_power", Some(rate("work_tangential"))),
-        ("dissipated_normal_power", Some(dissipated_normal)),
-        ("dissipated_sliding_power", Some(dissipated_sliding)),
+        ("dissipated_normal_power", Some(rate("dissipated_normal"))),
+        ("dissipated_sliding_power", Some(rate("dissipated_sliding"))),
         ("numerical_power", Some(rate("numerical"))),
         ("power_torque", Some(powers[0])),
         ("power_ledger", Some(powers[1])),
@@ -109,14 +110,9 @@ impl Table<'_> {
 
     /// Energy stored at the end of the window, every part with its magnitude [J/m].
     fn stored(&self, window: Window) -> f64 {
-        let parts = [
-            "kinetic_translation",
-            "kinetic_rotation",
-            "gravitational",
-            "elastic_normal",
-            "elastic_tangential",
-        ];
-        parts.iter().map(|part| self.column(part)[window.last].abs()).sum()
+        let parts = ["kinetic_translation", "kinetic_rotation", "gravitational"];
+        let parts = parts.iter().chain(Stored::NAMES);
+        parts.map(|part| self.column(part)[window.last].abs()).sum()
     }
 
     /// Mean of the samples after the window's first, which close the intervals within it.

@@ -34,6 +34,8 @@ pub struct Simulation {
     /// Follows from the configuration.
     derived: Derived,
     engine: Engine,
+    /// The step at which the load is looked at, recorded or sorted next.
+    next_event: u64,
     failure: Option<Error>,
 }
 
@@ -155,7 +157,7 @@ impl Simulation {
         let mut engine = Engine::new(&state.particles, derived.world(), skin, threads);
         engine.insert(&engine_state.contacts, &state.particles, derived.world());
         engine.pass_mut().set_totals(&engine_state.totals);
-        Self { config, seed, state, derived, engine, failure: None }
+        Self { config, seed, state, derived, engine, next_event: 0, failure: None }
     }
 
     /// First forces, opened accounts, first sample and frame.

@@ -1,6 +1,7 @@
 //! The steps.
 
 use super::Simulation;
+use super::derived::Derived;
 use crate::engine::{DrumMotion, memory_order};
 use crate::error::Error;
 use crate::physics::vector::Rotation;
@@ -27,6 +28,7 @@ impl Simulation {
     }
 
     fn run_steps(&mut self, steps: u64) -> Result<(), Error> {
+        self.next_event = self.event_after(self.state.step);
         self.begin();
         for left in (0..steps).rev() {
             if let Err(error) = self.step(left == 0) {
@@ -56,25 +58,28 @@ impl Simulation {
         let longest_way = self.engine.follow(turn);
         let drum = self.drum_motion(turn);
         self.guard_ways(longest_way, drum)?;
-        let (world, particles) = (self.derived.world(), &mut self.state.particles);
-        self.engine.update_list(particles, world, drum);
-        let (mass_moment, looks) = (self.engine.mass_moment(), self.is_look_due());
-        let stops = is_last || self.is_record_due() || self.is_sort_due();
-        if !(stops || looks || self.needs_moments()) {
-            self.engine.evaluate_and_advance(&mut self.state.particles, self.derived.world(), drum);
-            self.charge(mass_moment, turn);
-            return Ok(());
+        self.engine.update_list(&mut self.state.particles, self.derived.world(), drum);
+        if is_last || self.state.step >= self.next_event || self.needs_moments() {
+            return self.step_with_events(is_last, turn, drum);
         }
+        let mass_moment = self.engine.mass_moment();
+        self.engine.evaluate_and_advance(&mut self.state.particles, self.derived.world(), drum);
+        self.charge(mass_moment, turn);
+        Ok(())
+    }
+
+    /// The rest of a step after which the load may be looked at, recorded or sorted.
+    fn step_with_events(&mut self, is_last: bool, turn: f64, drum: DrumMotion) -> Result<(), Error> {
+        let mass_moment = self.engine.mass_moment();
         self.engine.evaluate(&mut self.state.particles, self.derived.world(), drum);
-        if looks || self.needs_moments() {
-            self.engine.show(&mut self.state.particles);
-        }
+        self.engine.show(&mut self.state.particles);
         self.charge(mass_moment, turn);
         self.charge_moments();
-        if looks {
+        if self.is_look_due() {
             self.guard(mass_moment)?;
         }
-        if !stops {
+        self.next_event = self.event_after(self.state.step);
+        if !(is_last || self.is_record_due() || self.is_sort_due()) {
             self.engine.advance(&mut self.state.particles);
             return Ok(());
         }
@@ -88,6 +93,13 @@ impl Simulation {
             self.engine.start(&mut self.state.particles);
         }
         Ok(())
+    }
+
+    /// The next step at which something is due. Known in advance, since to ask in every step takes some divisions.
+    fn event_after(&self, step: u64) -> u64 {
+        let Derived { sample_steps, frame_steps, .. } = self.derived;
+        let intervals = [LOOK_STEPS, sample_steps, frame_steps, memory_order::INTERVAL];
+        intervals.into_iter().map(|interval| (step / interval + 1) * interval).min().unwrap_or(step + 1)
     }
 
     /// How the drum moved in the last step, in which it turned by `turn` [rad]. Where only the pair list could see the
@@ -104,7 +116,11 @@ impl Simulation {
 
     /// The angle by which the drum turns in a step [rad].
     pub(super) fn turn_of(&self, step: u64) -> f64 {
-        self.config.rotation.angle_increment(self.time_at(step - 1), self.time_at(step))
+        let (from, to) = (self.time_at(step - 1), self.time_at(step));
+        match self.derived.steady_speed {
+            Some(speed) => (to - from) * speed,
+            None => self.config.rotation.angle_increment(from, to),
+        }
     }
 
     pub(super) fn is_sample_due(&self) -> bool {

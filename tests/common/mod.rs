@@ -34,6 +34,9 @@ pub fn law(normal_stiffness: f64) -> ContactParameters {
         normal_damping: None,
         friction: 0.5,
         tension: Tension::Allowed,
+        adhesion: 0.0,
+        tangential_damping_ratio: 0.0,
+        rolling_friction: 0.0,
     }
 }
 

@@ -164,5 +164,8 @@ fn parameters(law: &Law, hardness: f64, mass: f64, speed: f64, diameter: f64) ->
         normal_damping: law.loss.err().map(|ratio| ratio * critical),
         friction: law.friction,
         tension: if law.clipped { Tension::Clipped } else { Tension::Allowed },
+        adhesion: 0.0,
+        tangential_damping_ratio: 0.0,
+        rolling_friction: 0.0,
     }
 }

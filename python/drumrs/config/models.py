@@ -117,6 +117,13 @@ class LinearContact(Part):
     )
     friction: NonNegative = _key(0.5, "Coefficient of friction")
     tension: Tension = _key("allowed", "Whether the dashpot may pull: 'allowed' (the paper) or 'clipped'")
+    rolling_friction: NonNegative = _key(
+        0.0, "Coefficient of rolling friction: a rotational spring that yields at it; 0 for none"
+    )
+    tangential_damping_ratio: NonNegative = _key(
+        0.0, "Damping ratio of a dashpot beside the tangential spring; 0 for none"
+    )
+    adhesion: NonNegative = _key(0.0, "Constant pull while bodies touch [N/m of depth]; 0 for none")
 
 
 class _SomeOfContact(Part):
@@ -128,6 +135,9 @@ class _SomeOfContact(Part):
     normal_damping: NonNegative | None = None
     friction: NonNegative | None = None
     tension: Tension | None = None
+    rolling_friction: NonNegative | None = None
+    tangential_damping_ratio: NonNegative | None = None
+    adhesion: NonNegative | None = None
 
     @model_validator(mode="after")
     def _has_not_both_of_the_pair(self) -> Self:

@@ -7,7 +7,7 @@ use super::totals::Totals;
 use super::walls::{self, Spot};
 use crate::engine::contacts::{ContactList, ContactRecord, ListKind, ListParameters};
 use crate::engine::motion::{MotionView, at_offset, far, inside};
-use crate::engine::pair_list::{ChunkNeighbors, NearLimits, Opened, Status};
+use crate::engine::pair_list::{ChunkNeighbors, NearBlock, NearLimits, Opened, Status};
 use crate::engine::parallel::CHUNK;
 use crate::engine::simd::{F64x4, LANES, Vec2x4, lanes, rows};
 use crate::physics::contact::law::ContactLaw;
@@ -133,10 +133,8 @@ impl<L: ContactLaw> ChunkContacts<L> {
     ) {
         let opened = &mut scratch.opened;
         find_touching_pairs(neighbors, motion, inputs, opened);
-        opened.sort_unstable();
-        for (key, place) in opened.drain(..) {
-            self.insert_pair(&opening(key), place, &inputs.bodies);
-            neighbors.pairs.set(place, Status::Contact);
+        if !opened.is_empty() {
+            self.open_pairs(neighbors, inputs, opened);
         }
         if self.pairs.is_empty() {
             return;
@@ -147,7 +145,26 @@ impl<L: ContactLaw> ChunkContacts<L> {
         }
     }
 
-    #[inline(never)]
+    /// Makes contacts of pairs that have begun to touch.
+    #[cold]
+    fn open_pairs(&mut self, neighbors: &mut ChunkNeighbors, inputs: &StepInputs, opened: &mut Vec<Opened>) {
+        opened.sort_unstable();
+        for (key, place) in opened.drain(..) {
+            self.insert_pair(&opening(key), place, &inputs.bodies);
+            neighbors.pairs.set(place, Status::Contact);
+        }
+    }
+
+    /// Makes contacts of particles that have begun to touch the rim.
+    #[cold]
+    fn open_rim(&mut self, neighbors: &mut ChunkNeighbors, inputs: &StepInputs, opened: &mut Vec<Opened>) {
+        opened.sort_unstable();
+        for (key, own) in opened.drain(..) {
+            self.insert_wall(&opening(key), own, &inputs.bodies);
+            neighbors.at_rim[own as usize] = Status::Contact;
+        }
+    }
+
     fn evaluate_rim(
         &mut self,
         neighbors: &mut ChunkNeighbors,
@@ -159,10 +176,8 @@ impl<L: ContactLaw> ChunkContacts<L> {
     ) {
         let opened = &mut scratch.opened;
         find_touching_rim(neighbors, motion, inputs, opened);
-        opened.sort_unstable();
-        for (key, own) in opened.drain(..) {
-            self.insert_wall(&opening(key), own, &inputs.bodies);
-            neighbors.at_rim[own as usize] = Status::Contact;
+        if !opened.is_empty() {
+            self.open_rim(neighbors, inputs, opened);
         }
         if self.rim.is_empty() {
             return;
@@ -224,7 +239,6 @@ fn opening((particle, other): (u32, u32)) -> ContactRecord {
 }
 
 /// Takes the pairs that touch out of the near list.
-#[inline(never)]
 fn find_touching_pairs(
     neighbors: &mut ChunkNeighbors,
     motion: impl MotionView,
@@ -232,26 +246,28 @@ fn find_touching_pairs(
     opened: &mut Vec<Opened>,
 ) {
     let bodies = inputs.bodies;
-    let same = bodies.radius.map(|radius| F64x4::splat((radius + radius) * (radius + radius)));
-    for block in 0..neighbors.near_pairs.blocks().len() {
-        let near = &neighbors.near_pairs.blocks()[block];
+    let apart = |near: &NearBlock| {
         let [own, own_odd] = rows(|lane| motion.position(near.own[lane]));
         let [other, other_odd] = rows(|lane| motion.position(near.other[lane]));
-        let apart = Vec2x4::from_rows([other - own, other_odd - own_odd]);
-        let reach = same.unwrap_or_else(|| {
-            let radius = |place: u32| bodies.radius_of(at_offset(place));
-            let reach = lanes(|lane| radius(near.own[lane]) + radius(near.other[lane]));
-            reach * reach
+        Vec2x4::from_rows([other - own, other_odd - own_odd])
+    };
+    if let Some(radius) = bodies.radius {
+        let reach = F64x4::splat((radius + radius) * (radius + radius));
+        neighbors.near_pairs.take_where(opened, |near| {
+            let apart = apart(near);
+            reach.simd_gt(apart.dot(apart))
         });
-        let touching = reach.simd_gt(apart.dot(apart)).to_bitmask();
-        if touching != 0 {
-            neighbors.near_pairs.take(block, touching, opened);
-        }
+    } else {
+        let radius = |place: u32| bodies.radius_of(at_offset(place));
+        neighbors.near_pairs.take_where(opened, |near| {
+            let (apart, reach) =
+                (apart(near), lanes(|lane| radius(near.own[lane]) + radius(near.other[lane])));
+            (reach * reach).simd_gt(apart.dot(apart))
+        });
     }
 }
 
 /// Takes the particles that touch the rim out of the near list.
-#[inline(never)]
 fn find_touching_rim(
     neighbors: &mut ChunkNeighbors,
     motion: impl MotionView,
@@ -261,18 +277,14 @@ fn find_touching_rim(
     let Some(rim) = inputs.drum.radius() else { return };
     let bodies = inputs.bodies;
     let same = bodies.radius.map(|radius| F64x4::splat((rim - radius) * (rim - radius)));
-    for block in 0..neighbors.near_rim.blocks().len() {
-        let near = &neighbors.near_rim.blocks()[block];
+    neighbors.near_rim.take_where(opened, |near| {
         let position = Vec2x4::from_rows(rows(|lane| motion.position(near.own[lane])));
         let free = same.unwrap_or_else(|| {
             let free = lanes(|lane| rim - bodies.radius_of(at_offset(near.own[lane])));
             free * free
         });
-        let touching = position.dot(position).simd_gt(free).to_bitmask();
-        if touching != 0 {
-            neighbors.near_rim.take(block, touching, opened);
-        }
-    }
+        position.dot(position).simd_gt(free)
+    });
 }
 
 /// Passes the history of a contact to the neighboring feature of the outline when a particle rolls from one to the other.

@@ -54,14 +54,43 @@ pub fn evaluate_rim<L: ContactLaw>(
     ended: &mut Vec<u32>,
 ) -> SurfaceLoad {
     ended.clear();
-    let Some(rim) = inputs.drum.radius() else { return SurfaceLoad::default() };
+    let ContactList { ids, blocks, parameters, .. } = list;
     let mut lanes = totals.open();
+    match parameters {
+        ListParameters::Same(same) => {
+            let own = PairParameters::<L>::map(same, F64x4::splat);
+            let load = rim_pass::<L, false>(ids, blocks, |_| own, motion, inputs, sums, &mut lanes, ended);
+            totals.close(&lanes, same.1.radius);
+            load
+        }
+        ListParameters::Each(each) => {
+            let of = |block: usize| PairParameters::<L>::map(&each[block], F64x4::new);
+            let load = rim_pass::<L, true>(ids, blocks, of, motion, inputs, sums, &mut lanes, ended);
+            totals.close(&lanes, 1.0);
+            load
+        }
+    }
+}
+
+/// One pass over the contacts with the rim.
+#[inline(always)]
+#[allow(clippy::too_many_arguments)]
+fn rim_pass<L: ContactLaw, const MIXED: bool>(
+    ids: &[Ids],
+    blocks: &mut [Block<L>],
+    parameters: impl Fn(usize) -> Of<PairParameters<L>, F64x4>,
+    motion: impl MotionView,
+    inputs: &StepInputs,
+    sums: &mut impl Accumulator,
+    totals: &mut LaneTotals,
+    ended: &mut Vec<u32>,
+) -> SurfaceLoad {
+    let Some(rim) = inputs.drum.radius() else { return SurfaceLoad::default() };
     let zero = F64x4::ZERO;
     let (mut moment, mut force) = (zero, Vec2x4 { x: zero, y: zero });
     let (rim, speed) = (F64x4::splat(rim), F64x4::splat(inputs.angular_velocity));
-    let ContactList { ids, blocks, parameters, .. } = list;
-    for (index, (block, ids)) in blocks.iter_mut().zip(ids.iter()).enumerate() {
-        let parameters = parameters_of::<L>(parameters, index);
+    for (index, (block, ids)) in blocks.iter_mut().zip(ids).enumerate() {
+        let parameters = parameters(index);
         let bodies = Bodies::gather(ids, motion);
         let distance = bodies.position.dot(bodies.position).sqrt();
         let overlap = distance - (rim - parameters.1.radius);
@@ -73,7 +102,7 @@ pub fn evaluate_rim<L: ContactLaw>(
             // The rim moves along itself.
             surface_rates: [zero, speed * (distance + arm)],
         };
-        let reaction = advance::<L>(block, &bodies, &meeting, &parameters, inputs, &mut lanes);
+        let reaction = advance::<L, MIXED>(block, &bodies, &meeting, &parameters, inputs, totals);
         moment += reaction.moment - bodies.position.cross(reaction.force);
         force = force.plus(reaction.force);
         if reaction.touching != ALL_LANES {
@@ -81,7 +110,6 @@ pub fn evaluate_rim<L: ContactLaw>(
         }
         scatter(ids, &reaction, sums);
     }
-    totals.close(&lanes, 1.0);
     let total = |lanes: F64x4| sum(lanes.to_array());
     SurfaceLoad { force: Vec2::new(-total(force.x), -total(force.y)), moment: total(moment) }
 }
@@ -135,7 +163,7 @@ pub fn evaluate_outlines<L: ContactLaw>(
         let point = bodies.position.plus(normal.scaled(arm));
         let surface_rates = [speed * point.cross(normal), speed * point.dot(normal)];
         let meeting = Meeting { normal, overlap, arm, surface_rates };
-        let reaction = advance::<L>(block, &bodies, &meeting, &parameters, inputs, &mut open_totals);
+        let reaction = advance::<L, true>(block, &bodies, &meeting, &parameters, inputs, &mut open_totals);
         let moments = (reaction.moment - bodies.position.cross(reaction.force)).to_array();
         for (lane, force) in reaction.force.to_array().into_iter().enumerate().take(spots.len()) {
             let surface = &mut surfaces[inputs.drum.surface_of(ids.other[lane])];
@@ -173,9 +201,10 @@ impl Bodies {
     }
 }
 
-/// One step of a block: relative motion, law, work on the particles, new state.
+/// One step of a block: relative motion, law, work on the particles, new state. With `MIXED`, radii differ, and depths are
+/// ratios.
 #[inline(always)]
-fn advance<L: ContactLaw>(
+fn advance<L: ContactLaw, const MIXED: bool>(
     block: &mut Block<L>,
     bodies: &Bodies,
     meeting: &Meeting,
@@ -202,7 +231,8 @@ fn advance<L: ContactLaw>(
     let both = Vec2x4 { x: force.x + last.force_x, y: force.y + last.force_y };
     // What the drum does is charged to its surfaces: this is the work on the particles alone.
     totals.power -= (moment + last.moment) * spin - both.dot(velocity);
-    totals.deepest = (contact.overlap / geometry.radius).larger(totals.deepest);
+    let depth = if MIXED { contact.overlap / geometry.radius } else { contact.overlap };
+    totals.deepest = depth.larger(totals.deepest);
     totals.add_flows(L::FLOWS, &response.flows);
     block.state = ContactState {
         overlap: contact.overlap.to_array(),

@@ -107,7 +107,7 @@ impl<'a> MotionArrays<'a> {
 /// The arrays are much longer than most loads; memory that is not used is not touched.
 #[derive(Debug, Clone)]
 pub struct FlatArrays {
-    position: Box<[f64; FLAT]>,
+    position: Box<[f64; FLAT + 1]>,
     velocity: Box<[f64; FLAT]>,
     force: Box<[f64; FLAT]>,
     angle: Box<[f64; HALF]>,
@@ -301,7 +301,7 @@ pub trait MotionView: Copy + Send + Sync {
 /// The motion in flat arrays.
 #[derive(Debug, Clone, Copy)]
 pub struct FlatView<'a> {
-    position: &'a [f64; FLAT],
+    position: &'a [f64; FLAT + 1],
     velocity: &'a [f64; FLAT],
     angular_velocity: &'a [f64; HALF],
 }
@@ -315,7 +315,9 @@ pub fn flat(offset: u32) -> usize {
 impl MotionView for FlatView<'_> {
     #[inline(always)]
     fn position(self, offset: u32) -> [f64; 2] {
-        [self.position[flat(offset)], self.position[flat(offset) + 1]]
+        // Positions alone are read without a number beside them: an offset need not be known to be even.
+        let x = usize::from(offset as u16);
+        [self.position[x], self.position[x + 1]]
     }
 
     #[inline(always)]

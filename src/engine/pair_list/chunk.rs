@@ -9,7 +9,7 @@ use crate::engine::contacts::{ListKind, NOT_LISTED};
 use crate::engine::forces::StepInputs;
 use crate::engine::motion::{MotionView, far, inside, offset};
 use crate::engine::parallel::CHUNK;
-use crate::engine::simd::{F64x4, LANES, Vec2x4, greatest, lanes, rows};
+use crate::engine::simd::{ALL_LANES, F64x4, LANES, Vec2x4, greatest, lanes, rows};
 use crate::physics::drum::RIM;
 use crate::physics::scalar::Scalar;
 use crate::physics::vector::Vec2;
@@ -78,36 +78,43 @@ impl ChunkNeighbors {
             budget: F64x4::splat(self.horizon.budget()),
         };
         self.near_pairs.fill_with_pairs(&self.pairs, motion, &reach);
-        self.fill_near_rim(motion, inputs, time);
+        self.look_at_particles(motion, inputs, time);
         self.fill_near_features(motion, inputs, time);
-        self.longest_way = self.measure_way(motion, inputs);
     }
 
-    /// Particles that may touch the rim: in a straight line at their velocity, or by what changes of it add.
+    /// Measures how far particles move in a step as seen from the drum, and finds those that may touch the rim: in a straight
+    /// line at their velocity, or by what changes of it add.
     ///
     /// |x + k u|² ≤ |x|² + 2 k max(0, x·u) + k² u² is compared with (R − r − S)².
-    fn fill_near_rim(&mut self, motion: impl MotionView, inputs: &StepInputs, time: f64) {
+    fn look_at_particles(&mut self, motion: impl MotionView, inputs: &StepInputs, time: f64) {
         self.near_rim.clear();
-        let Some(rim) = inputs.drum.radius() else { return };
-        let (time, zero) = (F64x4::splat(time), F64x4::ZERO);
-        let last = self.particles.end - 1;
-        for first in self.particles.clone().step_by(LANES) {
+        let (time, speed) = (F64x4::splat(time), F64x4::splat(inputs.angular_velocity));
+        let rim = inputs.drum.radius().map(|rim| (rim - 0.5 * self.horizon.budget()) * ROUND_OFF);
+        let free_of = |radius: F64x4| (F64x4::splat(rim.unwrap_or(f64::MAX)) - radius).larger(F64x4::ZERO);
+        let same = inputs.bodies.radius.map(|radius| free_of(F64x4::splat(radius)));
+        let (start, last) = (self.particles.start, self.particles.end - 1);
+        let mut most = F64x4::ZERO;
+        for first in (start..=last).step_by(LANES) {
             let particle = |lane: usize| (first + lane as u32).min(last);
-            let position = Vec2x4::from_rows(rows(|lane| motion.position(offset(particle(lane)))));
-            let way = Vec2x4::from_rows(rows(|lane| motion.velocity(offset(particle(lane))))).scaled(time);
-            let outwards = position.dot(way).larger(zero);
+            let (position, velocity) = gather(motion, particle);
+            most = squared_rate(position, velocity, speed).larger(most);
+            let way = velocity.scaled(time);
+            let outwards = position.dot(way).larger(F64x4::ZERO);
             let farthest = position.dot(position) + (outwards + outwards) + way.dot(way);
-            let radius = lanes(|lane| inputs.bodies.radius_of(particle(lane)));
-            let free = (F64x4::splat((rim - 0.5 * self.horizon.budget()) * ROUND_OFF) - radius).larger(zero);
+            let free = same.unwrap_or_else(|| free_of(lanes(|lane| inputs.bodies.radius_of(particle(lane)))));
             let inside = (free * free).exceeds(farthest).to_bitmask();
+            if rim.is_none() || inside == ALL_LANES {
+                continue;
+            }
             for lane in (0..LANES).filter(|lane| inside >> lane & 1 == 0) {
                 let particle = first + lane as u32;
-                let own = (particle - self.particles.start) as usize;
+                let own = (particle - start) as usize;
                 if self.at_rim.get(own) == Some(&Status::Apart) {
                     self.near_rim.push((particle, RIM), own as u32);
                 }
             }
         }
+        self.longest_way = greatest(most.to_array()).sqrt() * inputs.time.step;
     }
 
     /// Pairs with features that may touch. As seen from the drum only the particle moves.
@@ -134,11 +141,8 @@ impl ChunkNeighbors {
         let last = self.particles.end - 1;
         let mut most = F64x4::ZERO;
         for first in self.particles.clone().step_by(LANES) {
-            let particle = |lane: usize| (first + lane as u32).min(last);
-            let position = Vec2x4::from_rows(rows(|lane| motion.position(offset(particle(lane)))));
-            let velocity = Vec2x4::from_rows(rows(|lane| motion.velocity(offset(particle(lane)))));
-            let seen = Vec2x4 { x: velocity.x + position.y * speed, y: velocity.y - position.x * speed };
-            most = seen.dot(seen).larger(most);
+            let (position, velocity) = gather(motion, |lane| (first + lane as u32).min(last));
+            most = squared_rate(position, velocity, speed).larger(most);
         }
         greatest(most.to_array()).sqrt() * inputs.time.step
     }
@@ -165,6 +169,21 @@ impl ChunkNeighbors {
             self.near_features.push(key, place);
         }
     }
+}
+
+/// Positions and velocities of four particles.
+#[inline(always)]
+fn gather(motion: impl MotionView, particle: impl Fn(usize) -> u32) -> (Vec2x4, Vec2x4) {
+    let position = rows(|lane| motion.position(offset(particle(lane))));
+    let velocity = rows(|lane| motion.velocity(offset(particle(lane))));
+    (Vec2x4::from_rows(position), Vec2x4::from_rows(velocity))
+}
+
+/// Squares of velocities as seen from a drum that turns at some speed.
+#[inline(always)]
+fn squared_rate(position: Vec2x4, velocity: Vec2x4, speed: F64x4) -> F64x4 {
+    let seen = Vec2x4 { x: velocity.x + position.y * speed, y: velocity.y - position.x * speed };
+    seen.dot(seen)
 }
 
 /// Distances are taken slightly low, which covers round-off.

@@ -13,7 +13,7 @@ mod search;
 
 use cells::CellGrid;
 pub use chunk::{ChunkNeighbors, NearLimits};
-pub use near::Opened;
+pub use near::{NearBlock, Opened};
 pub use neighbors::Status;
 use search::Search;
 

@@ -94,6 +94,17 @@ impl NearList {
         (at_offset(block.own[lane]), self.kind.decode(block.other[lane]))
     }
 
+    /// Takes out the pairs for which a mask of each block holds.
+    #[inline(always)]
+    pub fn take_where(&mut self, opened: &mut Vec<Opened>, touching: impl Fn(&NearBlock) -> F64x4) {
+        for block in 0..self.blocks.len() {
+            let touching = touching(&self.blocks[block]).to_bitmask();
+            if touching != 0 {
+                self.take(block, touching, opened);
+            }
+        }
+    }
+
     /// Takes out the pairs of a block that touch, given as bits.
     #[cold]
     #[inline(never)]
@@ -130,13 +141,8 @@ impl NearList {
         motion: impl MotionView,
         reach: &Reach,
     ) {
-        let between = |value: &dyn Fn(u32) -> [f64; 2]| {
-            let [own, own_odd] = rows(|lane| value(pairs[lane].0));
-            let [other, other_odd] = rows(|lane| value(pairs[lane].1));
-            Vec2x4::from_rows([other - own, other_odd - own_odd])
-        };
-        let apart = between(&|particle| motion.position(offset(particle)));
-        let velocity = between(&|particle| motion.velocity(offset(particle)));
+        let apart = between(pairs, |particle| motion.position(offset(particle)));
+        let velocity = between(pairs, |particle| motion.velocity(offset(particle)));
         let distance = reach.of(|lane| pairs[lane]);
         // The gap is (d² − reach²) / (d + reach). The approach is over d, which is no less than the reach.
         let excess = apart.dot(apart) - distance * distance;
@@ -153,6 +159,14 @@ impl NearList {
             }
         }
     }
+}
+
+/// What the vectors of bodies j have that those of bodies i have not.
+#[inline(always)]
+fn between(pairs: &[(u32, u32); LANES], vector: impl Fn(u32) -> [f64; 2]) -> Vec2x4 {
+    let [own, own_odd] = rows(|lane| vector(pairs[lane].0));
+    let [other, other_odd] = rows(|lane| vector(pairs[lane].1));
+    Vec2x4::from_rows([other - own, other_odd - own_odd])
 }
 
 /// When two particles count as near.

@@ -218,6 +218,9 @@ mod tests {
             normal_damping: None,
             friction: 0.5,
             tension,
+            rolling_friction: 0.0,
+            tangential_damping_ratio: 0.0,
+            adhesion: 0.0,
         }
     }
 

@@ -10,13 +10,16 @@
 //! Fₜ = kₛ ξ. The moments about the centers are M = a Fₜ + M_r on `i`, with a the arm from its center to the contact and
 //! M_r the rolling moment, and a' Fₜ − M_r on `j`.
 
+pub mod adhesion;
 mod friction;
 mod kinematics;
 pub mod law;
 pub mod linear;
 pub mod model;
 pub mod parameters;
+pub mod rolling;
 pub mod species;
+pub mod tangential_dashpot;
 
 pub use kinematics::{Kinematics, Motion};
 
@@ -47,6 +50,10 @@ columns! {
         dissipated_normal,
         /// taken by sliding
         dissipated_sliding,
+        /// taken by tangential dashpots
+        dissipated_tangential,
+        /// taken by rolling
+        dissipated_rolling,
     }
 }
 
@@ -57,6 +64,10 @@ columns! {
         elastic_normal,
         /// held by tangential springs
         elastic_tangential,
+        /// held by rolling springs
+        elastic_rolling,
+        /// of adhesion, below zero while bodies touch
+        adhesion,
     }
 }
 

@@ -1,11 +1,14 @@
 //! The list of laws: which base law a simulation has, and which terms act with it.
 
+use super::adhesion::Adhesion;
 use super::law::WithTerms;
 use super::linear::Linear;
+use super::rolling::RollingResistance;
 use super::species::SpeciesTable;
+use super::tangential_dashpot::TangentialDashpot;
 
 /// The terms that act with a base law, in this order.
-pub type Terms = ();
+pub type Terms = (RollingResistance, (TangentialDashpot, Adhesion));
 
 /// The base law alone, tension allowed.
 pub type BareLaw = Linear<false>;

@@ -22,6 +22,12 @@ pub struct ContactParameters {
     pub friction: f64,
     /// Whether the dashpot may pull.
     pub tension: Tension,
+    /// Rolling friction μ_r; 0 for none.
+    pub rolling_friction: f64,
+    /// Damping ratio ζₜ of the dashpot beside the tangential spring; 0 for none.
+    pub tangential_damping_ratio: f64,
+    /// Pull F_c while the bodies touch [N/m]; 0 for none.
+    pub adhesion: f64,
 }
 
 /// What happens where spring and dashpot together would pull the bodies towards each other.
@@ -40,12 +46,15 @@ impl ContactParameters {
         require_positive(&format!("{key}.normal_stiffness"), self.normal_stiffness)?;
         require_positive(&format!("{key}.stiffness_ratio"), self.stiffness_ratio)?;
         require_non_negative(&format!("{key}.friction"), self.friction)?;
+        require_non_negative(&format!("{key}.rolling_friction"), self.rolling_friction)?;
+        require_non_negative(&format!("{key}.tangential_damping_ratio"), self.tangential_damping_ratio)?;
+        require_non_negative(&format!("{key}.adhesion"), self.adhesion)?;
         self.validate_damping(key)
     }
 
     /// Whether any term acts beside the base law.
     pub fn has_terms(&self) -> bool {
-        false
+        [self.rolling_friction, self.tangential_damping_ratio, self.adhesion].iter().any(|&term| term > 0.0)
     }
 
     fn validate_damping(&self, key: &str) -> Result<(), Error> {
