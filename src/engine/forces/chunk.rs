@@ -138,8 +138,9 @@ impl<L: ContactLaw> ChunkContacts<L> {
             return;
         }
         pairs::evaluate(&mut self.pairs, motion, inputs.time, sums, &mut self.totals, &mut scratch.pairs);
-        if !scratch.pairs.ended.is_empty() {
-            self.pairs.close_ended(&scratch.pairs.ended, |key, place| neighbors.release_pair(key, place));
+        let ended = scratch.pairs.ended.blocks();
+        if !ended.is_empty() {
+            self.pairs.close_ended(ended, |key, place| neighbors.release_pair(key, place));
         }
     }
 
@@ -182,8 +183,8 @@ impl<L: ContactLaw> ChunkContacts<L> {
         }
         let ended = &mut scratch.pairs.ended;
         surfaces[0] = walls::evaluate_rim(&mut self.rim, motion, inputs, sums, &mut self.totals, ended);
-        if !ended.is_empty() {
-            self.rim.close_ended(ended, |(particle, _), _| neighbors.release_rim(particle));
+        if !ended.blocks().is_empty() {
+            self.rim.close_ended(ended.blocks(), |(particle, _), _| neighbors.release_rim(particle));
         }
     }
 
@@ -227,7 +228,7 @@ impl<L: ContactLaw> ChunkContacts<L> {
         }
         let totals = &mut self.totals;
         walls::evaluate_outlines(&mut self.outlines, spots, motion, inputs, sums, totals, surfaces, ended);
-        self.outlines.close_ended(ended, |key, place| neighbors.release_feature(key, place));
+        self.outlines.close_ended(ended.blocks(), |key, place| neighbors.release_feature(key, place));
     }
 }
 

@@ -32,14 +32,50 @@ struct Meeting {
 pub struct Scratch {
     meetings: [Meeting; GROUP],
     /// The blocks with contacts that have ended.
-    pub ended: Vec<u32>,
+    pub ended: Ended,
 }
 
 impl Default for Scratch {
     fn default() -> Self {
         let zero = F64x4::ZERO;
         let meeting = Meeting { normal: Vec2x4 { x: zero, y: zero }, overlap: zero };
-        Self { meetings: [meeting; GROUP], ended: Vec::new() }
+        Self { meetings: [meeting; GROUP], ended: Ended::default() }
+    }
+}
+
+/// The blocks of a list with contacts that have ended.
+///
+/// There is room for all before a pass begins: where a list could grow in a loop, the sums would have to be in memory in every
+/// turn, in case that fails.
+#[derive(Debug, Clone, Default)]
+pub struct Ended {
+    blocks: Vec<u32>,
+    count: usize,
+}
+
+impl Ended {
+    /// None yet, of a list of so many blocks.
+    pub fn clear(&mut self, blocks: usize) {
+        if self.blocks.len() < blocks {
+            self.blocks.resize(blocks, 0);
+        }
+        self.count = 0;
+    }
+
+    /// Takes note of a block of which these lanes touch.
+    #[inline(always)]
+    pub fn note(&mut self, block: usize, touching: u32) {
+        if touching != ALL_LANES
+            && let Some(next) = self.blocks.get_mut(self.count)
+        {
+            *next = block as u32;
+            self.count += 1;
+        }
+    }
+
+    /// The blocks, ascending.
+    pub fn blocks(&self) -> &[u32] {
+        &self.blocks[..self.count]
     }
 }
 
@@ -52,7 +88,7 @@ pub fn evaluate<L: ContactLaw>(
     totals: &mut Totals,
     scratch: &mut Scratch,
 ) {
-    scratch.ended.clear();
+    scratch.ended.clear(list.blocks());
     let mut lanes = totals.open();
     let ContactList { ids, blocks, other_moments, parameters, .. } = list;
     let unit = match parameters {
@@ -116,9 +152,7 @@ where
                 let other = if BOTH { Some(&mut other_moments[index]) } else { None };
                 let touching =
                     self.advance(block, ids, meeting, &(self.parameters)(index), other, sums, totals);
-                if touching != ALL_LANES {
-                    ended.push(index as u32);
-                }
+                ended.note(index, touching);
             }
         }
     }

@@ -3,11 +3,12 @@
 use wide::f64x2;
 
 use super::accumulate::Accumulator;
+use super::pairs::Ended;
 use super::totals::{LaneTotals, Totals};
 use super::{StepInputs, SurfaceLoad};
 use crate::engine::contacts::{Block, ContactList, Ids, ListParameters, PairParameters};
 use crate::engine::motion::{MotionView, offset};
-use crate::engine::simd::{ALL_LANES, F64x4, LANES, Vec2x4, lanes, rows, sum};
+use crate::engine::simd::{F64x4, LANES, Vec2x4, lanes, rows, sum};
 use crate::physics::columns::{Columns, Of};
 use crate::physics::contact::law::ContactLaw;
 use crate::physics::contact::{ContactState, Kinematics, Motion};
@@ -51,9 +52,9 @@ pub fn evaluate_rim<L: ContactLaw>(
     inputs: &StepInputs,
     sums: &mut impl Accumulator,
     totals: &mut Totals,
-    ended: &mut Vec<u32>,
+    ended: &mut Ended,
 ) -> SurfaceLoad {
-    ended.clear();
+    ended.clear(list.blocks());
     let ContactList { ids, blocks, parameters, .. } = list;
     let mut lanes = totals.open();
     match parameters {
@@ -83,7 +84,7 @@ fn rim_pass<L: ContactLaw, const MIXED: bool>(
     inputs: &StepInputs,
     sums: &mut impl Accumulator,
     totals: &mut LaneTotals,
-    ended: &mut Vec<u32>,
+    ended: &mut Ended,
 ) -> SurfaceLoad {
     let Some(rim) = inputs.drum.radius() else { return SurfaceLoad::default() };
     let zero = F64x4::ZERO;
@@ -105,9 +106,7 @@ fn rim_pass<L: ContactLaw, const MIXED: bool>(
         let reaction = advance::<L, MIXED>(block, &bodies, &meeting, &parameters, inputs, totals);
         moment += reaction.moment - bodies.position.cross(reaction.force);
         force = force.plus(reaction.force);
-        if reaction.touching != ALL_LANES {
-            ended.push(index as u32);
-        }
+        ended.note(index, reaction.touching);
         scatter(ids, &reaction, sums);
     }
     let total = |lanes: F64x4| sum(lanes.to_array());
@@ -145,9 +144,9 @@ pub fn evaluate_outlines<L: ContactLaw>(
     sums: &mut impl Accumulator,
     totals: &mut Totals,
     surfaces: &mut [SurfaceLoad],
-    ended: &mut Vec<u32>,
+    ended: &mut Ended,
 ) {
-    ended.clear();
+    ended.clear(list.blocks());
     let mut open_totals = totals.open();
     let speed = F64x4::splat(inputs.angular_velocity);
     let ContactList { ids, blocks, parameters, .. } = list;
@@ -171,9 +170,7 @@ pub fn evaluate_outlines<L: ContactLaw>(
             surface.force -= Vec2::new(x, y);
             surface.moment += moments[lane];
         }
-        if reaction.touching != ALL_LANES {
-            ended.push(index as u32);
-        }
+        ended.note(index, reaction.touching);
         scatter(ids, &reaction, sums);
     }
     totals.close(&open_totals, 1.0);

@@ -111,7 +111,7 @@ impl<const CLIPS: bool> ContactLaw for Linear<CLIPS> {
 /// The dashpot's force at mid-step times the travel. Where the whole force is clipped, the dashpot holds just the spring.
 #[inline(always)]
 fn dashpot_loss<S: Scalar, const CLIPS: bool>(law: &LinearLaw<S>, contact: &Kinematics<S>) -> S {
-    let mut force = law.damping * contact.step_rate * contact.approach;
+    let mut force = -(law.damping * contact.last_rate);
     if CLIPS {
         let mean_overlap = (contact.overlap + contact.last_overlap) * S::splat(0.5);
         force = force.larger(law.least_normal_force - law.normal_stiffness * mean_overlap);
