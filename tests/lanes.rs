@@ -8,7 +8,7 @@ use drumrs::physics::columns::{Columns, Of};
 use drumrs::physics::contact::law::{BodyPair, ContactLaw};
 use drumrs::physics::contact::model::{BareLaw, ClippedLaw, FullLaw};
 use drumrs::physics::contact::parameters::{ContactParameters, Tension};
-use drumrs::physics::contact::{ContactState, Flows, Kinematics, Motion, Response};
+use drumrs::physics::contact::{ContactState, Flows, Kinematics, RelativeMotion, Response};
 use drumrs::physics::scalar::Scalar;
 use proptest::prelude::*;
 
@@ -16,8 +16,12 @@ use proptest::prelude::*;
 type Told = [f64; 12];
 
 fn contact<S: Scalar>(told: impl Fn(usize) -> S) -> Kinematics<S> {
-    let motion =
-        Motion { overlap: told(0), separation_rate: told(2), slip_rate: told(4), rolling_rate: told(5) };
+    let motion = RelativeMotion {
+        overlap: told(0),
+        separation_rate: told(2),
+        slip_rate: told(4),
+        rolling_rate: told(5),
+    };
     let last = ContactState {
         overlap: told(1).larger(S::zero()),
         separation_rate: told(3),

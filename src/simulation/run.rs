@@ -45,7 +45,7 @@ impl Simulation {
     /// Begins a run of steps from a state that is up to date.
     fn begin(&mut self) {
         if self.is_sort_due() {
-            let order = memory_order::along_curve(&self.state.particles.positions);
+            let order = memory_order::hilbert_order(&self.state.particles.positions);
             self.engine.reorder(&mut self.state.particles, &order, self.derived.world());
         }
         self.engine.begin(&mut self.state.particles);
