@@ -36,11 +36,9 @@ pub struct ChunkScratch {
 }
 
 impl<L: ContactLaw> ChunkContacts<L> {
-    /// None yet, for chunk `index` of `count` particles. `same` has the parameters of pairs and of walls where particles
-    /// are equal.
-    pub fn new(index: usize, count: usize, bodies: &super::Bodies) -> Self {
+    /// None yet, for chunk `index` of `count` particles, which are equal in what contacts follow from or not.
+    pub fn new(index: usize, count: usize, bodies: &super::Bodies, are_equal: bool) -> Self {
         let first = (index * CHUNK) as u32;
-        let are_equal = bodies.are_equal();
         let parameters = |same: &dyn Fn() -> _| match are_equal {
             true => ListParameters::Same(same()),
             false => ListParameters::Each(Vec::new()),

@@ -119,8 +119,9 @@ struct Pass<L: ContactLaw> {
 impl<L: ContactLaw> Pass<L> {
     fn new(surfaces: usize, bodies: &Bodies) -> Self {
         let count = bodies.radii.len();
+        let are_equal = bodies.are_equal();
         let chunk = |index| Chunk {
-            contacts: ChunkContacts::new(index, count, bodies),
+            contacts: ChunkContacts::new(index, count, bodies, are_equal),
             remote: RemoteReactions::default(),
             surfaces: vec![SurfaceLoad::default(); surfaces],
             scratch: ChunkScratch::default(),
