@@ -9,7 +9,7 @@ use drumrs::engine::simd::{F64x4, LANES, lanes};
 use drumrs::physics::columns::Columns;
 use drumrs::physics::contact::law::ContactLaw;
 use drumrs::physics::contact::linear::{Linear, LinearHistory, LinearLaw};
-use drumrs::physics::contact::{ContactState, Kinematics, Motion};
+use drumrs::physics::contact::{ContactState, Kinematics, RelativeMotion};
 use drumrs::physics::scalar::Scalar;
 use scenes::common::{TIME_STEP, law, linear_law};
 
@@ -19,14 +19,14 @@ fn wave(first: usize, pace: usize) -> F64x4 {
 }
 
 /// How bodies move, what they were like before, what the law remembers of them.
-type Contact = (Motion<F64x4>, ContactState<F64x4>, LinearHistory<F64x4>);
+type Contact = (RelativeMotion<F64x4>, ContactState<F64x4>, LinearHistory<F64x4>);
 
 fn contacts(count: usize) -> Vec<Contact> {
     let contact = |first: usize| {
         let parted = wave(first, 3) * 1e-7;
         let overlap = (wave(first, 5) * 1.1 + 1.0) * 1e-6;
         let past = Scalar::larger(overlap + parted, F64x4::ZERO);
-        let motion = Motion {
+        let motion = RelativeMotion {
             overlap,
             separation_rate: parted / F64x4::splat(TIME_STEP),
             slip_rate: wave(first, 7) * 1e-7 / F64x4::splat(TIME_STEP),

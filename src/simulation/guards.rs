@@ -17,7 +17,7 @@ impl Simulation {
         self.engine.show(&mut self.state.particles);
         // Measuring would pass over ways that are no numbers.
         self.guard_finite()?;
-        let way = self.engine.measure_ways(&mut self.state.particles, self.derived.world(), drum);
+        let way = self.engine.measure_ways(&self.state.particles, self.derived.world(), drum);
         if way < limit {
             return Ok(());
         }

@@ -82,7 +82,7 @@ impl Simulation {
         initial_state::require_inside(&derived.drum, &particles, rotation)?;
         let mut contacts = initial_state::matching(&initial.contacts, &particles, &derived.drum, rotation);
         if memory_order::is_due(particles.len(), 0) {
-            let order = memory_order::along_curve(&particles.positions);
+            let order = memory_order::hilbert_order(&particles.positions);
             let mut places = vec![0; order.len()];
             (0..).zip(&order).for_each(|(place, &particle)| places[particle as usize] = place);
             particles.reorder(&order);

@@ -11,7 +11,7 @@ use crate::engine::motion::{MotionView, offset};
 use crate::engine::simd::{F64x4, LANES, Vec2x4, lanes, rows, sum};
 use crate::physics::columns::{Columns, Of};
 use crate::physics::contact::law::ContactLaw;
-use crate::physics::contact::{ContactState, Kinematics, Motion};
+use crate::physics::contact::{ContactState, Kinematics, RelativeMotion};
 use crate::physics::scalar::Scalar;
 use crate::physics::vector::Vec2;
 
@@ -25,7 +25,7 @@ struct Bodies {
 
 /// Where they meet it.
 #[derive(Debug, Clone, Copy)]
-struct Meeting {
+struct ContactGeometry {
     /// Towards the drum.
     normal: Vec2x4,
     /// Overlap; not above zero where they are apart.
@@ -96,7 +96,7 @@ fn rim_pass<L: ContactLaw, const MIXED: bool>(
         let distance = bodies.position.dot(bodies.position).sqrt();
         let overlap = distance - (rim - parameters.1.radius);
         let arm = parameters.1.radius - overlap.larger(zero);
-        let meeting = Meeting {
+        let meeting = ContactGeometry {
             normal: bodies.position.scaled(F64x4::ONE / distance),
             overlap,
             arm,
@@ -161,7 +161,7 @@ pub fn evaluate_outlines<L: ContactLaw>(
         let arm = parameters.1.radius - overlap.larger(F64x4::ZERO);
         let point = bodies.position.plus(normal.scaled(arm));
         let surface_rates = [speed * point.cross(normal), speed * point.dot(normal)];
-        let meeting = Meeting { normal, overlap, arm, surface_rates };
+        let meeting = ContactGeometry { normal, overlap, arm, surface_rates };
         let reaction = advance::<L, true>(block, &bodies, &meeting, &parameters, inputs, &mut open_totals);
         let moments = (reaction.moment - bodies.position.cross(reaction.force)).to_array();
         for (lane, force) in reaction.force.to_array().into_iter().enumerate().take(spots.len()) {
@@ -204,14 +204,14 @@ impl Bodies {
 fn advance<L: ContactLaw, const MIXED: bool>(
     block: &mut Block<L>,
     bodies: &Bodies,
-    meeting: &Meeting,
+    meeting: &ContactGeometry,
     (law, geometry): &Of<PairParameters<L>, F64x4>,
     inputs: &StepInputs,
     totals: &mut LaneTotals,
 ) -> Reaction {
-    let Meeting { normal, overlap, arm, surface_rates: [separation, sliding] } = *meeting;
+    let ContactGeometry { normal, overlap, arm, surface_rates: [separation, sliding] } = *meeting;
     let Bodies { velocity, spin, .. } = *bodies;
-    let motion = Motion {
+    let motion = RelativeMotion {
         overlap,
         separation_rate: separation - velocity.dot(normal),
         slip_rate: sliding - normal.cross(velocity) - arm * spin,
