@@ -58,6 +58,7 @@ impl Simulation {
     ///
     /// # Errors
     /// `Error::Config` naming the field of the state or the configuration.
+    #[allow(clippy::needless_pass_by_value)] // A state is made for one start.
     pub fn with_state(
         config: SimulationConfig,
         seed: u64,
