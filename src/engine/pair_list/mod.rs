@@ -91,7 +91,7 @@ impl PairList {
     /// Whether the list may no longer hold.
     pub fn is_due(&self) -> bool {
         // What is not a number is due, too.
-        !(self.slack > 0.0)
+        self.slack.is_nan() || self.slack <= 0.0
     }
 
     /// Whether the list still holds for sure: no particle has moved half the skin, or close to it.
