@@ -1,4 +1,4 @@
-//! The baseline step for `instructions.sh`, which counts what it costs: `settle FILE BAFFLES` makes a load in the tumble,
+//! The loads for `instructions.sh`, which counts what a step costs: `settle FILE COUNT BAFFLES` makes one in the tumble,
 //! `run FILE STEPS` goes on with it. Any other arguments, such as those of `cargo bench`, do nothing.
 
 mod scenes;
@@ -7,21 +7,31 @@ use std::path::Path;
 
 use drumrs::simulation::Simulation;
 
-const COUNT: usize = 200;
+/// What a load in Table 1's drum needs to come into the tumble [s].
+const SETTLING: f64 = 5.0;
+/// Larger loads start as a bed, and have moved on from it after these steps.
+const LARGE_STEPS: u64 = 2_000;
+
+fn number(word: &str) -> usize {
+    word.parse().expect("a number")
+}
 
 fn main() {
     let arguments: Vec<String> = std::env::args().collect();
     let words: Vec<&str> = arguments[1..].iter().map(String::as_str).collect();
     match words[..] {
-        ["settle", file, baffles] => {
-            let config = scenes::drum_for(COUNT, baffles.parse().expect("a number of baffles"));
-            let mut simulation = Simulation::new(config, 1, 1).expect("a load that fits");
-            simulation.run(200_000).expect("a stable run");
+        ["settle", file, count, baffles] => {
+            let mut simulation = scenes::started(number(count), number(baffles));
+            let steps = match number(count) {
+                0..=300 => (SETTLING / simulation.time_step()).round() as u64,
+                _ => LARGE_STEPS,
+            };
+            simulation.run(steps).expect("a stable run");
             simulation.save(Path::new(file)).expect("a file to write");
         }
         ["run", file, steps] => {
             let mut simulation = Simulation::load(Path::new(file), 1).expect("a settled load");
-            simulation.run(steps.parse().expect("a number of steps")).expect("a stable run");
+            simulation.run(number(steps) as u64).expect("a stable run");
         }
         _ => {}
     }

@@ -1,50 +1,59 @@
-//! One call of the contact law, for four contacts at once, over contacts that press, pull, slide, stick, open and close.
+//! One step of the contact law, for four contacts at once, over contacts that press, pull, slide, stick, open and close.
 
 mod scenes;
 
 use std::hint::black_box;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use drumrs::contact::linear::{LinearLanes, LinearLaw};
-use drumrs::contact::{Displacement, Encounter, History, HistoryLanes};
-use drumrs::lanes::{LANES, Lanes, lanes};
+use drumrs::engine::simd::{F64x4, LANES, lanes};
+use drumrs::physics::columns::Columns;
+use drumrs::physics::contact::law::ContactLaw;
+use drumrs::physics::contact::linear::{Linear, LinearHistory, LinearLaw};
+use drumrs::physics::contact::{ContactState, Kinematics, RelativeMotion};
+use drumrs::physics::scalar::Scalar;
+use scenes::common::{TIME_STEP, law, linear_law};
 
 /// Numbers within ±1.
-fn wave(first: usize, pace: usize) -> Lanes {
+fn wave(first: usize, pace: usize) -> F64x4 {
     lanes(|lane| ((first + lane) * pace % 31) as f64 / 15.0 - 1.0)
 }
 
-fn encounters(law: &LinearLaw, count: usize) -> Vec<(Encounter, HistoryLanes)> {
-    let none = History::default();
-    let encounter = |first: usize| {
-        let displacement = Displacement { parting: wave(first, 3) * 1e-7, slip: wave(first, 7) * 1e-7 };
+/// How bodies move, what they were like before, what the law remembers of them.
+type Contact = (RelativeMotion<F64x4>, ContactState<F64x4>, LinearHistory<F64x4>);
+
+fn contacts(count: usize) -> Vec<Contact> {
+    let contact = |first: usize| {
+        let parted = wave(first, 3) * 1e-7;
         let overlap = (wave(first, 5) * 1.1 + 1.0) * 1e-6;
-        let past = (overlap + displacement.parting).fast_max(Lanes::ZERO);
-        let history = HistoryLanes {
-            overlap: past,
-            tangential_displacement: past * wave(first, 11) * 0.5,
-            normal_force: past * law.normal_stiffness,
-            ..HistoryLanes::new(|_| &none)
+        let past = Scalar::larger(overlap + parted, F64x4::ZERO);
+        let motion = RelativeMotion {
+            overlap,
+            separation_rate: parted / F64x4::splat(TIME_STEP),
+            slip_rate: wave(first, 7) * 1e-7 / F64x4::splat(TIME_STEP),
+            rolling_rate: F64x4::ZERO,
         };
-        let step_rate = 1.0 / scenes::common::TIME_STEP;
-        let parting_speed = displacement.parting * step_rate;
-        let damping = Lanes::splat(5.35e3);
-        (Encounter { overlap, displacement, parting_speed, damping, step_rate }, history)
+        let last = ContactState {
+            overlap: past,
+            separation_rate: wave(first, 13) * 0.03,
+            ..ContactState::build(|_| F64x4::ZERO)
+        };
+        (motion, last, LinearHistory { tangential_displacement: past * wave(first, 11) * 0.5 })
     };
-    (0..count).step_by(LANES).map(encounter).collect()
+    (0..count).step_by(LANES).map(contact).collect()
 }
 
 fn responses(criterion: &mut Criterion) {
-    let law = LinearLaw::from(&scenes::common::law(9.25e7));
-    let contacts = encounters(&law, 1024);
-    let laws = LinearLanes::splat(&law);
+    let contacts = contacts(1024);
+    let law = LinearLaw::map(&linear_law(&law(9.25e7)), F64x4::splat);
+    let time = [F64x4::splat(TIME_STEP), F64x4::splat(1.0 / TIME_STEP)];
     let mut group = criterion.benchmark_group("law");
     scenes::keep_short(&mut group);
     group.throughput(Throughput::Elements((contacts.len() * LANES) as u64));
     group.bench_function("linear", |bencher| {
         bencher.iter(|| {
-            for (encounter, history) in &contacts {
-                black_box(laws.respond(black_box(encounter), black_box(history)));
+            for (motion, last, history) in &contacts {
+                let contact = Kinematics::new(black_box(motion), black_box(last), time);
+                black_box(Linear::<false>::respond(&law, &contact, black_box(history)));
             }
         });
     });

@@ -1,11 +1,17 @@
 #!/usr/bin/env bash
-# Counts the instructions of the baseline step (200 bundles in Table 1's drum, one thread) under valgrind's callgrind.
-# They do not depend on how busy the machine is, so a loss of two percent shows. `--keep` writes the figures to
-# instructions.txt; without it they are compared with those that are kept there.
+# Counts the instructions of a step, per bundle, on one thread, under valgrind's callgrind: of 100, 200 and 300 bundles in
+# Table 1's drum, 200 with three baffles, 10 000 in a drum that has grown with its load. They do not depend on how busy the
+# machine is, so a loss of two percent shows. `--keep` writes the figures to instructions.txt; without it they are compared
+# with those that are kept there, and printed alone where there are none.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
 kept=benches/instructions.txt
+loads='100 0
+200 0
+300 0
+200 3
+10000 0'
 tolerance=2 # percent
 
 if ! command -v valgrind >/dev/null; then
@@ -28,22 +34,36 @@ count() { # FILE STEPS: instructions of a run
         sed -n 's/.*Collected : //p'
 }
 
+measure() { # COUNT BAFFLES: instructions per bundle and step
+    local few=1000 many=5000
+    if (($1 > 300)); then few=200 many=600; fi
+    "$program" settle "$work/$1-$2" "$1" "$2"
+    # The difference of two lengths leaves out reading the file and the first pair list.
+    echo "$(count "$work/$1-$2" "$many") $(count "$work/$1-$2" "$few") $((many - few)) $1" |
+        awk '{ printf "%.1f\n", ($1 - $2) / ($3 * $4) }'
+}
+
+# Each load by itself, as many at a time as there are CPUs.
+export -f count measure
+export program work
+xargs -P "$(nproc)" -L 1 bash -c 'measure "$0" "$1" > "$work/figure-$0-$1"' <<<"$loads"
+
 figures=$compiler
 status=0
-for baffles in 0 3; do
-    "$program" settle "$work/load" "$baffles"
-    # The difference of two lengths leaves out reading the file and the first neighbor list.
-    each=$((($(count "$work/load" 4000) - $(count "$work/load" 1000)) / (3000 * 200)))
-    figures+=$'\n'"$baffles $each"
-    [ "${1:-}" = --keep ] && continue
-    before=$(sed -n "s/^$baffles //p" "$kept")
-    echo "instructions per bundle and step, $baffles baffles: $each, kept: $before"
-    if ((100 * each > (100 + tolerance) * before)); then
+while read -r bundles baffles; do
+    each=$(cat "$work/figure-$bundles-$baffles")
+    figures+=$'\n'"$bundles $baffles $each"
+    before=$(sed -n "s/^$bundles $baffles //p" "$kept")
+    echo "instructions per bundle and step, $bundles bundles, $baffles baffles: $each, kept: ${before:-none}"
+    [ "${1:-}" = --keep ] || [ -z "$before" ] && continue
+    change=$(awk "BEGIN { print 100 * $each > (100 + $tolerance) * $before, 100 * $each < (100 - $tolerance) * $before }")
+    case $change in
+    "1 0")
         echo "more by over $tolerance %: find out why, or keep the new figure with benches/instructions.sh --keep"
         status=1
-    elif ((100 * each < (100 - tolerance) * before)); then
-        echo "fewer by over $tolerance %: keep the new figure with benches/instructions.sh --keep"
-    fi
-done
-[ "${1:-}" = --keep ] && echo "$figures" >"$kept"
+        ;;
+    "0 1") echo "fewer by over $tolerance %: keep the new figure with benches/instructions.sh --keep" ;;
+    esac
+done <<<"$loads"
+if [ "${1:-}" = --keep ]; then echo "$figures" >"$kept"; fi
 exit $status

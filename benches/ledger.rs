@@ -5,7 +5,7 @@ mod scenes;
 use std::hint::black_box;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use drumrs::physics::energy::{Balance, EnergyLedger, StepFlows, StoredEnergy, SurfaceLoad};
+use drumrs::physics::energy::{EnergyLedger, MomentBalance, StoredEnergy, SurfaceLoad};
 use drumrs::physics::vector::Vec2;
 
 fn accounts(criterion: &mut Criterion) {
@@ -13,19 +13,14 @@ fn accounts(criterion: &mut Criterion) {
     scenes::keep_short(&mut group);
     // Rim and three baffles.
     let surfaces = [SurfaceLoad { force: Vec2::new(3.0, 40.0), moment: -1.7 }; 4];
-    let flows = StepFlows {
-        work_normal: 1e-4,
-        work_tangential: -3e-5,
-        dissipated_normal: 7e-5,
-        ..StepFlows::default()
-    };
-    let balance = Balance { mass_moment: Vec2::new(2.0, -9.0), outer_moment: -19.6, ..Balance::default() };
-    let mut ledger = EnergyLedger::open(StoredEnergy::default(), balance, &surfaces);
+    let (mass_moment, outer_moment) = (Vec2::new(2.0, -9.0), -19.6);
+    let moments = MomentBalance::open(mass_moment, outer_moment, 0.0);
+    let mut ledger = EnergyLedger::open(StoredEnergy::default(), moments, &surfaces);
     group.throughput(Throughput::Elements(1));
     group.bench_function("step", |bencher| {
         bencher.iter(|| {
-            ledger.charge(black_box(&flows), black_box(&surfaces), 2e-5, 3.7e-6);
-            ledger.charge_balance(black_box(balance), 2e-5, 3.7e-6, true);
+            ledger.charge_surfaces(black_box(&surfaces), 2e-5, 3.7e-6);
+            ledger.moments.charge(black_box(mass_moment), black_box(outer_moment), 2e-5, 3.7e-6);
         });
     });
     group.throughput(Throughput::Elements(1_000));

@@ -1,10 +1,11 @@
-//! One rebuild of the neighbor list: cells, search, and the link to the contacts.
+//! One rebuild of the pair list: cells and search.
 
 mod scenes;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use drumrs::engine::forces::{Bodies, StepInputs, StepTime};
+use drumrs::engine::pair_list::PairList;
 use drumrs::engine::parallel::Threads;
-use drumrs::neighbors::{Surroundings, VerletList};
 use drumrs::physics::vector::Rotation;
 
 fn rebuilds(criterion: &mut Criterion) {
@@ -17,14 +18,25 @@ fn rebuilds(criterion: &mut Criterion) {
         let mut simulation = None;
         group.bench_function(BenchmarkId::from_parameter(count), |bencher| {
             let simulation = simulation.get_or_insert_with(|| scenes::tumbling(count, 3));
-            let around = Surroundings {
-                particles: &simulation.state().particles,
+            let particles = &simulation.state().particles;
+            let table = simulation.config().contact.table().expect("one species");
+            let step = simulation.time_step();
+            let radius = scenes::common::RADIUS;
+            let inputs = StepInputs {
+                time: StepTime { step, rate: 1.0 / step },
                 drum: simulation.drum(),
                 rotation: Rotation::new(simulation.drum_angle()),
+                angular_velocity: simulation.config().rotation.angular_velocity(simulation.time()),
+                bodies: Bodies {
+                    radius: Some(radius),
+                    radii: &particles.radii,
+                    masses: &particles.masses,
+                    species: &particles.species,
+                    table: &table,
+                },
             };
-            let mut table = simulation.contacts().clone();
-            let mut list = VerletList::new(0.5 * scenes::common::RADIUS);
-            bencher.iter(|| list.rebuild(around, &mut table, &threads));
+            let mut list = PairList::new(count, 0.5 * radius, radius);
+            bencher.iter(|| list.rebuild(&particles.positions, &inputs, &threads));
         });
     }
     group.finish();

@@ -17,9 +17,12 @@ const CONFIG: &str = r#"{
   "load": {"count": 100, "diameter": 0.02375, "density": 1000.0, "start_speed": 0.0, "spin_locked": false},
   "contact": {
     "bundle": {"normal_stiffness": 9.25e7, "stiffness_ratio": 1.0, "restitution": 0.1, "normal_damping": null,
-               "friction": 0.5, "tension": "allowed"},
+               "friction": 0.5, "tension": "allowed", "rolling_friction": 0.0, "tangential_damping_ratio": 0.0,
+               "adhesion": 0.0},
     "drum": {"normal_stiffness": 9.70e7, "stiffness_ratio": 1.0, "restitution": 0.1, "normal_damping": null,
-             "friction": 0.5, "tension": "allowed"}
+             "friction": 0.5, "tension": "allowed", "rolling_friction": 0.0, "tangential_damping_ratio": 0.0,
+               "adhesion": 0.0},
+    "species": 1, "pairs": [], "walls": []
   },
   "gravity": [0.0, -9.81],
   "run": {"time_step": 3.7e-6, "sample_every": 0.002, "frame_every": 0.04, "skin": null, "overlap_limit": 0.5}

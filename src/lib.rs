@@ -3,17 +3,19 @@
 //! Everything is SI and per metre of drum depth. The drum turns about the origin; positive angles are
 //! counter-clockwise.
 //!
-//! | level | modules                                                                |
-//! |-------|------------------------------------------------------------------------|
-//! | 0     | [`vector`], [`error`], [`cache`]                                               |
-//! | 1     | [`lanes`], [`threads`], [`patch`], [`particles`], [`drum`], [`energy`] |
-//! | 2     | [`contact`], [`order`], [`packing`], [`integrator`], [`recorder`]      |
-//! | 3     | [`config`], [`neighbors`], [`forces`], [`state`], [`summary`]          |
-//! | 4     | [`start`]                                                              |
-//! | 5     | [`simulation`]                                                         |
-//! | 6     | [`checkpoint`]; `python`, which only the feature of that name builds   |
+//! What happens is `physics`, how it is computed fast is `engine`; a module imports only from lower levels:
 //!
-//! A module imports only from lower levels; `tests/architecture.rs` reads this table and checks it.
+//! | level | modules                                                                                                |
+//! |-------|--------------------------------------------------------------------------------------------------------|
+//! | 0     | [`error`], [`physics::columns`], [`physics::scalar`], [`physics::vector`]                              |
+//! | 1     | [`physics::contact`], [`physics::drum`], [`physics::particles`], [`physics::rotation`]                 |
+//! | 2     | [`physics::energy`], [`physics::load`]                                                                 |
+//! | 3     | [`engine`], [`io::config`], [`observe`]                                                                |
+//! | 4     | [`simulation`]                                                                                         |
+//! | 5     | [`io::checkpoint`]                                                                                     |
+//! | 6     | `python`, which only the feature of that name builds                                                   |
+//!
+//! `tests/architecture.rs` reads this table and checks it.
 //!
 //! A drum that speeds up to 5 rad/s within a second, and the angle it has turned after two, in closed form:
 //!

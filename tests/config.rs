@@ -10,18 +10,27 @@ use serde_json::Value;
 
 /// Every key of a configuration; `knots`, `walls`, `points` and `gravity` are lists.
 const KEYS: &[&str] = &[
+    "contact.bundle.adhesion",
     "contact.bundle.friction",
     "contact.bundle.normal_damping",
     "contact.bundle.normal_stiffness",
     "contact.bundle.restitution",
+    "contact.bundle.rolling_friction",
     "contact.bundle.stiffness_ratio",
+    "contact.bundle.tangential_damping_ratio",
     "contact.bundle.tension",
+    "contact.drum.adhesion",
     "contact.drum.friction",
     "contact.drum.normal_damping",
     "contact.drum.normal_stiffness",
     "contact.drum.restitution",
+    "contact.drum.rolling_friction",
     "contact.drum.stiffness_ratio",
+    "contact.drum.tangential_damping_ratio",
     "contact.drum.tension",
+    "contact.pairs",
+    "contact.species",
+    "contact.walls",
     "drum.baffles.base",
     "drum.baffles.count",
     "drum.baffles.height",
@@ -117,7 +126,7 @@ fn unknown_fields_are_refused() {
     }
 }
 
-/// Where a restitution or a damping is missing, the other one decides; `LinearParameters` asks for exactly one.
+/// Where a restitution or a damping is missing, the other one decides; `ContactParameters` asks for exactly one.
 #[test]
 fn missing_fields_are_refused() {
     for key in KEYS {

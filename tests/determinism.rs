@@ -50,7 +50,7 @@ fn tumbled(config: &SimulationConfig, initial: InitialState, steps: u64) -> Simu
     let mut simulation = start(config, initial);
     simulation.run(steps).expect("a stable run");
     let touching = touching(&simulation);
-    assert!(touching.0 > 15 && touching.1 > 5, "{touching:?}");
+    assert!(touching.0 > 5 && touching.1 > 5, "{touching:?}");
     simulation
 }
 
@@ -135,7 +135,7 @@ fn threads_do_not_show_in_a_mixed_load() {
     let one = run(1);
     assert!(touching(&one).0 > 50, "the run must hold contacts: {:?}", touching(&one));
     assert_eq!(bits(&one), bits(&run(3)));
-    let residual = one.state().ledger.relative_residual(&one.stored());
+    let residual = last(&one, "energy_residual");
     assert!(residual < 1e-11, "each bundle moves by its own mass: {residual:e}");
 }
 
@@ -160,13 +160,52 @@ fn any_skin_gives_the_same_bits() {
 fn a_restart_at_an_odd_step_gives_the_same_bits() {
     let small = baseline(120, 3);
     for mut straight in [tumbled(&small, bed(&small), 2345), after(&large(), 1, 1723)] {
-        assert!(touching(&straight).0 > 15, "{:?}", touching(&straight));
+        assert!(touching(&straight).0 > 5, "{:?}", touching(&straight));
         let saved = straight.to_checkpoint().unwrap();
         straight.run(400).unwrap();
         let mut resumed = Simulation::from_checkpoint(&saved, 2).unwrap();
         resumed.run(400).unwrap();
         assert_eq!(bits(&straight), bits(&resumed));
         assert_eq!(straight.to_checkpoint().unwrap(), resumed.to_checkpoint().unwrap());
+    }
+}
+
+/// Bundles in a bed of two chunks, which meet across the border of the chunks.
+fn two_chunks(baffle_count: usize) -> SimulationConfig {
+    let mut config = baseline(700, baffle_count);
+    config.drum.radius = Some(0.42);
+    config
+}
+
+/// A restart in the midst of impacts, at odd steps, goes on bit for bit: of loads of one chunk, of two, of ten.
+#[test]
+fn restarts_while_contacts_are_open_do_not_show() {
+    let mut many = large();
+    many.load.count = 5000;
+    let mut many_bare = many.clone();
+    many_bare.drum.baffles.count = 0;
+    let small = [(100, 0), (100, 3), (300, 0), (240, 3)].map(|(count, baffles)| baseline(count, baffles));
+    for mut config in small.into_iter().chain([two_chunks(0), two_chunks(3), many, many_bare]) {
+        config.load.start_speed = 4.0;
+        config.run.sample_every = 300.0 * TIME_STEP;
+        let mut straight = packed(&config, 1);
+        straight.run(1501).unwrap();
+        for steps in [1, 33, 76, 7] {
+            let case = format!("{} bundles, step {}", config.load.count, straight.state().step);
+            let saved = straight.to_checkpoint().unwrap();
+            let mut resumed = Simulation::from_checkpoint(&saved, 2).unwrap();
+            assert_eq!(saved, resumed.to_checkpoint().unwrap(), "{case}");
+            let mut open = touching(&straight);
+            while open.0 + open.1 == 0 {
+                straight.run(1).unwrap();
+                resumed.run(1).unwrap();
+                open = touching(&straight);
+            }
+            straight.run(steps).unwrap();
+            resumed.run(steps).unwrap();
+            assert_eq!(bits(&straight), bits(&resumed), "{case}");
+            assert_eq!(straight.to_checkpoint().unwrap(), resumed.to_checkpoint().unwrap(), "{case}");
+        }
     }
 }
 
@@ -200,6 +239,11 @@ fn a_sort_in_memory_changes_no_promise() {
     let mut resumed = Simulation::from_checkpoint(&saved, 1).unwrap();
     resumed.run(300).unwrap();
     assert_eq!(bits(&straight), bits(&resumed));
+    let mut pieces = Simulation::from_checkpoint(&saved, 1).unwrap();
+    while pieces.state().step < straight.state().step {
+        pieces.run(7.min(straight.state().step - pieces.state().step)).unwrap();
+    }
+    assert_eq!(bits(&straight), bits(&pieces), "pieces of 7 steps");
     let mut other_skin = to_be_sorted(Some(0.05 * RADIUS));
     other_skin.run(300).unwrap();
     assert_eq!(bits(&straight), bits(&other_skin));
@@ -236,12 +280,12 @@ fn in_pieces(config: &SimulationConfig, steps: u64, lengths: &[u64]) -> Simulati
 #[test]
 fn pieces_of_a_run_do_not_show() {
     for baffle_count in [0, 3] {
-        let mut config = baseline(100, baffle_count);
-        config.load.start_speed = 2.0;
+        let mut config = baseline(300 - 20 * baffle_count, baffle_count);
+        config.load.start_speed = 3.0;
         config.rotation.knots = vec![[0.0, SPEED], [0.003, -SPEED], [0.006, 0.0]];
         let steps = 3000;
         let at_once = after(&config, 1, steps);
-        assert!(touching(&at_once).0 > 10, "{:?}", touching(&at_once));
+        assert!(last(&at_once, "dissipated_normal") > 0.0 && last(&at_once, "work_rim") != 0.0);
         for lengths in [&[1][..], &[7], &[50], &[1, 10, 989]] {
             let pieces = in_pieces(&config, steps, lengths);
             assert_eq!(bits(&at_once), bits(&pieces), "{baffle_count} baffles, pieces of {lengths:?}");

@@ -127,7 +127,8 @@ fn bundles_start_inside_the_drum_and_outside_of_its_baffles() {
     let outside = single([0.3, 0.0], [0.0, 0.0], 0.0);
     assert_eq!(
         refusal(&config, outside),
-        "state.positions[0] is [0.3, 0], but must be inside the drum and outside of its baffles"
+        "state.positions[0] is [0.3, 0], but must be inside the drum and outside of its baffles: there is the \
+         rim"
     );
     let inside_a_baffle = several(&[([0.0, 0.0], [0.0, 0.0], 0.0), ([0.22, 0.0], [0.0, 0.0], 0.0)]);
     assert!(refusal(&config, inside_a_baffle).starts_with("state.positions[1] is [0.22, 0]"));
@@ -138,9 +139,10 @@ fn bundles_start_inside_the_drum_and_outside_of_its_baffles() {
 #[test]
 fn states_that_overlap_too_deeply_are_refused() {
     let twice = several(&[([0.0, 0.0], [0.0, 0.0], 0.0), ([0.01, 0.0], [0.0, 0.0], 0.0)]);
-    assert!(
-        refusal(&baseline(1, 0), twice).contains("overlap of bundle 0 reached 1.158 of its radius at step 0")
-    );
+    let error = Simulation::with_state(baseline(1, 0), 1, 1, twice).unwrap_err();
+    let Error::StartOverlap { one, other, ratio, .. } = &error else { panic!("{error}") };
+    assert!(one == "state.positions[0]" && other.contains('1'), "{one} {other}");
+    assert!((ratio - (2.0 * RADIUS - 0.01) / RADIUS).abs() < 1e-12, "{ratio}");
 }
 
 #[test]

@@ -107,6 +107,32 @@ fn restitutions_from_a_tenth_to_one() {
     }
 }
 
+/// At Table 1's step, some 50 to a collision, the mean over all moments of first touch within a step.
+#[test]
+fn restitution_at_table_1s_step_is_a_tenth() {
+    let phases = 64;
+    let phase = |k: u32| (f64::from(k) + 0.5) / f64::from(phases);
+    let mean =
+        |rebound: &dyn Fn(f64) -> f64| (0..phases).map(phase).map(rebound).sum::<f64>() / f64::from(phases);
+    let of_pair = mean(&|phase| {
+        let half = RADIUS + 0.5 * (1.0 + phase) * TIME_STEP;
+        let bodies = [([-half, 0.0], [0.5, 0.0], 0.0), ([half, 0.0], [-0.5, 0.0], 0.0)];
+        let mut simulation = start(&free_space(), several(&bodies));
+        watch(&mut simulation);
+        let velocities = &simulation.state().particles.velocities;
+        velocities[1].x - velocities[0].x
+    });
+    let of_wall = mean(&|phase| {
+        let height = RADIUS + (1.0 + phase) * TIME_STEP;
+        let mut simulation = start(&floor([0.0, 0.0]), single([0.0, height], [0.0, -1.0], 0.0));
+        watch(&mut simulation);
+        simulation.state().particles.velocities[0].y
+    });
+    for mean in [of_pair, of_wall] {
+        assert!((mean - 0.1).abs() < 0.001, "{of_pair} {of_wall}");
+    }
+}
+
 /// Against a floor with the given velocity and spin; holds the rebound against the closed form.
 fn against_the_floor(tangential: f64, normal: f64, spin: f64) {
     let config = elastic(floor([0.0, 0.0]));

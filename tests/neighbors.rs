@@ -5,6 +5,7 @@ mod common;
 use std::collections::BTreeSet;
 
 use common::*;
+use drumrs::engine::contacts::ContactRecord;
 use drumrs::engine::forces::{Bodies, StepInputs, StepTime};
 use drumrs::engine::pair_list::PairList;
 use drumrs::engine::parallel::{CHUNK, Threads};
@@ -121,7 +122,8 @@ fn watch(simulation: &mut Simulation, looks: u64, longest: u64) -> [usize; 2] {
     for look in 0..looks {
         simulation.run(1 + look * 7919 % longest).expect("a stable run");
         let contacts = simulation.contacts();
-        let found = [contacts.pairs, contacts.walls].map(|list| list.iter().map(|c| c.key()).collect());
+        let found =
+            [contacts.pairs, contacts.walls].map(|list| list.iter().map(ContactRecord::key).collect());
         let [clearly, barely] = [ROUND_OFF, -ROUND_OFF].map(|least| touching(simulation, least));
         let step = simulation.state().step;
         for kind in 0..2 {
@@ -141,7 +143,7 @@ fn thrown(count: usize, baffle_count: usize, radius: f64) -> SimulationConfig {
     let mut config = baseline(count, baffle_count);
     config.drum.radius = Some(radius);
     config.load.start_speed = 3.0;
-    let speed = |k: u32| if k % 2 == 0 { 3.0 * SPEED } else { -2.0 * SPEED };
+    let speed = |k: u32| if k.is_multiple_of(2) { 3.0 * SPEED } else { -2.0 * SPEED };
     config.rotation.knots = (0..40).map(|k| [0.002 * f64::from(k), speed(k)]).collect();
     config
 }
@@ -165,12 +167,12 @@ fn mixed(config: &SimulationConfig) -> Simulation {
 #[test]
 fn whatever_touches_is_a_contact() {
     for baffle_count in [0, 3] {
-        let config = thrown(300 - 30 * baffle_count, baffle_count, DRUM_RADIUS);
+        let config = thrown(300 - 20 * baffle_count, baffle_count, DRUM_RADIUS);
         let mut equal = Simulation::new(config.clone(), 7, 1).expect("a load that fits");
         let mut unequal = mixed(&config);
         for simulation in [&mut equal, &mut unequal] {
             let opened = watch(simulation, 2000, 5);
-            assert!(opened[0] > 400 && opened[1] > 40, "{baffle_count} baffles: {opened:?}");
+            assert!(opened[0] > 100 && opened[1] > 20, "{baffle_count} baffles: {opened:?}");
         }
     }
 }

@@ -36,15 +36,20 @@ pub fn keep_short(group: &mut BenchmarkGroup<WallTime>) {
     group.sample_size(20).warm_up_time(Duration::from_secs(1)).measurement_time(Duration::from_secs(3));
 }
 
-/// A load in the tumble. Large ones, which would fall for longer than is spent here, start as a bed.
-pub fn tumbling(count: usize, baffle_count: usize) -> Simulation {
+/// A load before its first step. Large ones, which would fall for longer than is spent here, start as a bed.
+pub fn started(count: usize, baffle_count: usize) -> Simulation {
     let config = drum_for(count, baffle_count);
-    let mut simulation = if count > 1_000 {
+    if count > 1_000 {
         let bed = bed(&config);
         Simulation::with_state(config, 1, 1, bed).expect("a bed inside the drum")
     } else {
         Simulation::new(config, 1, 1).expect("a load that fits")
-    };
+    }
+}
+
+/// A load in the tumble.
+pub fn tumbling(count: usize, baffle_count: usize) -> Simulation {
+    let mut simulation = started(count, baffle_count);
     let steps = match count {
         _ if !measuring() => 10,
         0..=1_000 => 200_000,

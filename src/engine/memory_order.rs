@@ -19,7 +19,7 @@ pub fn is_due(count: usize, step: u64) -> bool {
 }
 
 /// The particles in the order in which Hilbert's curve meets them.
-pub fn along_curve(positions: &[Vec2]) -> Vec<u32> {
+pub fn hilbert_order(positions: &[Vec2]) -> Vec<u32> {
     let Some((low, high)) = bounds(positions) else { return Vec::new() };
     let scale = f64::from(SIDE - 1) / (high.x - low.x).max(high.y - low.y);
     let key = |position: &Vec2| {
@@ -75,7 +75,7 @@ mod tests {
     fn every_particle_has_a_place() {
         let positions: Vec<Vec2> =
             (0..500).map(|k| Vec2::new(f64::from(k * 7 % 13), f64::from(k * 5 % 11))).collect();
-        let mut order = along_curve(&positions);
+        let mut order = hilbert_order(&positions);
         // Those at one place keep their order.
         assert!(
             order
@@ -84,6 +84,6 @@ mod tests {
         );
         order.sort_unstable();
         assert_eq!(order, (0..500).collect::<Vec<u32>>());
-        assert_eq!(along_curve(&[Vec2::zeros(); 3]), [0, 1, 2]);
+        assert_eq!(hilbert_order(&[Vec2::zeros(); 3]), [0, 1, 2]);
     }
 }

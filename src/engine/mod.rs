@@ -23,7 +23,7 @@ pub mod simd;
 use contacts::ContactRecord;
 use forces::{Bodies, ForcePass, Lists, StepInputs, new_pass};
 use motion::verlet::{DriftSums, FINISH, Part, START, Verlet, WHOLE};
-use motion::{Arrays, FlatArrays, Motion, MotionArrays, pad, unpad};
+use motion::{Arrays, MotionArrays, with_arrays};
 use pair_list::PairList;
 use parallel::{CHUNK, Chunked, Threads, chunk_count};
 
@@ -40,12 +40,11 @@ pub struct Engine {
     list: PairList,
     verlet: Verlet,
     sums: Vec<DriftSums>,
-    /// Where the particles move while steps are done, if it is not in their own arrays.
-    flat: Option<FlatArrays>,
+    /// Where the particles move while steps are done.
+    arrays: Arrays,
+    count: usize,
     /// The radius where all particles have the same.
     radius: Option<f64>,
-    /// A place where no particle touches the rim [m from the axis].
-    inside: f64,
     threads: Threads,
 }
 
@@ -86,9 +85,10 @@ impl Engine {
             list: PairList::new(count, skin, particles.largest_radius()),
             verlet: Verlet::new(particles, world.time_step, world.gravity),
             sums: vec![DriftSums::default(); chunk_count(count)],
-            flat: FlatArrays::can_hold(count).then(|| FlatArrays::new(count, 0.5 * free)),
+            // Lanes without a contact at the rim refer to a place halfway to it.
+            arrays: Arrays::new(count, 0.5 * free),
+            count,
             radius,
-            inside: 0.5 * free,
             threads,
         }
     }
@@ -113,56 +113,42 @@ impl Engine {
         self.pass.insert(contacts, &bodies(particles, self.radius, world.table));
     }
 
-    /// Begins a run of steps: makes the arrays ready, and drifts to the next step.
+    /// Begins a run of steps: takes over what moves, and drifts to the next step.
     pub fn begin(&mut self, particles: &mut Particles) {
-        self.make_ready(particles);
-        self.drift::<START>(particles);
+        with_arrays!(&mut self.arrays, arrays => arrays.load(particles));
+        self.start();
     }
 
-    fn make_ready(&mut self, particles: &mut Particles) {
-        match &mut self.flat {
-            Some(flat) => flat.load(particles),
-            None => pad(particles, self.inside),
-        }
-    }
-
-    /// Brings the particles up to date with the engine.
+    /// Brings the particles up to date.
     pub fn show(&mut self, particles: &mut Particles) {
-        if let Some(flat) = &mut self.flat {
-            flat.store(particles);
-        }
+        with_arrays!(&mut self.arrays, arrays => arrays.store(particles));
+    }
+
+    /// Brings their positions up to date.
+    pub fn show_positions(&mut self, particles: &mut Particles) {
+        with_arrays!(&mut self.arrays, arrays => arrays.store_positions(particles));
     }
 
     /// Ends a step: the velocities are then those at the time of the positions.
-    pub fn finish(&mut self, particles: &mut Particles) {
-        self.drift::<FINISH>(particles);
+    pub fn finish(&mut self) {
+        self.drift::<FINISH>();
     }
 
     /// Begins the next step.
-    pub fn start(&mut self, particles: &mut Particles) {
-        self.drift::<START>(particles);
+    pub fn start(&mut self) {
+        self.drift::<START>();
     }
 
     /// Ends a step and begins the next.
-    pub fn advance(&mut self, particles: &mut Particles) {
-        self.drift::<WHOLE>(particles);
+    pub fn advance(&mut self) {
+        self.drift::<WHOLE>();
     }
 
-    /// Ends a run of steps, the last of which has been finished.
-    pub fn end(&mut self, particles: &mut Particles) {
-        self.show(particles);
-        unpad(particles);
-    }
-
-    fn drift<const PART: Part>(&mut self, particles: &mut Particles) {
-        let count = particles.len();
-        let arrays = match &mut self.flat {
-            Some(flat) => flat.part(0..count),
-            None => MotionArrays::of(particles).part_of(count),
-        };
-        let work = Drift { first: 0, arrays, sums: &mut self.sums };
-        let verlet = &self.verlet;
-        self.threads.for_each_chunk(count, work, &|work: Drift| {
+    fn drift<const PART: Part>(&mut self) {
+        let Self { arrays, verlet, sums, threads, count, .. } = self;
+        let arrays = with_arrays!(arrays, arrays => arrays.part(0..*count));
+        let work = Drift { first: 0, arrays, sums };
+        threads.for_each_chunk(*count, work, &|work: Drift| {
             let sums = verlet.advance::<PART>(work.first, work.arrays);
             if let (true, [own]) = (PART != FINISH, work.sums) {
                 *own = sums;
@@ -187,13 +173,9 @@ impl Engine {
     }
 
     /// The longest way of a particle in the last drift, as seen from the drum [m].
-    pub fn measure_ways(&mut self, particles: &mut Particles, world: World, drum: DrumMotion) -> f64 {
-        let count = particles.len();
-        let (arrays, inputs) = parts(&mut self.flat, particles, self.radius, world, drum);
-        match arrays {
-            Arrays::Flat(arrays) => self.list.measure_ways(arrays.lend(count).0, &inputs),
-            Arrays::Large(mut arrays) => self.list.measure_ways(arrays.lend(count).0, &inputs),
-        }
+    pub fn measure_ways(&mut self, particles: &Particles, world: World, drum: DrumMotion) -> f64 {
+        let inputs = self.inputs(particles, world, drum);
+        with_arrays!(&mut self.arrays, arrays => self.list.measure_ways(arrays.lend().0, &inputs))
     }
 
     /// Brings the pair list up to date with the positions.
@@ -201,39 +183,46 @@ impl Engine {
         if !self.list.is_due() {
             return;
         }
-        self.show(particles);
-        let count = particles.len();
-        if self.list.still_holds(&particles.positions[..count], drum.rotation, &self.threads) {
+        self.show_positions(particles);
+        if self.list.still_holds(&particles.positions, drum.rotation, &self.threads) {
             return;
         }
-        let positions = std::mem::take(&mut particles.positions);
-        let (_, inputs) = parts(&mut self.flat, particles, self.radius, world, drum);
-        self.list.rebuild(&positions, &inputs, &self.threads);
+        let inputs = self.inputs(particles, world, drum);
+        self.list.rebuild(&particles.positions, &inputs, &self.threads);
         self.pass.link(&mut self.list);
-        particles.positions = positions;
     }
 
     /// Evaluates every contact; the forces must be zero.
-    pub fn evaluate(&mut self, particles: &mut Particles, world: World, drum: DrumMotion) {
-        let (arrays, inputs) = parts(&mut self.flat, particles, self.radius, world, drum);
-        self.pass.evaluate(&mut self.list, arrays, &inputs, &self.threads);
+    pub fn evaluate(&mut self, particles: &Particles, world: World, drum: DrumMotion) {
+        let inputs = self.inputs(particles, world, drum);
+        self.pass.evaluate(&mut self.list, &mut self.arrays, &inputs, &self.threads);
     }
 
     /// Evaluates every contact, ends the step and begins the next.
-    pub fn evaluate_and_advance(&mut self, particles: &mut Particles, world: World, drum: DrumMotion) {
-        let Self { pass, list, verlet, sums, threads, flat, .. } = self;
-        let (arrays, inputs) = parts(flat, particles, self.radius, world, drum);
+    pub fn evaluate_and_advance(&mut self, particles: &Particles, world: World, drum: DrumMotion) {
+        let inputs = self.inputs(particles, world, drum);
+        let Self { pass, list, arrays, verlet, sums, threads, .. } = self;
         pass.evaluate_and_advance(list, arrays, &inputs, verlet, sums, threads);
     }
 
     /// First forces of particles that have not moved yet.
     pub fn open(&mut self, particles: &mut Particles, world: World, drum: DrumMotion) {
-        self.make_ready(particles);
+        with_arrays!(&mut self.arrays, arrays => arrays.load(particles));
         self.update_list(particles, world, drum);
         self.evaluate(particles, world, drum);
         // What the near lists know of displacements does not hold once the particles move.
         self.list.end_near_lists();
-        self.end(particles);
+        self.show(particles);
+    }
+
+    fn inputs<'a>(&self, particles: &'a Particles, world: World<'a>, drum: DrumMotion) -> StepInputs<'a> {
+        StepInputs {
+            time: forces::StepTime { step: drum.duration, rate: 1.0 / world.time_step },
+            drum: world.drum,
+            rotation: drum.rotation,
+            angular_velocity: drum.angular_velocity,
+            bodies: bodies(particles, self.radius, world.table),
+        }
     }
 
     /// Puts particle `order[k]` at place `k` in memory, between two runs of steps.
@@ -265,26 +254,6 @@ pub fn relabel(contacts: &mut Lists, places: &[u32]) {
 fn bodies<'a>(particles: &'a Particles, radius: Option<f64>, table: &'a SpeciesTable) -> Bodies<'a> {
     let Particles { radii, masses, species, .. } = particles;
     Bodies { radius, radii, masses, species, table }
-}
-
-/// The arrays that move, and what a step needs beside them.
-fn parts<'a>(
-    flat: &'a mut Option<FlatArrays>,
-    particles: &'a mut Particles,
-    radius: Option<f64>,
-    world: World<'a>,
-    drum: DrumMotion,
-) -> (Arrays<'a>, StepInputs<'a>) {
-    let (moving, bodies) = MotionArrays::and_bodies(particles, radius, world.table);
-    let arrays = flat.as_mut().map_or(Arrays::Large(moving), Arrays::Flat);
-    let inputs = StepInputs {
-        time: forces::StepTime { step: drum.duration, rate: 1.0 / world.time_step },
-        drum: world.drum,
-        rotation: drum.rotation,
-        angular_velocity: drum.angular_velocity,
-        bodies,
-    };
-    (arrays, inputs)
 }
 
 /// Chunks that drift.

@@ -48,7 +48,7 @@ pub fn initial_state(state: &Bound<'_, PyDict>) -> Result<InitialState, Error> {
             "drum_angle" => {
                 initial.drum_angle = value
                     .extract()
-                    .map_err(|_| Error::config("state.drum_angle", "something else", "a number"))?
+                    .map_err(|_| Error::config("state.drum_angle", "something else", "a number"))?;
             }
             "contacts" => {
                 initial.contacts = Lists {

@@ -143,12 +143,28 @@ pub fn require_apart(contacts: &Lists, particles: &Particles, drum: &Drum) -> Re
 
 /// Of the contacts `found` those that are not among the `given`.
 pub fn missing(found: Lists, given: &Lists) -> Lists {
-    let keys = |records: &[ContactRecord]| records.iter().map(ContactRecord::key).collect::<BTreeSet<_>>();
-    let (pairs, walls) = (keys(&given.pairs), keys(&given.walls));
-    let fresh = |records: Vec<ContactRecord>, known: &BTreeSet<_>| {
-        records.into_iter().filter(|record| !known.contains(&record.key())).collect()
+    let fresh = |mut records: Vec<ContactRecord>, given: &[ContactRecord]| {
+        let known = sorted_keys(given);
+        records.retain(|record| known.binary_search(&record.key()).is_err());
+        records
     };
-    Lists { pairs: fresh(found.pairs, &pairs), walls: fresh(found.walls, &walls) }
+    Lists { pairs: fresh(found.pairs, &given.pairs), walls: fresh(found.walls, &given.walls) }
+}
+
+/// The keys of contacts, in order.
+fn sorted_keys(records: &[ContactRecord]) -> Vec<(u32, u32)> {
+    let mut keys: Vec<_> = records.iter().map(ContactRecord::key).collect();
+    keys.sort_unstable();
+    keys
+}
+
+/// Leaves out contacts whose key an earlier one has.
+fn without_repeats(mut records: Vec<ContactRecord>) -> Vec<ContactRecord> {
+    if sorted_keys(&records).windows(2).any(|two| two[0] == two[1]) {
+        let mut known = BTreeSet::new();
+        records.retain(|record| known.insert(record.key()));
+    }
+    records
 }
 
 /// The configured load at packed positions, each bundle with the start speed in a random direction.
@@ -193,10 +209,9 @@ pub fn matching(contacts: &Lists, particles: &Particles, drum: &Drum, rotation: 
             })
         }
     });
-    let (mut known_pairs, mut known_walls) = (BTreeSet::new(), BTreeSet::new());
     Lists {
-        pairs: pairs.filter(|record| known_pairs.insert(record.key())).copied().collect(),
-        walls: walls.filter(|record| known_walls.insert(record.key())).copied().collect(),
+        pairs: without_repeats(pairs.copied().collect()),
+        walls: without_repeats(walls.copied().collect()),
     }
 }
 

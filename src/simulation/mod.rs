@@ -58,6 +58,7 @@ impl Simulation {
     ///
     /// # Errors
     /// `Error::Config` naming the field of the state or the configuration.
+    #[allow(clippy::needless_pass_by_value)] // A state is made for one start.
     pub fn with_state(
         config: SimulationConfig,
         seed: u64,
@@ -82,7 +83,7 @@ impl Simulation {
         initial_state::require_inside(&derived.drum, &particles, rotation)?;
         let mut contacts = initial_state::matching(&initial.contacts, &particles, &derived.drum, rotation);
         if memory_order::is_due(particles.len(), 0) {
-            let order = memory_order::along_curve(&particles.positions);
+            let order = memory_order::hilbert_order(&particles.positions);
             let mut places = vec![0; order.len()];
             (0..).zip(&order).for_each(|(place, &particle)| places[particle as usize] = place);
             particles.reorder(&order);
@@ -116,6 +117,7 @@ impl Simulation {
             initial_state::require_apart(&found, &simulation.state.particles, simulation.drum())?;
         }
         simulation.guard(simulation.state.particles.mass_moment())?;
+        simulation.record();
         Ok(simulation)
     }
 
@@ -160,7 +162,7 @@ impl Simulation {
         Self { config, seed, state, derived, engine, next_event: 0, failure: None }
     }
 
-    /// First forces, opened accounts, first sample and frame.
+    /// First forces, opened accounts.
     fn open(&mut self, given: &EngineState) {
         let drum = DrumMotion {
             rotation: Rotation::new(self.state.initial_angle),
@@ -183,7 +185,6 @@ impl Simulation {
         );
         self.state.ledger = EnergyLedger::open(self.stored(), moments, &surfaces);
         self.state.ledger.overlap_ratio = overlap_ratio;
-        self.record();
     }
 
     /// What the engine holds of the state.

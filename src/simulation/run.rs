@@ -32,20 +32,19 @@ impl Simulation {
         self.begin();
         for left in (0..steps).rev() {
             if let Err(error) = self.step(left == 0) {
-                self.engine.finish(&mut self.state.particles);
-                self.engine.end(&mut self.state.particles);
+                self.engine.finish();
+                self.engine.show(&mut self.state.particles);
                 self.record_end();
                 return Err(error);
             }
         }
-        self.engine.end(&mut self.state.particles);
         Ok(())
     }
 
     /// Begins a run of steps from a state that is up to date.
     fn begin(&mut self) {
         if self.is_sort_due() {
-            let order = memory_order::along_curve(&self.state.particles.positions);
+            let order = memory_order::hilbert_order(&self.state.particles.positions);
             self.engine.reorder(&mut self.state.particles, &order, self.derived.world());
         }
         self.engine.begin(&mut self.state.particles);
@@ -63,7 +62,7 @@ impl Simulation {
             return self.step_with_events(is_last, turn, drum);
         }
         let mass_moment = self.engine.mass_moment();
-        self.engine.evaluate_and_advance(&mut self.state.particles, self.derived.world(), drum);
+        self.engine.evaluate_and_advance(&self.state.particles, self.derived.world(), drum);
         self.charge(mass_moment, turn);
         Ok(())
     }
@@ -71,26 +70,33 @@ impl Simulation {
     /// The rest of a step after which the load may be looked at, recorded or sorted.
     fn step_with_events(&mut self, is_last: bool, turn: f64, drum: DrumMotion) -> Result<(), Error> {
         let mass_moment = self.engine.mass_moment();
-        self.engine.evaluate(&mut self.state.particles, self.derived.world(), drum);
-        self.engine.show(&mut self.state.particles);
+        self.engine.evaluate(&self.state.particles, self.derived.world(), drum);
+        if self.needs_moments() {
+            self.engine.show(&mut self.state.particles);
+        } else {
+            self.engine.show_positions(&mut self.state.particles);
+        }
         self.charge(mass_moment, turn);
         self.charge_moments();
         if self.is_look_due() {
-            self.guard(mass_moment)?;
+            self.guard(mass_moment).or_else(|_| {
+                // Now that it is told, velocities are, too.
+                self.engine.show(&mut self.state.particles);
+                self.guard(mass_moment)
+            })?;
         }
         self.next_event = self.event_after(self.state.step);
         if !(is_last || self.is_record_due() || self.is_sort_due()) {
-            self.engine.advance(&mut self.state.particles);
+            self.engine.advance();
             return Ok(());
         }
-        self.engine.finish(&mut self.state.particles);
+        self.engine.finish();
         self.engine.show(&mut self.state.particles);
         self.record();
         if self.is_sort_due() && !is_last {
-            self.engine.end(&mut self.state.particles);
             self.begin();
         } else if !is_last {
-            self.engine.start(&mut self.state.particles);
+            self.engine.start();
         }
         Ok(())
     }

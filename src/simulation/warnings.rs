@@ -70,14 +70,14 @@ impl fmt::Display for Warning {
 }
 
 /// A contact that there may be: who, by which table.
-struct Meeting<'a> {
+struct Encounter<'a> {
     bodies: String,
     key: String,
     parameters: &'a ContactParameters,
     effective_mass: f64,
 }
 
-impl Meeting<'_> {
+impl Encounter<'_> {
     fn ratio(&self) -> f64 {
         damping_ratio(self.parameters, self.effective_mass)
     }
@@ -86,22 +86,22 @@ impl Meeting<'_> {
 impl Simulation {
     /// What a user should know before this simulation runs.
     pub fn warnings(&self) -> Vec<Warning> {
-        let meetings = self.lightest_meetings();
-        let (pairs, walls) = &meetings;
-        let overdamped = [pairs, walls].into_iter().filter_map(|meetings| overdamped(meetings));
+        let encounters = self.lightest_encounters();
+        let (pairs, walls) = &encounters;
+        let overdamped = [pairs, walls].into_iter().filter_map(|encounters| overdamped(encounters));
         let all = || pairs.iter().chain(walls);
         let short = if self.config.run.time_step.is_none() { self.short_step(all()) } else { None };
         overdamped.chain(short).collect()
     }
 
-    fn short_step<'a>(&self, meetings: impl Iterator<Item = &'a Meeting<'a>> + Clone) -> Option<Warning> {
-        let undamped = meetings
+    fn short_step<'a>(&self, encounters: impl Iterator<Item = &'a Encounter<'a>> + Clone) -> Option<Warning> {
+        let undamped = encounters
             .clone()
-            .map(|meeting| undamped_collision_time(meeting.parameters, meeting.effective_mass))
+            .map(|encounter| undamped_collision_time(encounter.parameters, encounter.effective_mass))
             .fold(f64::INFINITY, f64::min)
             / STEPS_IN_A_COLLISION;
-        let time = |meeting: &Meeting| collision_time(meeting.parameters, meeting.effective_mass);
-        let shortest = meetings.min_by(|a, b| time(a).total_cmp(&time(b)))?;
+        let time = |encounter: &Encounter| collision_time(encounter.parameters, encounter.effective_mass);
+        let shortest = encounters.min_by(|a, b| time(a).total_cmp(&time(b)))?;
         let time_step = self.time_step();
         (undamped > MUCH_SHORTER * time_step).then(|| Warning::ShortStep {
             key: shortest.key.clone(),
@@ -113,7 +113,7 @@ impl Simulation {
     }
 
     /// Between any two species, and between each and the drum, the contact of the lightest bodies: none is damped more.
-    fn lightest_meetings(&self) -> (Vec<Meeting<'_>>, Vec<Meeting<'_>>) {
+    fn lightest_encounters(&self) -> (Vec<Encounter<'_>>, Vec<Encounter<'_>>) {
         let (table, contact, particles) = (&self.derived.table, &self.config.contact, &self.state.particles);
         let lightest: Vec<[Option<usize>; 2]> =
             (0..table.count()).map(|species| two_lightest(particles, species as u16)).collect();
@@ -123,7 +123,7 @@ impl Simulation {
             let (first, second) = (lightest[usize::from(one)], lightest[usize::from(other)]);
             let (i, j) = (first[0]?, if one == other { second[1]? } else { second[0]? });
             let (low, high) = (self.id_of(i).min(self.id_of(j)), self.id_of(i).max(self.id_of(j)));
-            Some(Meeting {
+            Some(Encounter {
                 bodies: format!("bundles {low} and {high}"),
                 key: contact.pair_key(one, other),
                 parameters: table.pair(one, other),
@@ -132,7 +132,7 @@ impl Simulation {
         };
         let wall = |(own, lightest): (u16, &[Option<usize>; 2])| {
             let place = lightest[0]?;
-            Some(Meeting {
+            Some(Encounter {
                 bodies: format!("bundle {} and the drum", self.id_of(place)),
                 key: contact.wall_key(own),
                 parameters: table.wall(own),
@@ -146,8 +146,8 @@ impl Simulation {
 }
 
 /// The most overdamped of contacts whose dashpot may pull.
-fn overdamped(meetings: &[Meeting]) -> Option<Warning> {
-    let pulling = meetings.iter().filter(|meeting| meeting.parameters.tension == Tension::Allowed);
+fn overdamped(encounters: &[Encounter]) -> Option<Warning> {
+    let pulling = encounters.iter().filter(|encounter| encounter.parameters.tension == Tension::Allowed);
     let worst = pulling.max_by(|a, b| a.ratio().total_cmp(&b.ratio()))?;
     let ratio = worst.ratio();
     (ratio >= 1.0).then(|| Warning::Overdamped {

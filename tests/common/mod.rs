@@ -7,7 +7,7 @@ use drumrs::observe::summary::summarize;
 use drumrs::physics::contact::law::{BodyPair, ContactLaw};
 use drumrs::physics::contact::linear::{Linear, LinearHistory, LinearLaw};
 use drumrs::physics::contact::parameters::{ContactParameters, Tension};
-use drumrs::physics::contact::{ContactState, Kinematics, Motion, Response};
+use drumrs::physics::contact::{ContactState, Kinematics, RelativeMotion, Response};
 use drumrs::physics::drum::DrumParameters;
 use drumrs::physics::drum::baffle::{BaffleParameters, BaffleShape};
 use drumrs::physics::rotation::RotationSchedule;
@@ -58,7 +58,7 @@ pub fn respond(
     [last_overlap, stretch]: [f64; 2],
 ) -> (Response<f64>, LinearHistory<f64>) {
     let [separation_rate, slip_rate] = [-approach, slip].map(|way| way / EXACT_STEP);
-    let motion = Motion { overlap, separation_rate, slip_rate, rolling_rate: 0.0 };
+    let motion = RelativeMotion { overlap, separation_rate, slip_rate, rolling_rate: 0.0 };
     let last =
         ContactState { overlap: last_overlap, separation_rate, force_x: 0.0, force_y: 0.0, moment: 0.0 };
     let contact = Kinematics::new(&motion, &last, [EXACT_STEP, 1.0 / EXACT_STEP]);

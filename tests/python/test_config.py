@@ -32,6 +32,9 @@ contact_keys = {
     "restitution": st.floats(0.001, 1.0),
     "friction": non_negative,
     "tension": tension,
+    "rolling_friction": non_negative,
+    "tangential_damping_ratio": non_negative,
+    "adhesion": non_negative,
 }
 pair_law = st.fixed_dictionaries({"between": st.just((0, 0))}, optional=contact_keys)
 wall_law = st.fixed_dictionaries({"species": st.just(0)}, optional=contact_keys)

@@ -95,6 +95,18 @@ def test_a_state_goes_on(config, settled, tmp_path):
     assert np.abs(new.positions - other.positions).max() > 1e-12
 
 
+def test_a_state_keeps_what_the_terms_of_a_law_remember(config):
+    terms = {"rolling_friction": 0.2, "tangential_damping_ratio": 0.3, "adhesion": 0.5}
+    config = config.replace({"contact.bundle": terms, "contact.drum": terms})
+    one = drumrs.Simulation(config)
+    one.run(duration=0.6)
+    other = drumrs.Simulation(config, state=one.state)
+    one.run(steps=20)
+    other.run(steps=20)
+    assert np.abs(one.positions - other.positions).max() < 1e-12
+    assert np.abs(one.angular_velocities - other.angular_velocities).max() < 1e-7
+
+
 def test_the_ledger_of_a_state_that_goes_on_closes(config, settled):
     simulation = drumrs.Simulation(config, state=settled.state)
     simulation.run(duration=0.5)

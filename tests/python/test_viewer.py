@@ -61,12 +61,12 @@ def test_the_picture_holds_everything(scene, reach):
     assert recording(frames_of(**scene), None, "", None)["reach"] == pytest.approx(reach, rel=0.05)
 
 
-def test_too_many_frames_are_thinned_evenly(monkeypatch):
+def test_too_many_frames_are_thinned_evenly_and_the_end_stays(monkeypatch):
     monkeypatch.setattr("drumrs.viewer.recording._MOST_PLACES", 10)
     frames = frames_of(count=5, frames=7, drum_radius=0.3)
     data = recording(frames, None, "", None)
-    assert read_back(data["times"], "<f8").tolist() == frames.times[::4].tolist()
-    assert len(read_back(data["positions"], "<u2")) == 2 * 5 * 2
+    assert read_back(data["times"], "<f8").tolist() == frames.times[[0, 4, 6]].tolist()
+    assert len(read_back(data["positions"], "<u2")) == 3 * 5 * 2
 
 
 def test_a_load_at_rest_has_a_scale():

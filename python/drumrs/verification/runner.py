@@ -3,12 +3,14 @@
 import json
 import math
 import time
+import warnings
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from drumrs.errors import DrumrsWarning
 from drumrs.files import write_whole
 from drumrs.progress import Campaign, board
 from drumrs.sweep.crew import check_jobs, usable_cores
@@ -169,7 +171,9 @@ def _run(cases: Sequence[Case], workers: int, *, progress: bool) -> tuple[Trial,
     done, cost, trials = 0, 0.0, {}
     running = Running()
     threads = ThreadPoolExecutor(workers, "drumrs", initializer=under_way.set, initargs=(running,))
-    with board(show=progress) as shown, threads as pool:
+    with board(show=progress) as shown, threads as pool, warnings.catch_warnings():
+        # Some cases stick on purpose.
+        warnings.simplefilter("ignore", DrumrsWarning)
         campaign = Campaign(len(cases), sum(case.cost for case in cases), "verification", rated=False)
         report = shown.add_campaign(campaign)
         tasks = [pool.submit(case.run) for case in order]

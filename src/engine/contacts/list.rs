@@ -97,6 +97,11 @@ impl<L: ContactLaw> ContactList<L> {
         self.neighbors.len()
     }
 
+    /// Number of blocks.
+    pub fn blocks(&self) -> usize {
+        self.blocks.len()
+    }
+
     /// Whether there are none.
     #[inline]
     pub fn is_empty(&self) -> bool {

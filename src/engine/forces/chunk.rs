@@ -36,11 +36,9 @@ pub struct ChunkScratch {
 }
 
 impl<L: ContactLaw> ChunkContacts<L> {
-    /// None yet, for chunk `index` of `count` particles. `same` has the parameters of pairs and of walls where particles
-    /// are equal.
-    pub fn new(index: usize, count: usize, bodies: &super::Bodies) -> Self {
+    /// None yet, for chunk `index` of `count` particles, which are equal in what contacts follow from or not.
+    pub fn new(index: usize, count: usize, bodies: &super::Bodies, are_equal: bool) -> Self {
         let first = (index * CHUNK) as u32;
-        let are_equal = bodies.are_equal();
         let parameters = |same: &dyn Fn() -> _| match are_equal {
             true => ListParameters::Same(same()),
             false => ListParameters::Each(Vec::new()),
@@ -140,8 +138,9 @@ impl<L: ContactLaw> ChunkContacts<L> {
             return;
         }
         pairs::evaluate(&mut self.pairs, motion, inputs.time, sums, &mut self.totals, &mut scratch.pairs);
-        if !scratch.pairs.ended.is_empty() {
-            self.pairs.close_ended(&scratch.pairs.ended, |key, place| neighbors.release_pair(key, place));
+        let ended = scratch.pairs.ended.blocks();
+        if !ended.is_empty() {
+            self.pairs.close_ended(ended, |key, place| neighbors.release_pair(key, place));
         }
     }
 
@@ -184,8 +183,8 @@ impl<L: ContactLaw> ChunkContacts<L> {
         }
         let ended = &mut scratch.pairs.ended;
         surfaces[0] = walls::evaluate_rim(&mut self.rim, motion, inputs, sums, &mut self.totals, ended);
-        if !ended.is_empty() {
-            self.rim.close_ended(ended, |(particle, _), _| neighbors.release_rim(particle));
+        if !ended.blocks().is_empty() {
+            self.rim.close_ended(ended.blocks(), |(particle, _), _| neighbors.release_rim(particle));
         }
     }
 
@@ -229,7 +228,7 @@ impl<L: ContactLaw> ChunkContacts<L> {
         }
         let totals = &mut self.totals;
         walls::evaluate_outlines(&mut self.outlines, spots, motion, inputs, sums, totals, surfaces, ended);
-        self.outlines.close_ended(ended, |key, place| neighbors.release_feature(key, place));
+        self.outlines.close_ended(ended.blocks(), |key, place| neighbors.release_feature(key, place));
     }
 }
 

@@ -13,7 +13,7 @@ use crate::engine::motion::MotionView;
 use crate::engine::simd::{ALL_LANES, F64x4, LANES, Vec2x4, lanes, rows};
 use crate::physics::columns::{Columns, Of};
 use crate::physics::contact::law::ContactLaw;
-use crate::physics::contact::{ContactState, Kinematics, Motion};
+use crate::physics::contact::{ContactState, Kinematics, RelativeMotion};
 use crate::physics::scalar::Scalar;
 
 /// Blocks that go through the stages together; 4 and 16 are no faster.
@@ -21,7 +21,7 @@ const GROUP: usize = 8;
 
 /// Where the bodies of a block meet.
 #[derive(Debug, Clone, Copy)]
-struct Meeting {
+struct ContactGeometry {
     normal: Vec2x4,
     /// Overlap; below zero where they are apart.
     overlap: F64x4,
@@ -30,16 +30,52 @@ struct Meeting {
 /// Written before it is read; kept, since clearing it takes time.
 #[derive(Debug, Clone)]
 pub struct Scratch {
-    meetings: [Meeting; GROUP],
+    meetings: [ContactGeometry; GROUP],
     /// The blocks with contacts that have ended.
-    pub ended: Vec<u32>,
+    pub ended: Ended,
 }
 
 impl Default for Scratch {
     fn default() -> Self {
         let zero = F64x4::ZERO;
-        let meeting = Meeting { normal: Vec2x4 { x: zero, y: zero }, overlap: zero };
-        Self { meetings: [meeting; GROUP], ended: Vec::new() }
+        let meeting = ContactGeometry { normal: Vec2x4 { x: zero, y: zero }, overlap: zero };
+        Self { meetings: [meeting; GROUP], ended: Ended::default() }
+    }
+}
+
+/// The blocks of a list with contacts that have ended.
+///
+/// There is room for all before a pass begins: where a list could grow in a loop, the sums would have to be in memory in every
+/// turn, in case that fails.
+#[derive(Debug, Clone, Default)]
+pub struct Ended {
+    blocks: Vec<u32>,
+    count: usize,
+}
+
+impl Ended {
+    /// None yet, of a list of so many blocks.
+    pub fn clear(&mut self, blocks: usize) {
+        if self.blocks.len() < blocks {
+            self.blocks.resize(blocks, 0);
+        }
+        self.count = 0;
+    }
+
+    /// Takes note of a block of which these lanes touch.
+    #[inline(always)]
+    pub fn note(&mut self, block: usize, touching: u32) {
+        if touching != ALL_LANES
+            && let Some(next) = self.blocks.get_mut(self.count)
+        {
+            *next = block as u32;
+            self.count += 1;
+        }
+    }
+
+    /// The blocks, ascending.
+    pub fn blocks(&self) -> &[u32] {
+        &self.blocks[..self.count]
     }
 }
 
@@ -52,7 +88,7 @@ pub fn evaluate<L: ContactLaw>(
     totals: &mut Totals,
     scratch: &mut Scratch,
 ) {
-    scratch.ended.clear();
+    scratch.ended.clear(list.blocks());
     let mut lanes = totals.open();
     let ContactList { ids, blocks, other_moments, parameters, .. } = list;
     let unit = match parameters {
@@ -110,15 +146,13 @@ where
         let Scratch { meetings, ended } = scratch;
         for (group, (blocks, ids)) in blocks.chunks_mut(GROUP).zip(ids.chunks(GROUP)).enumerate() {
             let first = GROUP * group;
-            self.meet_all(first, ids, meetings);
+            self.contact_geometries(first, ids, meetings);
             for (index, ((block, ids), meeting)) in blocks.iter_mut().zip(ids).zip(&*meetings).enumerate() {
                 let index = first + index;
                 let other = if BOTH { Some(&mut other_moments[index]) } else { None };
                 let touching =
                     self.advance(block, ids, meeting, &(self.parameters)(index), other, sums, totals);
-                if touching != ALL_LANES {
-                    ended.push(index as u32);
-                }
+                ended.note(index, touching);
             }
         }
     }
@@ -126,19 +160,19 @@ where
     /// Where the bodies of some blocks meet, the first of which is `first`. A function of its own, for which the registers
     /// suffice.
     #[inline(never)]
-    fn meet_all(&self, first: usize, ids: &[Ids], meetings: &mut [Meeting; GROUP]) {
+    fn contact_geometries(&self, first: usize, ids: &[Ids], meetings: &mut [ContactGeometry; GROUP]) {
         for (index, (ids, meeting)) in ids.iter().zip(meetings).enumerate() {
-            *meeting = self.meet(ids, &(self.parameters)(first + index).1);
+            *meeting = self.contact_geometry(ids, &(self.parameters)(first + index).1);
         }
     }
 
     /// Where the bodies of a block meet.
     #[inline(always)]
-    fn meet(&self, ids: &Ids, geometry: &Geometry<F64x4>) -> Meeting {
+    fn contact_geometry(&self, ids: &Ids, geometry: &Geometry<F64x4>) -> ContactGeometry {
         let apart = between(ids, |particle| self.motion.position(particle));
         let distance = apart.dot(apart).sqrt();
         let normal = apart.scaled(F64x4::ONE / distance);
-        Meeting { normal, overlap: (geometry.radius + geometry.other_radius) - distance }
+        ContactGeometry { normal, overlap: (geometry.radius + geometry.other_radius) - distance }
     }
 
     /// One step of a block: relative motion, law, work, new state, forces. Returns which lanes touch.
@@ -148,13 +182,13 @@ where
         &self,
         block: &mut Block<L>,
         ids: &Ids,
-        meeting: &Meeting,
+        meeting: &ContactGeometry,
         (law, geometry): &Of<PairParameters<L>, F64x4>,
         other_moment: Option<&mut [f64; LANES]>,
         sums: &mut impl Accumulator,
         totals: &mut LaneTotals,
     ) -> u32 {
-        let Meeting { normal, overlap } = *meeting;
+        let ContactGeometry { normal, overlap } = *meeting;
         let velocity = between(ids, |particle| self.motion.velocity(particle));
         let spin = lanes(|lane| self.motion.angular_velocity(ids.own[lane]));
         let other_spin = lanes(|lane| self.motion.angular_velocity(ids.other[lane]));
@@ -162,7 +196,7 @@ where
         let half = overlap.larger(F64x4::ZERO) * 0.5;
         let (arm, other_arm) = (geometry.radius - half, geometry.other_radius - half);
         let turning = if BOTH { arm * spin + other_arm * other_spin } else { arm * (spin + other_spin) };
-        let motion = Motion {
+        let motion = RelativeMotion {
             overlap,
             separation_rate: velocity.dot(normal),
             slip_rate: normal.cross(velocity) - turning,

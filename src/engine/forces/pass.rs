@@ -13,7 +13,9 @@ use super::totals::{FoldedTotals, Totals};
 use super::{Bodies, StepInputs};
 use crate::engine::contacts::{ContactRecord, NOT_LISTED};
 use crate::engine::motion::verlet::{DriftSums, Verlet, WHOLE};
-use crate::engine::motion::{Arrays, FlatArrays, Motion, MotionArrays, MotionView};
+use crate::engine::motion::{
+    Arrays, CHUNK_FLAT, ChunkForces, FlatArrays, MotionArrays, MotionView, with_arrays,
+};
 use crate::engine::pair_list::{ChunkNeighbors, NearLimits, PairList};
 use crate::engine::parallel::{CHUNK, Chunked, Threads, chunk_count};
 use crate::physics::columns::Columns;
@@ -41,14 +43,14 @@ impl Lists {
 /// The pass over contacts, whatever their law.
 pub trait ForcePass: Debug + Send + Sync {
     /// Evaluates every contact. The forces must be zero before.
-    fn evaluate(&mut self, list: &mut PairList, arrays: Arrays, inputs: &StepInputs, threads: &Threads);
+    fn evaluate(&mut self, list: &mut PairList, arrays: &mut Arrays, inputs: &StepInputs, threads: &Threads);
 
     /// Evaluates every contact and moves the particles on: the second half of this step's kick, the first of the next one's,
     /// and the drift. `sums` tells what each chunk did.
     fn evaluate_and_advance(
         &mut self,
         list: &mut PairList,
-        arrays: Arrays,
+        arrays: &mut Arrays,
         inputs: &StepInputs,
         verlet: &Verlet,
         sums: &mut [DriftSums],
@@ -119,8 +121,9 @@ struct Pass<L: ContactLaw> {
 impl<L: ContactLaw> Pass<L> {
     fn new(surfaces: usize, bodies: &Bodies) -> Self {
         let count = bodies.radii.len();
+        let are_equal = bodies.are_equal();
         let chunk = |index| Chunk {
-            contacts: ChunkContacts::new(index, count, bodies),
+            contacts: ChunkContacts::new(index, count, bodies, are_equal),
             remote: RemoteReactions::default(),
             surfaces: vec![SurfaceLoad::default(); surfaces],
             scratch: ChunkScratch::default(),
@@ -141,40 +144,22 @@ impl<L: ContactLaw> Pass<L> {
         }
     }
 
-    /// The contacts of a load that is one chunk.
-    fn evaluate_one(&mut self, list: &mut PairList, arrays: &mut FlatArrays, inputs: &StepInputs) {
-        let limits = list.limits();
-        let (Some(chunk), Some(neighbors)) = (self.chunks.first_mut(), list.chunks.first_mut()) else {
-            return;
-        };
-        self.surfaces.fill(SurfaceLoad::default());
-        let Chunk { contacts, scratch, .. } = chunk;
-        let (motion, mut sums) = arrays.lend_whole();
-        contacts.evaluate(neighbors, limits, motion, inputs, &mut sums, &mut self.surfaces, scratch);
-    }
-
     /// Evaluates and moves on chunk after chunk.
-    fn sweep(
+    fn sweep<const N: usize, const M: usize, const H: usize>(
         &mut self,
         list: &mut PairList,
-        arrays: &mut impl Motion,
+        arrays: &mut FlatArrays<N, M, H>,
         inputs: &StepInputs,
         verlet: &Verlet,
         sums: &mut [DriftSums],
     ) {
         let limits = list.limits();
         for (index, sums) in sums.iter_mut().enumerate() {
-            let (first, end) = (index * CHUNK, self.count.min((index + 1) * CHUNK));
-            let (motion, force, torque) = arrays.lend(end);
-            let (force, torque) = (&mut force[first..], &mut torque[first..]);
-            self.chunks[index].evaluate(
-                &mut list.chunks[index],
-                limits,
-                motion,
-                inputs,
-                (first, force, torque),
-            );
-            let mut own = arrays.part(first..end);
+            let (motion, forces) = arrays.lend();
+            let own = (&mut forces.force[index], &mut forces.torque[index]);
+            self.chunks[index].evaluate(&mut list.chunks[index], limits, motion, inputs, own);
+            let first = index * CHUNK;
+            let mut own = arrays.part(first..self.count.min(first + CHUNK));
             self.gather(index, &mut own);
             *sums = verlet.advance::<WHOLE>(first, own);
         }
@@ -186,33 +171,75 @@ impl<L: ContactLaw> Pass<L> {
             self.chunks[sender as usize].remote.gather(index, own);
         }
     }
+
+    /// Evaluates the contacts of all chunks, on several threads where that pays; reactions are still to be gathered.
+    fn evaluate_chunks<const N: usize, const M: usize, const H: usize>(
+        &mut self,
+        list: &mut PairList,
+        arrays: &mut FlatArrays<N, M, H>,
+        inputs: &StepInputs,
+        threads: &Threads,
+    ) {
+        let limits = list.limits();
+        let (motion, ChunkForces { force, torque }) = arrays.lend();
+        let work = Evaluation { chunks: &mut self.chunks, neighbors: &mut list.chunks, force, torque };
+        threads.for_each_chunk(self.count, work, &|work: Evaluation<L>| {
+            if let ([chunk], [neighbors], [force, ..], [torque, ..]) =
+                (work.chunks, work.neighbors, work.force, work.torque)
+            {
+                chunk.evaluate(neighbors, limits, motion, inputs, (force, torque));
+            }
+        });
+    }
+
+    /// Brings reactions to their particles; then moves them on, if there is a `verlet`.
+    fn complete<const N: usize, const M: usize, const H: usize>(
+        &self,
+        arrays: &mut FlatArrays<N, M, H>,
+        verlet: Option<&Verlet>,
+        sums: &mut [DriftSums],
+        threads: &Threads,
+    ) {
+        let work = Completion { first: 0, arrays: arrays.part(0..self.count), sums };
+        threads.for_each_chunk(self.count, work, &|mut work: Completion| {
+            self.gather(work.first / CHUNK, &mut work.arrays);
+            if let (Some(verlet), [sums]) = (verlet, work.sums) {
+                *sums = verlet.advance::<WHOLE>(work.first, work.arrays);
+            }
+        });
+    }
 }
 
 impl<L: ContactLaw> Chunk<L> {
-    /// Evaluates the chunk's contacts; `sums` are its first particle, forces and torques.
+    /// Evaluates the chunk's contacts, of whose particles these are the forces and torques.
     fn evaluate(
         &mut self,
         neighbors: &mut ChunkNeighbors,
         limits: NearLimits,
         motion: impl MotionView,
         inputs: &StepInputs,
-        (first, force, torque): (usize, &mut [[f64; 2]], &mut [f64]),
+        (force, torque): (&mut [f64; CHUNK_FLAT], &mut [f64; CHUNK]),
     ) {
         let Self { contacts, remote, surfaces, scratch } = self;
         remote.clear();
         surfaces.fill(SurfaceLoad::default());
-        let mut sums = ChunkSums { first, force, torque, remote };
-        contacts.evaluate(neighbors, limits, motion, inputs, &mut sums, surfaces, scratch);
+        let chunk = neighbors.particles.start / CHUNK as u32;
+        if remote.targets().is_empty() {
+            let mut sums = ChunkSums::<true> { chunk, force, torque, remote };
+            contacts.evaluate(neighbors, limits, motion, inputs, &mut sums, surfaces, scratch);
+        } else {
+            let mut sums = ChunkSums::<false> { chunk, force, torque, remote };
+            contacts.evaluate(neighbors, limits, motion, inputs, &mut sums, surfaces, scratch);
+        }
     }
 }
 
 /// Chunks whose contacts are to be evaluated.
 struct Evaluation<'a, L: ContactLaw> {
-    first: usize,
     chunks: &'a mut [Chunk<L>],
     neighbors: &'a mut [ChunkNeighbors],
-    force: &'a mut [[f64; 2]],
-    torque: &'a mut [f64],
+    force: &'a mut [[f64; CHUNK_FLAT]],
+    torque: &'a mut [[f64; CHUNK]],
 }
 
 impl<L: ContactLaw> Chunked for Evaluation<'_, L> {
@@ -223,12 +250,11 @@ impl<L: ContactLaw> Chunked for Evaluation<'_, L> {
     fn split(self, chunks: usize) -> (Self, Self) {
         let (own, more) = self.chunks.split_at_mut(chunks);
         let (neighbors, more_neighbors) = self.neighbors.split_at_mut(chunks);
-        let (force, more_force) = self.force.split_at_mut(chunks * CHUNK);
-        let (torque, more_torque) = self.torque.split_at_mut(chunks * CHUNK);
-        let first = self.first + chunks * CHUNK;
+        let (force, more_force) = self.force.split_at_mut(chunks);
+        let (torque, more_torque) = self.torque.split_at_mut(chunks);
         (
-            Self { first: self.first, chunks: own, neighbors, force, torque },
-            Self { first, chunks: more, neighbors: more_neighbors, force: more_force, torque: more_torque },
+            Self { chunks: own, neighbors, force, torque },
+            Self { chunks: more, neighbors: more_neighbors, force: more_force, torque: more_torque },
         )
     }
 }
@@ -253,107 +279,33 @@ impl Chunked for Completion<'_> {
     }
 }
 
-impl<L: ContactLaw> Pass<L> {
-    /// Evaluates the contacts of all chunks, on several threads where that pays; reactions are still to be gathered.
-    fn evaluate_chunks(
-        &mut self,
-        list: &mut PairList,
-        arrays: &mut impl Motion,
-        inputs: &StepInputs,
-        threads: &Threads,
-    ) {
-        let limits = list.limits();
-        let count = self.count;
-        let (motion, force, torque) = arrays.lend(count);
-        let work =
-            Evaluation { first: 0, chunks: &mut self.chunks, neighbors: &mut list.chunks, force, torque };
-        threads.for_each_chunk(count, work, &|work: Evaluation<L>| {
-            if let ([chunk], [neighbors]) = (work.chunks, work.neighbors) {
-                chunk.evaluate(neighbors, limits, motion, inputs, (work.first, work.force, work.torque));
-            }
-        });
-    }
-
-    /// Brings reactions to their particles; then moves them on, if there is a `verlet`.
-    fn complete(
-        &self,
-        arrays: &mut impl Motion,
-        verlet: Option<&Verlet>,
-        sums: &mut [DriftSums],
-        threads: &Threads,
-    ) {
-        let work = Completion { first: 0, arrays: arrays.part(0..self.count), sums };
-        threads.for_each_chunk(self.count, work, &|mut work: Completion| {
-            self.gather(work.first / CHUNK, &mut work.arrays);
-            if let (Some(verlet), [sums]) = (verlet, work.sums) {
-                *sums = verlet.advance::<WHOLE>(work.first, work.arrays);
-            }
-        });
-    }
-}
-
-impl<L: ContactLaw> Pass<L> {
-    fn evaluate_all(
-        &mut self,
-        list: &mut PairList,
-        arrays: &mut impl Motion,
-        inputs: &StepInputs,
-        threads: &Threads,
-    ) {
-        self.evaluate_chunks(list, arrays, inputs, threads);
-        self.complete(arrays, None, &mut [], threads);
-        self.add_up();
-    }
-
-    fn evaluate_and_advance_all(
-        &mut self,
-        list: &mut PairList,
-        arrays: &mut impl Motion,
-        inputs: &StepInputs,
-        verlet: &Verlet,
-        sums: &mut [DriftSums],
-        threads: &Threads,
-    ) {
-        if threads.serve(self.count) {
-            self.evaluate_chunks(list, arrays, inputs, threads);
-            self.complete(arrays, Some(verlet), sums, threads);
-        } else {
-            self.sweep(list, arrays, inputs, verlet, sums);
-        }
-        self.add_up();
-    }
-}
-
 impl<L: ContactLaw> ForcePass for Pass<L> {
-    fn evaluate(&mut self, list: &mut PairList, arrays: Arrays, inputs: &StepInputs, threads: &Threads) {
-        match arrays {
-            Arrays::Flat(arrays) if self.chunks.len() == 1 => self.evaluate_one(list, arrays, inputs),
-            Arrays::Flat(arrays) => self.evaluate_all(list, arrays, inputs, threads),
-            Arrays::Large(mut arrays) => self.evaluate_all(list, &mut arrays, inputs, threads),
-        }
+    fn evaluate(&mut self, list: &mut PairList, arrays: &mut Arrays, inputs: &StepInputs, threads: &Threads) {
+        with_arrays!(arrays, arrays => {
+            self.evaluate_chunks(list, arrays, inputs, threads);
+            self.complete(arrays, None, &mut [], threads);
+        });
+        self.add_up();
     }
 
     fn evaluate_and_advance(
         &mut self,
         list: &mut PairList,
-        arrays: Arrays,
+        arrays: &mut Arrays,
         inputs: &StepInputs,
         verlet: &Verlet,
         sums: &mut [DriftSums],
         threads: &Threads,
     ) {
-        match arrays {
-            Arrays::Flat(arrays) if self.chunks.len() == 1 => {
-                self.evaluate_one(list, arrays, inputs);
-                sums[0] = verlet.advance::<WHOLE>(0, arrays.part(0..self.count));
+        with_arrays!(arrays, arrays => {
+            if threads.serve(self.count) {
+                self.evaluate_chunks(list, arrays, inputs, threads);
+                self.complete(arrays, Some(verlet), sums, threads);
+            } else {
+                self.sweep(list, arrays, inputs, verlet, sums);
             }
-            Arrays::Flat(arrays) => {
-                self.evaluate_and_advance_all(list, arrays, inputs, verlet, sums, threads)
-            }
-            Arrays::Large(mut arrays) => {
-                self.evaluate_and_advance_all(list, &mut arrays, inputs, verlet, sums, threads);
-            }
-        }
+        });
+        self.add_up();
     }
 
     fn link(&mut self, list: &mut PairList) {

@@ -3,14 +3,15 @@
 use wide::f64x2;
 
 use super::accumulate::Accumulator;
+use super::pairs::Ended;
 use super::totals::{LaneTotals, Totals};
 use super::{StepInputs, SurfaceLoad};
 use crate::engine::contacts::{Block, ContactList, Ids, ListParameters, PairParameters};
 use crate::engine::motion::{MotionView, offset};
-use crate::engine::simd::{ALL_LANES, F64x4, LANES, Vec2x4, lanes, rows, sum};
+use crate::engine::simd::{F64x4, LANES, Vec2x4, lanes, rows, sum};
 use crate::physics::columns::{Columns, Of};
 use crate::physics::contact::law::ContactLaw;
-use crate::physics::contact::{ContactState, Kinematics, Motion};
+use crate::physics::contact::{ContactState, Kinematics, RelativeMotion};
 use crate::physics::scalar::Scalar;
 use crate::physics::vector::Vec2;
 
@@ -24,7 +25,7 @@ struct Bodies {
 
 /// Where they meet it.
 #[derive(Debug, Clone, Copy)]
-struct Meeting {
+struct ContactGeometry {
     /// Towards the drum.
     normal: Vec2x4,
     /// Overlap; not above zero where they are apart.
@@ -51,9 +52,9 @@ pub fn evaluate_rim<L: ContactLaw>(
     inputs: &StepInputs,
     sums: &mut impl Accumulator,
     totals: &mut Totals,
-    ended: &mut Vec<u32>,
+    ended: &mut Ended,
 ) -> SurfaceLoad {
-    ended.clear();
+    ended.clear(list.blocks());
     let ContactList { ids, blocks, parameters, .. } = list;
     let mut lanes = totals.open();
     match parameters {
@@ -83,7 +84,7 @@ fn rim_pass<L: ContactLaw, const MIXED: bool>(
     inputs: &StepInputs,
     sums: &mut impl Accumulator,
     totals: &mut LaneTotals,
-    ended: &mut Vec<u32>,
+    ended: &mut Ended,
 ) -> SurfaceLoad {
     let Some(rim) = inputs.drum.radius() else { return SurfaceLoad::default() };
     let zero = F64x4::ZERO;
@@ -95,7 +96,7 @@ fn rim_pass<L: ContactLaw, const MIXED: bool>(
         let distance = bodies.position.dot(bodies.position).sqrt();
         let overlap = distance - (rim - parameters.1.radius);
         let arm = parameters.1.radius - overlap.larger(zero);
-        let meeting = Meeting {
+        let meeting = ContactGeometry {
             normal: bodies.position.scaled(F64x4::ONE / distance),
             overlap,
             arm,
@@ -105,9 +106,7 @@ fn rim_pass<L: ContactLaw, const MIXED: bool>(
         let reaction = advance::<L, MIXED>(block, &bodies, &meeting, &parameters, inputs, totals);
         moment += reaction.moment - bodies.position.cross(reaction.force);
         force = force.plus(reaction.force);
-        if reaction.touching != ALL_LANES {
-            ended.push(index as u32);
-        }
+        ended.note(index, reaction.touching);
         scatter(ids, &reaction, sums);
     }
     let total = |lanes: F64x4| sum(lanes.to_array());
@@ -145,9 +144,9 @@ pub fn evaluate_outlines<L: ContactLaw>(
     sums: &mut impl Accumulator,
     totals: &mut Totals,
     surfaces: &mut [SurfaceLoad],
-    ended: &mut Vec<u32>,
+    ended: &mut Ended,
 ) {
-    ended.clear();
+    ended.clear(list.blocks());
     let mut open_totals = totals.open();
     let speed = F64x4::splat(inputs.angular_velocity);
     let ContactList { ids, blocks, parameters, .. } = list;
@@ -162,7 +161,7 @@ pub fn evaluate_outlines<L: ContactLaw>(
         let arm = parameters.1.radius - overlap.larger(F64x4::ZERO);
         let point = bodies.position.plus(normal.scaled(arm));
         let surface_rates = [speed * point.cross(normal), speed * point.dot(normal)];
-        let meeting = Meeting { normal, overlap, arm, surface_rates };
+        let meeting = ContactGeometry { normal, overlap, arm, surface_rates };
         let reaction = advance::<L, true>(block, &bodies, &meeting, &parameters, inputs, &mut open_totals);
         let moments = (reaction.moment - bodies.position.cross(reaction.force)).to_array();
         for (lane, force) in reaction.force.to_array().into_iter().enumerate().take(spots.len()) {
@@ -171,9 +170,7 @@ pub fn evaluate_outlines<L: ContactLaw>(
             surface.force -= Vec2::new(x, y);
             surface.moment += moments[lane];
         }
-        if reaction.touching != ALL_LANES {
-            ended.push(index as u32);
-        }
+        ended.note(index, reaction.touching);
         scatter(ids, &reaction, sums);
     }
     totals.close(&open_totals, 1.0);
@@ -207,14 +204,14 @@ impl Bodies {
 fn advance<L: ContactLaw, const MIXED: bool>(
     block: &mut Block<L>,
     bodies: &Bodies,
-    meeting: &Meeting,
+    meeting: &ContactGeometry,
     (law, geometry): &Of<PairParameters<L>, F64x4>,
     inputs: &StepInputs,
     totals: &mut LaneTotals,
 ) -> Reaction {
-    let Meeting { normal, overlap, arm, surface_rates: [separation, sliding] } = *meeting;
+    let ContactGeometry { normal, overlap, arm, surface_rates: [separation, sliding] } = *meeting;
     let Bodies { velocity, spin, .. } = *bodies;
-    let motion = Motion {
+    let motion = RelativeMotion {
         overlap,
         separation_rate: separation - velocity.dot(normal),
         slip_rate: sliding - normal.cross(velocity) - arm * spin,

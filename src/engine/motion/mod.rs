@@ -4,15 +4,11 @@ pub mod verlet;
 
 use std::ops::Range;
 
-use crate::engine::forces::Bodies;
-use crate::physics::contact::species::SpeciesTable;
+use crate::engine::parallel::CHUNK;
 use crate::physics::particles::Particles;
 
-/// Numbers in a flat array of vectors: as many as an offset of 16 bits can reach.
-const FLAT: usize = 1 << 16;
-
-/// Numbers in a flat array with one for each particle.
-const HALF: usize = 1 << 15;
+/// Numbers in the flat force array of a chunk.
+pub const CHUNK_FLAT: usize = 2 * CHUNK;
 
 /// A place far from everything: its distance from any particle is finite, and no contact.
 const FAR: f64 = 1e150;
@@ -56,30 +52,6 @@ impl<'a> MotionArrays<'a> {
 }
 
 impl<'a> MotionArrays<'a> {
-    /// Those of some particles, and what the particles are made of.
-    pub fn and_bodies(
-        particles: &'a mut Particles,
-        radius: Option<f64>,
-        table: &'a SpeciesTable,
-    ) -> (Self, Bodies<'a>) {
-        let Particles { positions, velocities, angles, angular_velocities, forces, torques, .. } = particles;
-        let arrays = Self {
-            position: bytemuck::must_cast_slice_mut(positions),
-            velocity: bytemuck::must_cast_slice_mut(velocities),
-            angle: angles,
-            angular_velocity: angular_velocities,
-            force: bytemuck::must_cast_slice_mut(forces),
-            torque: torques,
-        };
-        let Particles { radii, masses, species, .. } = particles;
-        (arrays, Bodies { radius, radii, masses, species, table })
-    }
-
-    /// The arrays of the first `count` particles.
-    pub fn part_of(self, count: usize) -> MotionArrays<'a> {
-        self.split_at(count).0
-    }
-
     /// The arrays before and from a particle on.
     pub fn split_at(self, particle: usize) -> (MotionArrays<'a>, MotionArrays<'a>) {
         let (position, more_position) = self.position.split_at_mut(particle);
@@ -102,33 +74,71 @@ impl<'a> MotionArrays<'a> {
     }
 }
 
-/// The moving part of a load that 16 bits of offset reach, in arrays whose length the compiler knows: no index needs to be
-/// compared with it. The textbook compares every one, here some 50 instructions of 290 for a block of contacts are saved.
-/// The arrays are much longer than most loads; memory that is not used is not touched.
+/// The moving part of a load, in arrays whose length the compiler knows, so that masked indices need not be compared with
+/// it. The textbook compares every one; here some 50 instructions of 290 for a block of contacts are saved.
+///
+/// `N` numbers hold the vectors of `H` particles; `M` is N + 1. The arrays are longer than most loads: memory that is not used
+/// is not touched.
 #[derive(Debug, Clone)]
-pub struct FlatArrays {
-    position: Box<[f64; FLAT + 1]>,
-    velocity: Box<[f64; FLAT]>,
-    force: Box<[f64; FLAT]>,
-    angle: Box<[f64; HALF]>,
-    angular_velocity: Box<[f64; HALF]>,
-    torque: Box<[f64; HALF]>,
+pub struct FlatArrays<const N: usize, const M: usize, const H: usize> {
+    position: Box<[f64; M]>,
+    velocity: Box<[f64; N]>,
+    force: Box<[f64; N]>,
+    angle: Box<[f64; H]>,
+    angular_velocity: Box<[f64; H]>,
+    torque: Box<[f64; H]>,
+}
+
+/// Arrays that offsets of 16 bits reach.
+pub type SmallArrays = FlatArrays<{ 1 << 16 }, { (1 << 16) + 1 }, { 1 << 15 }>;
+/// Arrays for a million particles.
+pub type MediumArrays = FlatArrays<{ 1 << 21 }, { (1 << 21) + 1 }, { 1 << 20 }>;
+/// Arrays for as many as there may be.
+pub type LargeArrays = FlatArrays<{ 1 << 28 }, { (1 << 28) + 1 }, { 1 << 27 }>;
+
+/// Arrays of the size that a load needs.
+#[derive(Debug, Clone)]
+pub enum Arrays {
+    /// Up to 32 766 particles.
+    Small(SmallArrays),
+    /// Up to 1 048 574.
+    Medium(MediumArrays),
+    /// More.
+    Large(LargeArrays),
+}
+
+/// Does the same with arrays of any size.
+macro_rules! with_arrays {
+    ($arrays:expr, $own:ident => $work:expr) => {
+        match $arrays {
+            $crate::engine::motion::Arrays::Small($own) => $work,
+            $crate::engine::motion::Arrays::Medium($own) => $work,
+            $crate::engine::motion::Arrays::Large($own) => $work,
+        }
+    };
+}
+pub(crate) use with_arrays;
+
+impl Arrays {
+    /// Room for `count` particles. Lanes without a contact refer to the places after the last one: a particle far from
+    /// everything, and one at `inside`, where it touches no rim.
+    pub fn new(count: usize, inside: f64) -> Self {
+        match count {
+            0..=32_766 => Self::Small(FlatArrays::new(count, inside)),
+            32_767..=1_048_574 => Self::Medium(FlatArrays::new(count, inside)),
+            _ => Self::Large(FlatArrays::new(count, inside)),
+        }
+    }
 }
 
 /// Zeros that take no memory until they are written to.
+#[allow(clippy::unnecessary_box_returns)] // They would not fit on a stack.
 fn zeros<const N: usize>() -> Box<[f64; N]> {
     vec![0.0; N].into_boxed_slice().try_into().expect("a slice of this length")
 }
 
-impl FlatArrays {
-    /// Whether they can hold `count` particles, and two places more.
-    pub fn can_hold(count: usize) -> bool {
-        count + 2 <= HALF
-    }
-
-    /// Room for `count` particles. Lanes without a contact refer to the places after the last one: a particle far from
-    /// everything, and one at `inside`, where it touches no rim.
-    pub fn new(count: usize, inside: f64) -> Self {
+impl<const N: usize, const M: usize, const H: usize> FlatArrays<N, M, H> {
+    fn new(count: usize, inside: f64) -> Self {
         let mut position = zeros();
         position[2 * count] = FAR;
         position[2 * (count + 1)] = inside;
@@ -166,38 +176,22 @@ impl FlatArrays {
         other.torque.copy_from_slice(own.torque);
     }
 
-    /// How the particles move, to read; forces and torques, to write to.
-    #[inline(always)]
-    pub fn lend_whole(&mut self) -> (FlatView<'_>, FlatSums<'_>) {
-        let Self { position, velocity, angular_velocity, force, torque, .. } = self;
-        (FlatView { position, velocity, angular_velocity }, FlatSums { force, torque })
+    /// Brings the positions back to the particles.
+    pub fn store_positions(&mut self, particles: &mut Particles) {
+        let count = particles.len();
+        MotionArrays::of(particles).position.copy_from_slice(self.part(0..count).position);
     }
-}
 
-/// The arrays that move, however they are kept.
-pub trait Motion {
-    /// How they are read.
-    type View<'a>: MotionView
-    where
-        Self: 'a;
-
-    /// How the particles move, to read; forces and torques of the first `count`, to write to.
-    fn lend(&mut self, count: usize) -> (Self::View<'_>, &mut [[f64; 2]], &mut [f64]);
+    /// How the particles move, to read; forces and torques by chunk, to write to.
+    #[inline(always)]
+    pub fn lend(&mut self) -> (FlatView<'_, N, M, H>, ChunkForces<'_>) {
+        let Self { position, velocity, angular_velocity, force, torque, .. } = self;
+        let forces = ChunkForces { force: force.as_chunks_mut().0, torque: torque.as_chunks_mut().0 };
+        (FlatView { position, velocity, angular_velocity }, forces)
+    }
 
     /// The arrays of some of the particles.
-    fn part(&mut self, range: Range<usize>) -> MotionArrays<'_>;
-}
-
-impl Motion for FlatArrays {
-    type View<'a> = FlatView<'a>;
-
-    fn lend(&mut self, count: usize) -> (FlatView<'_>, &mut [[f64; 2]], &mut [f64]) {
-        let Self { position, velocity, angular_velocity, force, torque, .. } = self;
-        let view = FlatView { position, velocity, angular_velocity };
-        (view, force[..2 * count].as_chunks_mut().0, &mut torque[..count])
-    }
-
-    fn part(&mut self, range: Range<usize>) -> MotionArrays<'_> {
+    pub fn part(&mut self, range: Range<usize>) -> MotionArrays<'_> {
         let flat = 2 * range.start..2 * range.end;
         MotionArrays {
             position: self.position[flat.clone()].as_chunks_mut().0,
@@ -210,72 +204,13 @@ impl Motion for FlatArrays {
     }
 }
 
-impl Motion for MotionArrays<'_> {
-    type View<'a>
-        = LargeView<'a>
-    where
-        Self: 'a;
-
-    fn lend(&mut self, count: usize) -> (LargeView<'_>, &mut [[f64; 2]], &mut [f64]) {
-        let Self { position, velocity, angular_velocity, force, torque, .. } = self;
-        (LargeView { position, velocity, angular_velocity }, &mut force[..count], &mut torque[..count])
-    }
-
-    fn part(&mut self, range: Range<usize>) -> MotionArrays<'_> {
-        MotionArrays {
-            position: &mut self.position[range.clone()],
-            velocity: &mut self.velocity[range.clone()],
-            angle: &mut self.angle[range.clone()],
-            angular_velocity: &mut self.angular_velocity[range.clone()],
-            force: &mut self.force[range.clone()],
-            torque: &mut self.torque[range],
-        }
-    }
-}
-
-/// Where a simulation's moving arrays are while steps are done.
+/// Forces and torques of whole chunks.
 #[derive(Debug)]
-pub enum Arrays<'a> {
-    /// Arrays of a length that the compiler knows.
-    Flat(&'a mut FlatArrays),
-    /// The particles' own, two places longer than usual.
-    Large(MotionArrays<'a>),
-}
-
-/// Forces and torques of flat arrays.
-#[derive(Debug)]
-pub struct FlatSums<'a> {
+pub struct ChunkForces<'a> {
     /// Forces [N/m].
-    pub force: &'a mut [f64; FLAT],
+    pub force: &'a mut [[f64; CHUNK_FLAT]],
     /// Torques [N m/m].
-    pub torque: &'a mut [f64; HALF],
-}
-
-/// Gives the moving arrays places beyond the last particle while steps are done: lanes without a contact refer to them, see
-/// `FlatArrays`.
-pub fn pad(particles: &mut Particles, inside: f64) {
-    let count = particles.len();
-    let Particles { positions, velocities, angles, angular_velocities, forces, torques, .. } = particles;
-    for vectors in [&mut *positions, velocities, forces] {
-        vectors.resize(count + 2, nalgebra::zero());
-    }
-    for numbers in [angles, angular_velocities, torques] {
-        numbers.resize(count + 2, 0.0);
-    }
-    positions[count].x = FAR;
-    positions[count + 1].x = inside;
-}
-
-/// Takes these places away.
-pub fn unpad(particles: &mut Particles) {
-    let count = particles.len();
-    let Particles { positions, velocities, angles, angular_velocities, forces, torques, .. } = particles;
-    for vectors in [positions, velocities, forces] {
-        vectors.truncate(count);
-    }
-    for numbers in [angles, angular_velocities, torques] {
-        numbers.truncate(count);
-    }
+    pub torque: &'a mut [[f64; CHUNK]],
 }
 
 /// The place of the particle far from everything, in a load of `count`.
@@ -300,58 +235,28 @@ pub trait MotionView: Copy + Send + Sync {
 
 /// The motion in flat arrays.
 #[derive(Debug, Clone, Copy)]
-pub struct FlatView<'a> {
-    position: &'a [f64; FLAT + 1],
-    velocity: &'a [f64; FLAT],
-    angular_velocity: &'a [f64; HALF],
+pub struct FlatView<'a, const N: usize, const M: usize, const H: usize> {
+    position: &'a [f64; M],
+    velocity: &'a [f64; N],
+    angular_velocity: &'a [f64; H],
 }
 
-/// An offset as an index that is even and within flat arrays for sure.
-#[inline(always)]
-pub fn flat(offset: u32) -> usize {
-    (offset & (FLAT as u32 - 2)) as usize
-}
-
-impl MotionView for FlatView<'_> {
+impl<const N: usize, const M: usize, const H: usize> MotionView for FlatView<'_, N, M, H> {
     #[inline(always)]
     fn position(self, offset: u32) -> [f64; 2] {
         // Positions alone are read without a number beside them: an offset need not be known to be even.
-        let x = usize::from(offset as u16);
+        let x = offset as usize & (N - 1);
         [self.position[x], self.position[x + 1]]
     }
 
     #[inline(always)]
     fn velocity(self, offset: u32) -> [f64; 2] {
-        [self.velocity[flat(offset)], self.velocity[flat(offset) + 1]]
+        let x = offset as usize & (N - 2);
+        [self.velocity[x], self.velocity[x + 1]]
     }
 
     #[inline(always)]
     fn angular_velocity(self, offset: u32) -> f64 {
-        self.angular_velocity[flat(offset) / 2]
-    }
-}
-
-/// The motion of a load of any size.
-#[derive(Debug, Clone, Copy)]
-pub struct LargeView<'a> {
-    position: &'a [[f64; 2]],
-    velocity: &'a [[f64; 2]],
-    angular_velocity: &'a [f64],
-}
-
-impl MotionView for LargeView<'_> {
-    #[inline(always)]
-    fn position(self, offset: u32) -> [f64; 2] {
-        self.position[at_offset(offset) as usize]
-    }
-
-    #[inline(always)]
-    fn velocity(self, offset: u32) -> [f64; 2] {
-        self.velocity[at_offset(offset) as usize]
-    }
-
-    #[inline(always)]
-    fn angular_velocity(self, offset: u32) -> f64 {
-        self.angular_velocity[at_offset(offset) as usize]
+        self.angular_velocity[(offset as usize & (N - 2)) / 2]
     }
 }

@@ -78,7 +78,9 @@ impl PairList {
                 + (turn - last_turn).abs() * farthest;
             let change = most.fold(sums_of_chunk.change, f64::max) + round_off;
             chunk.horizon.advance(change + turned);
-            chunk.longest_way += sums_of_chunk.change + round_off + turned;
+            let way = chunk.longest_way + sums_of_chunk.change + round_off + turned;
+            // A way that is not known must not be lost in a comparison: ∞ times a turn of 0 is not a number.
+            chunk.longest_way = if way.is_nan() { f64::INFINITY } else { way };
             longest = longest.max(chunk.longest_way);
         }
         // A way is measured along the tangent; the rest of the arc is |x| turn² / 2.
@@ -121,7 +123,10 @@ impl PairList {
 
     /// Ends the near lists, as the particles' displacements are others than they were.
     pub fn end_near_lists(&mut self) {
-        self.chunks.iter_mut().for_each(|chunk| chunk.horizon.end());
+        for chunk in &mut self.chunks {
+            chunk.horizon.end();
+            chunk.longest_way = f64::INFINITY;
+        }
     }
 
     /// Builds the list anew. Contacts have to be linked to it afterwards.

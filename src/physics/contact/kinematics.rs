@@ -5,7 +5,7 @@ use crate::physics::scalar::Scalar;
 
 /// How two bodies move at their contact, in the frame of contact: rates in the middle of the step that led here.
 #[derive(Debug, Clone, Copy)]
-pub struct Motion<S: Scalar> {
+pub struct RelativeMotion<S: Scalar> {
     /// Overlap δ [m] now; not above zero when the bodies are apart.
     pub overlap: S,
     /// Rate along the normal, positive when the bodies part [m/s].
@@ -58,7 +58,7 @@ pub struct Kinematics<S: Scalar> {
 impl<S: Scalar> Kinematics<S> {
     /// Of bodies that move like this, and were like that at the last step; `time_step` is the step's length and its inverse.
     #[inline(always)]
-    pub fn new(motion: &Motion<S>, last: &ContactState<S>, [time_step, step_rate]: [S; 2]) -> Self {
+    pub fn new(motion: &RelativeMotion<S>, last: &ContactState<S>, [time_step, step_rate]: [S; 2]) -> Self {
         let zero = S::zero();
         let touching = motion.overlap.exceeds(zero);
         let overlap = motion.overlap.larger(zero);

@@ -111,7 +111,7 @@ impl<const CLIPS: bool> ContactLaw for Linear<CLIPS> {
 /// The dashpot's force at mid-step times the travel. Where the whole force is clipped, the dashpot holds just the spring.
 #[inline(always)]
 fn dashpot_loss<S: Scalar, const CLIPS: bool>(law: &LinearLaw<S>, contact: &Kinematics<S>) -> S {
-    let mut force = law.damping * contact.step_rate * contact.approach;
+    let mut force = -(law.damping * contact.last_rate);
     if CLIPS {
         let mean_overlap = (contact.overlap + contact.last_overlap) * S::splat(0.5);
         force = force.larger(law.least_normal_force - law.normal_stiffness * mean_overlap);
@@ -207,7 +207,7 @@ fn clipped_decay(ratio: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{ContactState, Motion};
+    use super::super::{ContactState, RelativeMotion};
     use super::*;
 
     fn table_1(tension: Tension) -> ContactParameters {
@@ -254,7 +254,7 @@ mod tests {
                 let last =
                     ContactState { overlap: wave(3).max(0.0), separation_rate: wave(2) * 1e5, ..no_state() };
                 let stretch = if last.overlap > 0.0 { wave(5) } else { 0.0 };
-                let motion = Motion {
+                let motion = RelativeMotion {
                     overlap: wave(7),
                     separation_rate: wave(11) * 1e5,
                     slip_rate: wave(13) * 1e5,

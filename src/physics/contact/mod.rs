@@ -21,7 +21,7 @@ pub mod rolling;
 pub mod species;
 pub mod tangential_dashpot;
 
-pub use kinematics::{Kinematics, Motion};
+pub use kinematics::{Kinematics, RelativeMotion};
 
 use crate::physics::columns::columns;
 use crate::physics::scalar::Scalar;

@@ -10,12 +10,12 @@ pub(super) struct Graph {
     /// Where each vertex is.
     pub(super) vertices: Vec<Vec2>,
     /// In the order in which they were drawn; no two have the same ends.
-    pub(super) edges: Vec<Edge>,
+    pub(super) edges: Vec<GraphEdge>,
 }
 
 /// A directed straight edge.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Edge {
+pub(super) struct GraphEdge {
     /// The vertices it starts and ends at; they differ.
     pub(super) ends: [usize; 2],
     /// The surface that it is part of.
@@ -42,13 +42,15 @@ impl Graph {
     /// A closed polygon, part of one surface.
     pub(super) fn polygon(vertices: Vec<Vec2>, surface: usize) -> Self {
         let count = vertices.len();
-        let edges = (0..count).map(|index| Edge { ends: [index, (index + 1) % count], surface }).collect();
+        let edges =
+            (0..count).map(|index| GraphEdge { ends: [index, (index + 1) % count], surface }).collect();
         Self { vertices, edges }
     }
 
     /// The edges as segments.
     pub(super) fn segments(&self) -> Vec<Segment> {
-        let segment = |edge: &Edge| Segment::new(self.vertices[edge.ends[0]], self.vertices[edge.ends[1]]);
+        let segment =
+            |edge: &GraphEdge| Segment::new(self.vertices[edge.ends[0]], self.vertices[edge.ends[1]]);
         self.edges.iter().map(segment).collect()
     }
 
@@ -84,13 +86,13 @@ impl Graph {
     /// The connected parts in the order of their first edges, their vertices counted in boundary order.
     pub(super) fn components(&self) -> Vec<Self> {
         let mut sets = UnionFind::new(self.vertices.len());
-        for Edge { ends: [start, end], .. } in &self.edges {
+        for GraphEdge { ends: [start, end], .. } in &self.edges {
             sets.unite(*start, *end);
         }
         let mut component_of = vec![None; self.vertices.len()];
         let mut local = vec![None; self.vertices.len()];
         let mut components: Vec<Self> = Vec::new();
-        for &Edge { ends, surface } in &self.edges {
+        for &GraphEdge { ends, surface } in &self.edges {
             let index = *component_of[sets.find(ends[0])].get_or_insert(components.len());
             if index == components.len() {
                 components.push(Self::default());
@@ -102,7 +104,7 @@ impl Graph {
                     component.vertices.len() - 1
                 })
             });
-            component.edges.push(Edge { ends, surface });
+            component.edges.push(GraphEdge { ends, surface });
         }
         components
     }
@@ -113,7 +115,7 @@ mod tests {
     use super::*;
 
     fn graph(ends: &[[usize; 2]], count: u32) -> Graph {
-        let edges = ends.iter().map(|&ends| Edge { ends, surface: 1 }).collect();
+        let edges = ends.iter().map(|&ends| GraphEdge { ends, surface: 1 }).collect();
         Graph { vertices: (0..count).map(|x| Vec2::new(f64::from(x), 0.0)).collect(), edges }
     }
 

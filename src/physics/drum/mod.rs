@@ -114,6 +114,11 @@ impl Drum {
         self.shapes.iter().map(Vec::as_slice)
     }
 
+    /// Radius [m] of a circle about the axis that touches no solid.
+    pub fn clear_radius(&self) -> f64 {
+        self.radius.map_or(self.free_radius, |radius| radius.min(self.free_radius))
+    }
+
     /// Number of baffles.
     pub fn baffle_count(&self) -> usize {
         self.baffle_count

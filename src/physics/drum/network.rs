@@ -6,7 +6,7 @@
 
 use std::collections::BTreeSet;
 
-use super::graph::{Edge, Graph};
+use super::graph::{Graph, GraphEdge};
 use super::polygon::length;
 use super::segment::{Segment, SegmentRegion};
 use super::union_find::UnionFind;
@@ -219,7 +219,7 @@ impl Drawing {
             for point in cuts.into_iter().map(|cut| cut.point).chain([ends[1]]) {
                 let end = self.same.find(point);
                 if start != end && known.insert((start.min(end), start.max(end))) {
-                    edges.push(Edge { ends: [start, end], surface });
+                    edges.push(GraphEdge { ends: [start, end], surface });
                 }
                 start = end;
             }
@@ -236,7 +236,7 @@ mod tests {
     fn joined(walls: &[&[[f64; 2]]]) -> Vec<Vec<([f64; 4], usize)>> {
         let walls: Vec<Vec<[f64; 2]>> = walls.iter().map(|wall| wall.to_vec()).collect();
         let edges = |part: &Graph| {
-            let coordinates = |edge: &Edge| {
+            let coordinates = |edge: &GraphEdge| {
                 let [start, end] = edge.ends.map(|vertex| part.vertices[vertex]);
                 ([start.x, start.y, end.x, end.y], edge.surface)
             };
