@@ -15,7 +15,7 @@ use drumrs::physics::contact::law::{BodyPair, ContactLaw, WithTerms};
 use drumrs::physics::contact::linear::{Linear, LinearHistory};
 use drumrs::physics::contact::model::Model;
 use drumrs::physics::contact::parameters::{ContactParameters, Tension};
-use drumrs::physics::contact::{ContactState, Kinematics, Motion};
+use drumrs::physics::contact::{ContactState, Kinematics, RelativeMotion};
 use drumrs::simulation::Simulation;
 use drumrs::simulation::initial_state::InitialState;
 
@@ -234,7 +234,7 @@ fn where_tension_is_clipped_the_pull_stays() {
     let law = WithTerms::<Linear<true>, Adhesion>::between(&parameters, BodyPair::at_wall((mass(), RADIUS)));
     let respond = |overlap: f64| {
         let separation_rate = (1e-7 - overlap) / EXACT_STEP;
-        let motion = Motion { overlap, separation_rate, slip_rate: 1.0, rolling_rate: 0.0 };
+        let motion = RelativeMotion { overlap, separation_rate, slip_rate: 1.0, rolling_rate: 0.0 };
         let last = ContactState { overlap: 1e-7, separation_rate, force_x: 0.0, force_y: 0.0, moment: 0.0 };
         let contact = Kinematics::new(&motion, &last, [EXACT_STEP, 1.0 / EXACT_STEP]);
         let history = (LinearHistory { tangential_displacement: 0.0 }, ());
