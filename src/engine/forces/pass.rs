@@ -135,8 +135,9 @@ impl<L: ContactLaw> Pass<L> {
 
     /// Adds what the chunks did to the load, in their order.
     fn add_up(&mut self) {
-        self.surfaces.fill(SurfaceLoad::default());
-        for chunk in &self.chunks {
+        let Some((first, others)) = self.chunks.split_first() else { return };
+        self.surfaces.copy_from_slice(&first.surfaces);
+        for chunk in others {
             for (surface, part) in self.surfaces.iter_mut().zip(&chunk.surfaces) {
                 surface.force += part.force;
                 surface.moment += part.moment;
