@@ -344,7 +344,7 @@ fn terms_that_nobody_has_change_no_bit() {
         config.contact.walls = vec![(1, law.clone())];
         config.contact.pairs = vec![(0, 1, law)];
         assert_eq!(Model::of(&config.contact.table().unwrap()), Model::Full);
-        assert_eq!(bits(&tumbled(&plain, STEPS)), bits(&tumbled(&config, STEPS)), "{baffle_count} baffles");
+        assert!(bits(&tumbled(&plain, STEPS)) == bits(&tumbled(&config, STEPS)), "{baffle_count} baffles");
     }
 }
 
@@ -355,13 +355,13 @@ fn skins_and_restarts_do_not_show_with_terms() {
         let straight = tumbled(&config, STEPS);
         for skin in [0.0, 0.3 * RADIUS] {
             config.run.skin = Some(skin);
-            assert_eq!(bits(&straight), bits(&tumbled(&config, STEPS)), "skin {skin}");
+            assert!(bits(&straight) == bits(&tumbled(&config, STEPS)), "skin {skin}");
         }
         config.run.skin = None;
         let saved = tumbled(&config, STEPS / 2 + 1).to_checkpoint().unwrap();
         let mut resumed = Simulation::from_checkpoint(&saved, 2).unwrap();
         resumed.run(STEPS / 2 - 1).unwrap();
-        assert_eq!(bits(&straight), bits(&resumed), "{baffle_count} baffles");
+        assert!(bits(&straight) == bits(&resumed), "{baffle_count} baffles");
         assert_eq!(straight.to_checkpoint().unwrap(), resumed.to_checkpoint().unwrap());
     }
 }
@@ -382,7 +382,7 @@ fn threads_do_not_show_with_terms() {
     let one = run(1);
     assert!(one.contacts().counts().0 > 50, "{:?}", one.contacts().counts());
     for threads in [2, 3] {
-        assert_eq!(bits(&one), bits(&run(threads)), "{threads} threads");
+        assert!(bits(&one) == bits(&run(threads)), "{threads} threads");
     }
 }
 
