@@ -295,3 +295,22 @@ def test_summary_is_consistent(short):
     # Frames fall on whole steps, so that the last may fall just beyond the end.
     assert len(result.frames) in {6, 7}
     assert len(result.frames.baffles) == 3
+
+
+def test_terms_have_columns_and_meanings():
+    changes = {"rolling_friction": 0.2, "tangential_damping_ratio": 0.3, "adhesion": 2.0}
+    keys = {f"contact.{side}.{key}": value for side in ("bundle", "drum") for key, value in changes.items()}
+    config = drumrs.baseline(0.1).replace({"load.start_speed": 1.0, **keys})
+    simulation = drumrs.Simulation(config, seed=3)
+    simulation.run(0.2)
+    listed = drumrs.quantities()
+    for name, meaning in {
+        "dissipated_tangential": "energy taken by tangential dashpots since t = 0",
+        "dissipated_rolling": "energy taken by rolling since t = 0",
+        "elastic_rolling": "energy held by rolling springs",
+        "adhesion": "energy of adhesion, below zero while bodies touch",
+    }.items():
+        assert (listed[name].unit, listed[name].meaning) == ("J/m", meaning)
+        assert simulation.series[name].abs().max() > 0.0, name
+    assert simulation.series["adhesion"].max() <= 0.0
+    assert simulation.series["energy_residual"].max() < 1e-11

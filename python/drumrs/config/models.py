@@ -103,7 +103,7 @@ class Load(Part):
 
 
 class LinearContact(Part):
-    """A linear spring and dashpot with a tangential spring that Coulomb friction cuts off."""
+    """A linear spring and dashpot with a tangential spring that Coulomb friction cuts off, and terms beside them."""
 
     pair: ClassVar[tuple[str, str] | None] = ("restitution", "normal_damping")
 
@@ -118,12 +118,18 @@ class LinearContact(Part):
     friction: NonNegative = _key(0.5, "Coefficient of friction")
     tension: Tension = _key("allowed", "Whether the dashpot may pull: 'allowed' (the paper) or 'clipped'")
     rolling_friction: NonNegative = _key(
-        0.0, "Coefficient of rolling friction: a rotational spring that yields at it; 0 for none"
+        0.0,
+        "Coefficient of rolling friction μ_r: a rotational spring that yields where its moment is μ_r times "
+        "normal force and radius; 0 for none",
     )
     tangential_damping_ratio: NonNegative = _key(
-        0.0, "Damping ratio of a dashpot beside the tangential spring; 0 for none"
+        0.0,
+        "Damping ratio of a dashpot beside the tangential spring, which acts while the contact sticks; 0 for none",
     )
-    adhesion: NonNegative = _key(0.0, "Constant pull while bodies touch [N/m of depth]; 0 for none")
+    adhesion: NonNegative = _key(
+        0.0,
+        "Constant pull while bodies touch [N/m of depth]; friction and rolling feel it as pressure; 0 for none",
+    )
 
 
 class _SomeOfContact(Part):
