@@ -13,6 +13,7 @@ mod search;
 
 use cells::CellGrid;
 pub use chunk::{ChunkNeighbors, NearLimits};
+use horizon::Horizon;
 pub use near::{NearBlock, Opened};
 pub use neighbors::Status;
 use search::Search;
@@ -126,6 +127,13 @@ impl PairList {
         for chunk in &mut self.chunks {
             chunk.horizon.end();
             chunk.longest_way = f64::INFINITY;
+        }
+    }
+
+    /// Makes near lists for so many steps from now on.
+    pub fn set_near_steps(&mut self, steps: u32) {
+        for chunk in &mut self.chunks {
+            chunk.horizon = Horizon::of(steps);
         }
     }
 
