@@ -1,7 +1,7 @@
 """Hertz–Mindlin: greatest overlap, duration and restitution of an impact, at speeds a thousand times apart.
 
-With Fₙ = k δ^{3/2} an elastic impact at v reaches δ = (5 m* v²/4 k)^{2/5} and lasts ∫ dx/√(1 − x^{5/2}) = 2.943 δ/v. Here
-k = 4/3 E* √R*/h, E* = E/2 (1 − ν²), and h is the diameter of the disc.
+With Fₙ = k δ^{3/2} an elastic impact at v reaches δ = (5 m* v²/4 k)^{2/5} and lasts 2 δ/v ∫ dx/√(1 − x^{5/2}) from 0
+to 1, 2.943 δ/v. Here k = 4/3 E* √R*/h, E* = E/2 (1 − ν²), and h is the diameter of the disc.
 """
 
 import math
