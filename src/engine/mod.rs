@@ -108,6 +108,11 @@ impl Engine {
         &self.threads
     }
 
+    /// Makes near lists for so many steps from now on. No result depends on it.
+    pub fn set_near_steps(&mut self, steps: u32) {
+        self.list.set_near_steps(steps);
+    }
+
     /// Adds contacts as they are.
     pub fn insert(&mut self, contacts: &Lists, particles: &Particles, world: World) {
         self.pass.insert(contacts, &bodies(particles, self.radius, world.table));

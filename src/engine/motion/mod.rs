@@ -29,11 +29,17 @@ pub fn at_offset(offset: u32) -> u32 {
 /// The moving part of the particles, flat.
 #[derive(Debug)]
 pub struct MotionArrays<'a> {
+    /// Centers [m].
     pub position: &'a mut [[f64; 2]],
+    /// Velocities [m/s].
     pub velocity: &'a mut [[f64; 2]],
+    /// Angles [rad].
     pub angle: &'a mut [f64],
+    /// Angular velocities [rad/s].
     pub angular_velocity: &'a mut [f64],
+    /// Forces [N/m].
     pub force: &'a mut [[f64; 2]],
+    /// Torques [N m/m].
     pub torque: &'a mut [f64],
 }
 

@@ -13,6 +13,7 @@ mod search;
 
 use cells::CellGrid;
 pub use chunk::{ChunkNeighbors, NearLimits};
+use horizon::Horizon;
 pub use near::{NearBlock, Opened};
 pub use neighbors::Status;
 use search::Search;
@@ -91,7 +92,7 @@ impl PairList {
     /// Whether the list may no longer hold.
     pub fn is_due(&self) -> bool {
         // What is not a number is due, too.
-        !(self.slack > 0.0)
+        self.slack.is_nan() || self.slack <= 0.0
     }
 
     /// Whether the list still holds for sure: no particle has moved half the skin, or close to it.
@@ -126,6 +127,13 @@ impl PairList {
         for chunk in &mut self.chunks {
             chunk.horizon.end();
             chunk.longest_way = f64::INFINITY;
+        }
+    }
+
+    /// Makes near lists for so many steps from now on.
+    pub fn set_near_steps(&mut self, steps: u32) {
+        for chunk in &mut self.chunks {
+            chunk.horizon = Horizon::of(steps);
         }
     }
 

@@ -20,7 +20,7 @@ pub type ClippedLaw = Linear<true>;
 pub type FullLaw = WithTerms<Linear<true>, Terms>;
 
 /// Hertz–Mindlin alone.
-pub type HertzLaw = Hertz;
+pub type BareHertzLaw = Hertz;
 /// Hertz–Mindlin with the terms that do not go with the tangential stiffness.
 pub type FullHertzLaw = WithTerms<Hertz, Adhesion>;
 
@@ -41,7 +41,7 @@ pub enum Model {
     Clipped,
     /// `FullLaw`
     Full,
-    /// `HertzLaw`
+    /// `BareHertzLaw`
     Hertz,
     /// `FullHertzLaw`
     FullHertz,
@@ -54,7 +54,7 @@ impl Model {
             Self::Bare => for_law.make::<BareLaw>(),
             Self::Clipped => for_law.make::<ClippedLaw>(),
             Self::Full => for_law.make::<FullLaw>(),
-            Self::Hertz => for_law.make::<HertzLaw>(),
+            Self::Hertz => for_law.make::<BareHertzLaw>(),
             Self::FullHertz => for_law.make::<FullHertzLaw>(),
         }
     }

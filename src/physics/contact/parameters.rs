@@ -29,11 +29,11 @@ pub struct ContactParameters {
     pub friction: f64,
     /// Whether the dashpot may pull.
     pub tension: Tension,
-    /// Rolling friction μ_r; 0 for none.
+    /// Rolling friction μᵣ; 0 for none.
     pub rolling_friction: f64,
     /// Damping ratio ζₜ of the dashpot beside the tangential spring; 0 for none.
     pub tangential_damping_ratio: f64,
-    /// Pull F_c while the bodies touch [N/m]; 0 for none.
+    /// Pull `F_c` while the bodies touch [N/m]; 0 for none.
     pub adhesion: f64,
 }
 
