@@ -93,6 +93,8 @@ WRONG_LAWS = {
         {"contact.drum.adhesion": 1.02},
         ["hanging", "over-the-top", "adhesive-impact", "capture", "pressed-by-adhesion"],
     ),
+    "modulus": ({"contact.drum.young_modulus": 1.01}, ["hertz-impact"]),
+    "restitution of spheres": ({"contact.drum.restitution": 0.98}, ["hertz-restitution"]),
     "speed": ({"rotation.rpm": 1.001}, ["free-disc"]),
 }
 

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use drumrs::io::config::{ContactTables, LoadParameters, RunParameters, SimulationConfig};
-use drumrs::physics::contact::parameters::{ContactParameters, Tension};
+use drumrs::physics::contact::parameters::{Base, ContactParameters, Tension};
 use drumrs::physics::contact::species::SpeciesTable;
 use drumrs::physics::drum::DrumParameters;
 use drumrs::physics::drum::baffle::{BaffleParameters, BaffleShape};
@@ -158,7 +158,10 @@ fn parameters(law: &Law, hardness: f64, mass: f64, speed: f64, diameter: f64) ->
     let normal_stiffness = hardness * mass * (speed / diameter) * (speed / diameter);
     let critical = 2.0 * (normal_stiffness * mass).sqrt();
     ContactParameters {
+        base: Base::Linear,
         normal_stiffness,
+        young_modulus: None,
+        poisson_ratio: 0.3,
         stiffness_ratio: law.stiffness_ratio,
         restitution: law.loss.ok(),
         normal_damping: law.loss.err().map(|ratio| ratio * critical),

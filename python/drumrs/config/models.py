@@ -13,6 +13,7 @@ from drumrs.config.report import relation, show
 
 Shape = Annotated[Literal["triangle", "trapezoid", "polygon"], Limit("'triangle', 'trapezoid' or 'polygon'")]
 Tension = Annotated[Literal["allowed", "clipped"], Limit("'allowed' or 'clipped'")]
+Base = Annotated[Literal["linear", "hertz"], Limit("'linear' or 'hertz'")]
 TimeStep = Annotated[Literal["auto"] | Positive, Limit("'auto' or a positive finite number")]
 Skin = Annotated[Literal["auto"] | NonNegative, Limit("'auto' or a finite number of at least 0")]
 
@@ -107,8 +108,16 @@ class LinearContact(Part):
 
     pair: ClassVar[tuple[str, str] | None] = ("restitution", "normal_damping")
 
-    normal_stiffness: Positive = Field(description="Stiffness of the normal spring [N/m].")
-    stiffness_ratio: Positive = _key(1.0, "Tangential stiffness over normal stiffness")
+    normal_stiffness: Positive = Field(
+        description="Stiffness of the normal spring [N/m]; it does not count where contact.base is 'hertz'."
+    )
+    stiffness_ratio: Positive = _key(1.0, "Tangential stiffness over normal stiffness; likewise")
+    young_modulus: Positive | None = _key(
+        None, "Young's modulus of both bodies [Pa], where contact.base is 'hertz'", 1e8
+    )
+    poisson_ratio: fields.PoissonRatio = _key(
+        0.3, "Poisson's ratio of both bodies, where contact.base is 'hertz'"
+    )
     restitution: fields.Restitution | None = _key(
         None, "Coefficient of restitution; the damping follows from it", 0.1
     )
@@ -137,6 +146,8 @@ class _SomeOfContact(Part):
 
     normal_stiffness: Positive | None = None
     stiffness_ratio: Positive | None = None
+    young_modulus: Positive | None = None
+    poisson_ratio: fields.PoissonRatio | None = None
     restitution: fields.Restitution | None = None
     normal_damping: NonNegative | None = None
     friction: NonNegative | None = None
@@ -177,6 +188,10 @@ def _given(values: dict[str, Any]) -> dict[str, Any]:
 class Contact(Part):
     """The contact laws: bundle against bundle, bundle against drum."""
 
+    base: Base = _key(
+        "linear",
+        "Base law of all contacts: 'linear', or 'hertz', Hertz–Mindlin in a layer one disc diameter thick",
+    )
     species: fields.SpeciesCount = _key(
         1, "Number of species; a state tells which bundle is of which, from 0"
     )

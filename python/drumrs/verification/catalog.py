@@ -9,6 +9,7 @@ from drumrs.verification import (
     balances,
     bodies,
     friction,
+    hertz,
     impacts,
     promises,
     rolling,
@@ -27,6 +28,7 @@ FAMILIES = MappingProxyType(
         "Rolling resistance": rolling.CASES,
         "Tangential dashpot": sticking.CASES,
         "Adhesion": adhesion.CASES,
+        "Hertz–Mindlin": hertz.CASES,
         "Balances of a whole drum": balances.CASES,
         "Promises": promises.CASES,
     }
