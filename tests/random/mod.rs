@@ -124,7 +124,8 @@ fn put_together(draw: &Draw, mut baffles: BaffleParameters, mut walls: Vec<Vec<[
         pairs: Vec::new(),
         walls: Vec::new(),
     };
-    let (pairs, rim) = SpeciesTable::new(1, &contact.bundle, &contact.drum).collision_times(mass);
+    let (pairs, rim) =
+        SpeciesTable::new(1, &contact.bundle, &contact.drum).collision_times((mass, 0.5 * diameter));
     let time_step = pairs.min(rim) / draw.steps_a_collision;
     // Knots all over the run's 2 000 steps, the last beyond them.
     let knot = |(index, speed): (usize, &f64)| [500.0 * index as f64 * time_step, speed * natural / radius];
