@@ -166,7 +166,7 @@ impl SimulationConfig {
     }
 }
 
-/// Ids are 32 bits wide, and so are slots, of which a bundle has a few.
+/// Offsets, twice an id, are 32 bits wide, and the largest arrays hold some 134 million particles.
 const MOST_BUNDLES: usize = 100_000_000;
 
 impl LoadParameters {

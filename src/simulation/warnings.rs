@@ -69,7 +69,7 @@ impl fmt::Display for Warning {
     }
 }
 
-/// A contact that there may be: who, by which table.
+/// A contact that there may be: its bodies, and the table that is theirs.
 struct Encounter<'a> {
     bodies: String,
     key: String,

@@ -81,7 +81,7 @@ impl<'a> MotionArrays<'a> {
 }
 
 /// The moving part of a load, in arrays whose length the compiler knows, so that masked indices need not be compared with
-/// it. The textbook compares every one; here some 50 instructions of 290 for a block of contacts are saved.
+/// it. The textbook compares every one; here some 30 instructions of 290 for a block of contacts are saved.
 ///
 /// `N` numbers hold the vectors of `H` particles; `M` is N + 1. The arrays are longer than most loads: memory that is not used
 /// is not touched.

@@ -44,9 +44,9 @@ pub struct Verlet {
 struct Inertia {
     mass: f64,
     /// Half a step over the mass.
-    per_mass: f64,
+    half_per_mass: f64,
     /// Half a step over the moment of inertia; 0 where the spin is locked.
-    per_moment: f64,
+    half_per_inertia: f64,
 }
 
 impl Verlet {
@@ -54,8 +54,11 @@ impl Verlet {
     pub fn new(particles: &Particles, time_step: f64, gravity: Vec2) -> Self {
         let half = 0.5 * time_step;
         let per = |value: f64| if value > 0.0 { half / value } else { 0.0 };
-        let inertia =
-            |(&mass, &inertia): (&f64, &f64)| Inertia { mass, per_mass: per(mass), per_moment: per(inertia) };
+        let inertia = |(&mass, &inertia): (&f64, &f64)| Inertia {
+            mass,
+            half_per_mass: per(mass),
+            half_per_inertia: per(inertia),
+        };
         let mut inertias: Vec<_> = particles.masses.iter().zip(&particles.inertias).map(inertia).collect();
         let are_equal = inertias.windows(2).all(|two| two[0] == two[1]);
         if are_equal {
@@ -91,9 +94,9 @@ impl Verlet {
                 let (position, velocity, force) =
                     (&mut position[quad], &mut velocity[quad], &mut force[quad]);
                 let rows = [0, LANES].map(|row| {
-                    let per_mass = inertia.per_mass(quad, row / LANES);
+                    let half_per_mass = inertia.half_per_mass(quad, row / LANES);
                     let [f, v, x] = [&*force, velocity, position].map(|values| F64x4::new(from(values, row)));
-                    let kick = f * per_mass + gravity;
+                    let kick = f * half_per_mass + gravity;
                     let (x, v) = kick_and_drift::<_, PART>(x, v, kick, step);
                     put(velocity, row, v);
                     if PART & START != 0 {
@@ -103,7 +106,7 @@ impl Verlet {
                     (kick, x)
                 });
                 sums.add(rows, inertia, quad);
-                let kick = F64x4::new(torque[quad]) * inertia.per_moment(quad);
+                let kick = F64x4::new(torque[quad]) * inertia.half_per_inertia(quad);
                 let (a, w) =
                     kick_and_drift::<_, PART>(F64x4::new(angle[quad]), F64x4::new(spin[quad]), kick, step);
                 spin[quad] = w.to_array();
@@ -116,10 +119,10 @@ impl Verlet {
         let mut total = sums.total(inertia, self.time_step);
         // Those after the last whole quad, one by one.
         for k in LANES * quads..count {
-            let Inertia { mass, per_mass, per_moment } = inertia.of(k);
+            let Inertia { mass, half_per_mass, half_per_inertia } = inertia.of(k);
             let mut squared_kick = 0.0;
             for axis in 0..2 {
-                let kick = force[k][axis] * per_mass + self.half_gravity[axis];
+                let kick = force[k][axis] * half_per_mass + self.half_gravity[axis];
                 squared_kick += kick * kick;
                 let (x, v) =
                     kick_and_drift::<_, PART>(position[k][axis], velocity[k][axis], kick, self.time_step);
@@ -127,7 +130,7 @@ impl Verlet {
                 total.mass_moment[axis] += mass * x;
             }
             total.change = total.change.max(2.0 * self.time_step * squared_kick.sqrt());
-            let kick = torque[k] * per_moment;
+            let kick = torque[k] * half_per_inertia;
             let (a, w) = kick_and_drift::<_, PART>(angle[k], angular_velocity[k], kick, self.time_step);
             (angle[k], angular_velocity[k]) = (a, w);
             if PART & START != 0 {
@@ -162,8 +165,8 @@ trait Inertias {
     /// Those of one.
     fn of(&self, particle: usize) -> Inertia;
     /// Of two particles, for x and y.
-    fn per_mass(&self, quad: usize, row: usize) -> F64x4;
-    fn per_moment(&self, quad: usize) -> F64x4;
+    fn half_per_mass(&self, quad: usize, row: usize) -> F64x4;
+    fn half_per_inertia(&self, quad: usize) -> F64x4;
     /// Positions (two a row) times masses, where these differ.
     fn weigh(&self, quad: usize, row: usize, position: F64x4) -> F64x4;
     /// The mass where all have the same.
@@ -173,14 +176,15 @@ trait Inertias {
 /// Equal particles.
 struct Same {
     inertia: Inertia,
-    per_mass: F64x4,
-    per_moment: F64x4,
+    half_per_mass: F64x4,
+    half_per_inertia: F64x4,
 }
 
 impl Same {
     fn new(inertia: Inertia) -> Self {
-        let [per_mass, per_moment] = [inertia.per_mass, inertia.per_moment].map(F64x4::splat);
-        Self { inertia, per_mass, per_moment }
+        let [half_per_mass, half_per_inertia] =
+            [inertia.half_per_mass, inertia.half_per_inertia].map(F64x4::splat);
+        Self { inertia, half_per_mass, half_per_inertia }
     }
 }
 
@@ -190,13 +194,13 @@ impl Inertias for Same {
     }
 
     #[inline(always)]
-    fn per_mass(&self, _quad: usize, _row: usize) -> F64x4 {
-        self.per_mass
+    fn half_per_mass(&self, _quad: usize, _row: usize) -> F64x4 {
+        self.half_per_mass
     }
 
     #[inline(always)]
-    fn per_moment(&self, _quad: usize) -> F64x4 {
-        self.per_moment
+    fn half_per_inertia(&self, _quad: usize) -> F64x4 {
+        self.half_per_inertia
     }
 
     #[inline(always)]
@@ -227,14 +231,14 @@ impl Inertias for Each<'_> {
     }
 
     #[inline(always)]
-    fn per_mass(&self, quad: usize, row: usize) -> F64x4 {
-        self.two(quad, row, |inertia| inertia.per_mass)
+    fn half_per_mass(&self, quad: usize, row: usize) -> F64x4 {
+        self.two(quad, row, |inertia| inertia.half_per_mass)
     }
 
     #[inline(always)]
-    fn per_moment(&self, quad: usize) -> F64x4 {
+    fn half_per_inertia(&self, quad: usize) -> F64x4 {
         let four = &self.0[LANES * quad..LANES * quad + LANES];
-        F64x4::new(std::array::from_fn(|lane| four[lane].per_moment))
+        F64x4::new(std::array::from_fn(|lane| four[lane].half_per_inertia))
     }
 
     #[inline(always)]

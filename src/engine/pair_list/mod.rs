@@ -108,7 +108,7 @@ impl PairList {
         self.slack > 0.1 * half
     }
 
-    /// Measures how far particles move in a step as seen from the drum; returns the longest way [m] and the particle.
+    /// Measures how far particles move in a step as seen from the drum; returns the longest way [m].
     pub fn measure_ways(&mut self, motion: impl MotionView, inputs: &StepInputs) -> f64 {
         for chunk in &mut self.chunks {
             chunk.longest_way = chunk.measure_way(motion, inputs);
@@ -139,7 +139,6 @@ impl PairList {
 
     /// Builds the list anew. Contacts have to be linked to it afterwards.
     pub fn rebuild(&mut self, positions: &[Vec2], inputs: &StepInputs, threads: &Threads) {
-        let positions = &positions[..inputs.bodies.radii.len()];
         if positions.is_empty() {
             return;
         }
