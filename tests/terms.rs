@@ -75,7 +75,7 @@ fn a_disc_rests_on_a_slope_up_to_its_rolling_friction() {
     }
 }
 
-/// tan θ = μ_r, torque m g (R − r) sin θ; what the drum gives, rolling takes.
+/// tan θ = μᵣ, torque m g (R − r) sin θ; what the drum gives, rolling takes.
 #[test]
 fn rolling_friction_holds_a_disc_up_in_a_turning_drum() {
     let mut config = baseline(1, 0);
@@ -98,7 +98,7 @@ fn rolling_friction_holds_a_disc_up_in_a_turning_drum() {
     assert!(value("power_disagreement") < 1e-9 && value("energy_residual") < 1e-11);
 }
 
-/// A disc that neither slides nor rolls swings in two modes, ω² = ½ (5 ∓ √17) kₛ/m, as k_r = kₛ r².
+/// A disc that neither slides nor rolls swings in two modes, ω² = ½ (5 ∓ √17) kₛ/m, as kᵣ = kₛ r².
 #[test]
 fn a_stuck_disc_swings_in_its_two_modes() {
     for sign in [-1.0, 1.0] {
@@ -193,8 +193,8 @@ fn a_disc_hangs_where_its_adhesion_carries_it() {
     }
 }
 
-/// The potential of the pull is −F_c δ: an elastic impact keeps its speed, and nothing is left once it is over. A damped one
-/// may stay, with the overlap F_c/k.
+/// The potential of the pull is −`F_c` δ: an elastic impact keeps its speed, and nothing is left once it is over. A damped one
+/// may stay, with the overlap `F_c`/k.
 #[test]
 fn adhesion_gives_back_what_it_took() {
     let speed = 0.5;
@@ -396,7 +396,9 @@ fn a_mirrored_drum_mirrors_with_terms() {
     other.positions.iter_mut().chain(other.velocities.iter_mut().flatten()).for_each(|v| v.x = -v.x);
     other.angular_velocities.iter_mut().flatten().for_each(|spin| *spin = -*spin);
     let mut runs = [start(&config, initial), start(&other_config, other)];
-    runs.iter_mut().for_each(|simulation| simulation.run(STEPS).unwrap());
+    for simulation in &mut runs {
+        simulation.run(STEPS).unwrap();
+    }
     let [one, other] = runs.each_ref().map(|simulation| &simulation.state().particles);
     for i in 0..one.len() {
         assert_eq!((one.positions[i].x, one.positions[i].y), (-other.positions[i].x, other.positions[i].y));
