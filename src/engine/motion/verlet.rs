@@ -46,7 +46,7 @@ struct Inertia {
     /// Half a step over the mass.
     half_per_mass: f64,
     /// Half a step over the moment of inertia; 0 where the spin is locked.
-    half_per_inertia: f64,
+    half_per_moment_of_inertia: f64,
 }
 
 impl Verlet {
@@ -57,7 +57,7 @@ impl Verlet {
         let inertia = |(&mass, &inertia): (&f64, &f64)| Inertia {
             mass,
             half_per_mass: per(mass),
-            half_per_inertia: per(inertia),
+            half_per_moment_of_inertia: per(inertia),
         };
         let mut inertias: Vec<_> = particles.masses.iter().zip(&particles.inertias).map(inertia).collect();
         let are_equal = inertias.windows(2).all(|two| two[0] == two[1]);
@@ -106,7 +106,7 @@ impl Verlet {
                     (kick, x)
                 });
                 sums.add(rows, inertia, quad);
-                let kick = F64x4::new(torque[quad]) * inertia.half_per_inertia(quad);
+                let kick = F64x4::new(torque[quad]) * inertia.half_per_moment_of_inertia(quad);
                 let (a, w) =
                     kick_and_drift::<_, PART>(F64x4::new(angle[quad]), F64x4::new(spin[quad]), kick, step);
                 spin[quad] = w.to_array();
@@ -119,7 +119,7 @@ impl Verlet {
         let mut total = sums.total(inertia, self.time_step);
         // Those after the last whole quad, one by one.
         for k in LANES * quads..count {
-            let Inertia { mass, half_per_mass, half_per_inertia } = inertia.of(k);
+            let Inertia { mass, half_per_mass, half_per_moment_of_inertia } = inertia.of(k);
             let mut squared_kick = 0.0;
             for axis in 0..2 {
                 let kick = force[k][axis] * half_per_mass + self.half_gravity[axis];
@@ -130,7 +130,7 @@ impl Verlet {
                 total.mass_moment[axis] += mass * x;
             }
             total.change = total.change.max(2.0 * self.time_step * squared_kick.sqrt());
-            let kick = torque[k] * half_per_inertia;
+            let kick = torque[k] * half_per_moment_of_inertia;
             let (a, w) = kick_and_drift::<_, PART>(angle[k], angular_velocity[k], kick, self.time_step);
             (angle[k], angular_velocity[k]) = (a, w);
             if PART & START != 0 {
@@ -166,7 +166,7 @@ trait Inertias {
     fn of(&self, particle: usize) -> Inertia;
     /// Of two particles, for x and y.
     fn half_per_mass(&self, quad: usize, row: usize) -> F64x4;
-    fn half_per_inertia(&self, quad: usize) -> F64x4;
+    fn half_per_moment_of_inertia(&self, quad: usize) -> F64x4;
     /// Positions (two a row) times masses, where these differ.
     fn weigh(&self, quad: usize, row: usize, position: F64x4) -> F64x4;
     /// The mass where all have the same.
@@ -177,14 +177,14 @@ trait Inertias {
 struct Same {
     inertia: Inertia,
     half_per_mass: F64x4,
-    half_per_inertia: F64x4,
+    half_per_moment_of_inertia: F64x4,
 }
 
 impl Same {
     fn new(inertia: Inertia) -> Self {
-        let [half_per_mass, half_per_inertia] =
-            [inertia.half_per_mass, inertia.half_per_inertia].map(F64x4::splat);
-        Self { inertia, half_per_mass, half_per_inertia }
+        let [half_per_mass, half_per_moment_of_inertia] =
+            [inertia.half_per_mass, inertia.half_per_moment_of_inertia].map(F64x4::splat);
+        Self { inertia, half_per_mass, half_per_moment_of_inertia }
     }
 }
 
@@ -199,8 +199,8 @@ impl Inertias for Same {
     }
 
     #[inline(always)]
-    fn half_per_inertia(&self, _quad: usize) -> F64x4 {
-        self.half_per_inertia
+    fn half_per_moment_of_inertia(&self, _quad: usize) -> F64x4 {
+        self.half_per_moment_of_inertia
     }
 
     #[inline(always)]
@@ -236,9 +236,9 @@ impl Inertias for Each<'_> {
     }
 
     #[inline(always)]
-    fn half_per_inertia(&self, quad: usize) -> F64x4 {
+    fn half_per_moment_of_inertia(&self, quad: usize) -> F64x4 {
         let four = &self.0[LANES * quad..LANES * quad + LANES];
-        F64x4::new(std::array::from_fn(|lane| four[lane].half_per_inertia))
+        F64x4::new(std::array::from_fn(|lane| four[lane].half_per_moment_of_inertia))
     }
 
     #[inline(always)]
