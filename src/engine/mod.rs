@@ -33,9 +33,9 @@ pub mod simd;
 use contacts::ContactRecord;
 use forces::{Bodies, ForcePass, Lists, StepInputs, new_pass};
 use motion::verlet::{DriftSums, FINISH, Part, START, Verlet, WHOLE};
-use motion::{Arrays, MotionArrays, with_arrays};
+use motion::{Arrays, MotionArrays, MovingArrays, with_arrays};
 use pair_list::PairList;
-use parallel::{CHUNK, Chunked, Threads, chunk_count};
+use parallel::{PerChunk, Threads, chunk_count};
 
 use crate::physics::contact::model::Model;
 use crate::physics::contact::species::SpeciesTable;
@@ -162,11 +162,11 @@ impl Engine {
     fn drift<const PART: Part>(&mut self) {
         let Self { arrays, verlet, sums, threads, count, .. } = self;
         let arrays = with_arrays!(arrays, arrays => arrays.part(0..*count));
-        let work = Drift { first: 0, arrays, sums };
-        threads.for_each_chunk(*count, work, &|work: Drift| {
-            let sums = verlet.advance::<PART>(work.first, work.arrays);
-            if let (true, [own]) = (PART != FINISH, work.sums) {
-                *own = sums;
+        let work = (arrays, PerChunk(&mut *sums));
+        threads.for_each_chunk(*count, work, &|(own, sums): (MotionArrays, PerChunk<_>)| {
+            let sums_of_chunk = verlet.advance::<PART>(own);
+            if PART != FINISH {
+                sums.set(sums_of_chunk);
             }
         });
     }
@@ -269,24 +269,4 @@ pub fn relabel(contacts: &mut Lists, places: &[u32]) {
 fn bodies<'a>(particles: &'a Particles, radius: Option<f64>, table: &'a SpeciesTable) -> Bodies<'a> {
     let Particles { radii, masses, species, .. } = particles;
     Bodies { radius, radii, masses, species, table }
-}
-
-/// Chunks that drift.
-struct Drift<'a> {
-    first: usize,
-    arrays: MotionArrays<'a>,
-    sums: &'a mut [DriftSums],
-}
-
-impl Chunked for Drift<'_> {
-    fn chunks(&self) -> usize {
-        self.sums.len()
-    }
-
-    fn split(self, chunks: usize) -> (Self, Self) {
-        let (arrays, more_arrays) = self.arrays.split_at(chunks * CHUNK);
-        let (sums, more_sums) = self.sums.split_at_mut(chunks);
-        let first = self.first + chunks * CHUNK;
-        (Self { first: self.first, arrays, sums }, Self { first, arrays: more_arrays, sums: more_sums })
-    }
 }

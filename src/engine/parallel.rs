@@ -35,6 +35,30 @@ impl<A: Chunked, B: Chunked> Chunked for (A, B) {
     }
 }
 
+/// One value of each chunk.
+#[derive(Debug)]
+pub struct PerChunk<'a, T>(pub &'a mut [T]);
+
+impl<T> PerChunk<'_, T> {
+    /// Sets the value of a single chunk.
+    pub fn set(self, value: T) {
+        if let [own] = self.0 {
+            *own = value;
+        }
+    }
+}
+
+impl<T: Send> Chunked for PerChunk<'_, T> {
+    fn chunks(&self) -> usize {
+        self.0.len()
+    }
+
+    fn split(self, chunks: usize) -> (Self, Self) {
+        let (values, more) = self.0.split_at_mut(chunks);
+        (Self(values), Self(more))
+    }
+}
+
 /// Some values of the particles of whole chunks, one each.
 #[derive(Debug)]
 pub struct Values<'a, T> {

@@ -142,6 +142,13 @@ pub fn rows(vector: impl Fn(usize) -> [f64; 2]) -> [F64x4; 2] {
     [row(0, 2), row(1, 3)]
 }
 
+/// What four vectors have that four others have not: b − a.
+#[inline(always)]
+pub fn differences(a: impl Fn(usize) -> [f64; 2], b: impl Fn(usize) -> [f64; 2]) -> Vec2x4 {
+    let ([even, odd], [other_even, other_odd]) = (rows(a), rows(b));
+    Vec2x4::from_rows([other_even - even, other_odd - odd])
+}
+
 /// A number for each lane.
 #[inline(always)]
 pub fn lanes(number: impl Fn(usize) -> f64) -> F64x4 {

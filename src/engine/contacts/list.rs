@@ -2,7 +2,7 @@
 
 use super::record::{ContactRecord, PairParameters};
 use crate::engine::motion::{at_offset, offset};
-use crate::engine::simd::LANES;
+use crate::engine::simd::{F64x4, LANES};
 use crate::physics::columns::{Columns, Of};
 use crate::physics::contact::ContactState;
 use crate::physics::contact::law::ContactLaw;
@@ -72,7 +72,8 @@ pub struct ContactList<L: ContactLaw> {
     pub parameters: ListParameters<L>,
     /// By contact, its place in the list of neighbors.
     neighbors: Vec<u32>,
-    kind: ListKind,
+    /// What they are with.
+    pub kind: ListKind,
     /// The bodies of a vacant lane.
     vacant: (u32, u32),
 }
@@ -169,6 +170,15 @@ impl<L: ContactLaw> ContactList<L> {
         }
     }
 
+    /// The laws of a block's contacts, and the radii of their bodies.
+    #[inline(always)]
+    pub fn block_parameters(&self, block: usize) -> Of<PairParameters<L>, F64x4> {
+        match &self.parameters {
+            ListParameters::Same(same) => PairParameters::<L>::map(same, F64x4::splat),
+            ListParameters::Each(each) => PairParameters::<L>::map(&each[block], F64x4::new),
+        }
+    }
+
     /// Appends a contact; `neighbor` is its place in the list of neighbors.
     pub fn push(&mut self, record: &ContactRecord, neighbor: u32, parameters: &Of<PairParameters<L>, f64>) {
         let index = self.len();
@@ -252,20 +262,6 @@ impl<L: ContactLaw> ContactList<L> {
         self.other_moments.pop();
         if let ListParameters::Each(blocks) = &mut self.parameters {
             blocks.pop();
-        }
-    }
-
-    /// Takes out those that no longer touch in the blocks `ended`, which are in order, from the highest place down. Shows
-    /// the key and the place among neighbors of each.
-    pub fn close_ended(&mut self, ended: &[u32], mut show: impl FnMut((u32, u32), u32)) {
-        for &block in ended.iter().rev() {
-            for lane in (0..LANES).rev() {
-                let index = LANES * block as usize + lane;
-                if index < self.len() && self.overlap(index) == 0.0 {
-                    let (key, neighbor) = self.remove(index);
-                    show(key, neighbor);
-                }
-            }
         }
     }
 

@@ -1,7 +1,10 @@
 //! The pass over contacts: which bodies touch now, geometry, law, history; then each particle's sum of forces in a fixed order.
 
 mod accumulate;
+mod block;
 mod chunk;
+mod opening;
+mod outlines;
 mod pairs;
 mod pass;
 mod reactions;
@@ -11,7 +14,7 @@ mod walls;
 pub use pass::{ForcePass, Lists, new_pass};
 pub use totals::{FoldedTotals, Totals};
 
-use crate::engine::contacts::{Geometry, PairParameters};
+use crate::engine::contacts::{Geometry, ListKind, PairParameters};
 use crate::engine::simd::F64x4;
 use crate::physics::columns::Of;
 use crate::physics::contact::law::{BodyPair, ContactLaw};
@@ -84,18 +87,20 @@ impl Bodies<'_> {
         (self.masses[particle as usize], self.radii[particle as usize])
     }
 
-    /// What a contact between two particles follows from.
-    pub fn pair<L: ContactLaw>(&self, one: u32, other: u32) -> Of<PairParameters<L>, f64> {
+    /// What a contact follows from, by its bodies.
+    pub fn parameters<L: ContactLaw>(
+        &self,
+        (one, other): (u32, u32),
+        kind: ListKind,
+    ) -> Of<PairParameters<L>, f64> {
+        let own = self.body(one);
+        if kind == ListKind::Walls {
+            let law = L::between(self.table.wall(self.species[one as usize]), BodyPair::at_wall(own));
+            return (law, Geometry { radius: own.1, other_radius: 0.0 });
+        }
         let parameters = self.table.pair(self.species[one as usize], self.species[other as usize]);
-        let (own, other) = (self.body(one), self.body(other));
+        let other = self.body(other);
         let law = L::between(parameters, BodyPair::of_discs(own, other));
         (law, Geometry { radius: own.1, other_radius: other.1 })
-    }
-
-    /// What a contact of a particle with the drum follows from.
-    pub fn wall<L: ContactLaw>(&self, particle: u32) -> Of<PairParameters<L>, f64> {
-        let own = self.body(particle);
-        let law = L::between(self.table.wall(self.species[particle as usize]), BodyPair::at_wall(own));
-        (law, Geometry { radius: own.1, other_radius: 0.0 })
     }
 }

@@ -5,15 +5,17 @@
 
 use std::marker::PhantomData;
 
-use super::StepTime;
-use super::accumulate::Accumulator;
+use super::accumulate::ChunkSums;
+use super::chunk::{Ended, Scratch};
 use super::totals::{LaneTotals, Totals};
+use super::{StepInputs, StepTime, block};
 use crate::engine::contacts::{Block, ContactList, Geometry, Ids, ListParameters, PairParameters};
-use crate::engine::motion::MotionView;
-use crate::engine::simd::{ALL_LANES, F64x4, LANES, Vec2x4, lanes, rows};
+use crate::engine::motion::{MotionView, at_offset};
+use crate::engine::pair_list::{NearBlock, Neighbors, Opened};
+use crate::engine::simd::{F64x4, LANES, Vec2x4, differences, lanes};
 use crate::physics::columns::{Columns, Of};
+use crate::physics::contact::RelativeMotion;
 use crate::physics::contact::law::ContactLaw;
-use crate::physics::contact::{ContactState, Kinematics, RelativeMotion};
 use crate::physics::scalar::Scalar;
 
 /// Blocks that go through the stages together; 4 and 16 are no faster.
@@ -27,69 +29,37 @@ struct ContactGeometry {
     overlap: F64x4,
 }
 
-/// Written before it is read; kept, since clearing it takes time.
+/// Where the bodies of a group meet. Written before it is read; kept, since clearing it takes time.
 #[derive(Debug, Clone)]
-pub struct Scratch {
-    meetings: [ContactGeometry; GROUP],
-    /// The blocks with contacts that have ended.
-    pub ended: Ended,
-}
+pub struct GroupGeometry([ContactGeometry; GROUP]);
 
-impl Default for Scratch {
+impl Default for GroupGeometry {
     fn default() -> Self {
         let zero = F64x4::ZERO;
-        let meeting = ContactGeometry { normal: Vec2x4 { x: zero, y: zero }, overlap: zero };
-        Self { meetings: [meeting; GROUP], ended: Ended::default() }
+        Self([ContactGeometry { normal: Vec2x4 { x: zero, y: zero }, overlap: zero }; GROUP])
     }
 }
 
-/// The blocks of a list with contacts that have ended.
-///
-/// There is room for all before a pass begins: where a list could grow in a loop, the sums would have to be in memory in every
-/// turn, in case that fails.
-#[derive(Debug, Clone, Default)]
-pub struct Ended {
-    blocks: Vec<u32>,
-    count: usize,
-}
-
-impl Ended {
-    /// None yet, of a list of so many blocks.
-    pub fn clear(&mut self, blocks: usize) {
-        if self.blocks.len() < blocks {
-            self.blocks.resize(blocks, 0);
-        }
-        self.count = 0;
-    }
-
-    /// Takes note of a block of which these lanes touch.
-    #[inline(always)]
-    pub fn note(&mut self, block: usize, touching: u32) {
-        if touching != ALL_LANES
-            && let Some(next) = self.blocks.get_mut(self.count)
-        {
-            *next = block as u32;
-            self.count += 1;
-        }
-    }
-
-    /// The blocks, ascending.
-    pub fn blocks(&self) -> &[u32] {
-        &self.blocks[..self.count]
-    }
-}
-
-/// Evaluates all contacts of a list; `scratch.ended` then tells in which blocks some have ended.
-pub fn evaluate<L: ContactLaw>(
+/// One step of the contacts between particles: those that open, then all, then those that end.
+pub fn evaluate<L: ContactLaw, V: MotionView>(
     list: &mut ContactList<L>,
-    motion: impl MotionView,
-    time: StepTime,
-    sums: &mut impl Accumulator,
+    neighbors: &mut Neighbors,
+    motion: V,
+    inputs: &StepInputs,
+    sums: &mut ChunkSums<V>,
     totals: &mut Totals,
     scratch: &mut Scratch,
 ) {
-    scratch.ended.clear(list.blocks());
-    let mut lanes = totals.open();
+    let Scratch { opened, ended, group, .. } = scratch;
+    find_touching(neighbors, motion, inputs, opened);
+    if !opened.is_empty() {
+        list.open(opened, neighbors, &inputs.bodies);
+    }
+    if list.is_empty() {
+        return;
+    }
+    ended.clear(list.blocks());
+    let (time, mut lanes) = (inputs.time, totals.open());
     let ContactList { ids, blocks, other_moments, parameters, .. } = list;
     let unit = match parameters {
         ListParameters::Same(same) => {
@@ -97,21 +67,47 @@ pub fn evaluate<L: ContactLaw>(
             let (of, moments) = (|_| own, other_moments.as_mut_slice());
             if moments.is_empty() {
                 let pass = Pass::<L, _, _, false, false> { motion, time, parameters: of, law: PhantomData };
-                pass.run(ids, blocks, moments, sums, &mut lanes, scratch);
+                pass.run(ids, blocks, moments, sums, &mut lanes, group, ended);
             } else {
                 let pass = Pass::<L, _, _, true, false> { motion, time, parameters: of, law: PhantomData };
-                pass.run(ids, blocks, moments, sums, &mut lanes, scratch);
+                pass.run(ids, blocks, moments, sums, &mut lanes, group, ended);
             }
             same.1.radius.min(same.1.other_radius)
         }
         ListParameters::Each(each) => {
             let of = |block: usize| PairParameters::<L>::map(&each[block], F64x4::new);
             let pass = Pass::<L, _, _, true, true> { motion, time, parameters: of, law: PhantomData };
-            pass.run(ids, blocks, other_moments, sums, &mut lanes, scratch);
+            pass.run(ids, blocks, other_moments, sums, &mut lanes, group, ended);
             1.0
         }
     };
     totals.close(&lanes, unit);
+    list.close(ended, neighbors);
+}
+
+/// Takes the pairs that touch out of the near list.
+fn find_touching(
+    neighbors: &mut Neighbors,
+    motion: impl MotionView,
+    inputs: &StepInputs,
+    opened: &mut Vec<Opened>,
+) {
+    let bodies = inputs.bodies;
+    let squared_distance = |near: &NearBlock| {
+        let (own, other) = (|lane: usize| near.own[lane], |lane: usize| near.other[lane]);
+        let apart = differences(|lane| motion.position(own(lane)), |lane| motion.position(other(lane)));
+        apart.dot(apart)
+    };
+    if let Some(radius) = bodies.radius {
+        let reach = F64x4::splat((radius + radius) * (radius + radius));
+        neighbors.near.take_where(opened, |near| reach.simd_gt(squared_distance(near)));
+    } else {
+        let radius = |offset: u32| bodies.radius_of(at_offset(offset));
+        neighbors.near.take_where(opened, |near| {
+            let reach = lanes(|lane| radius(near.own[lane]) + radius(near.other[lane]));
+            (reach * reach).simd_gt(squared_distance(near))
+        });
+    }
 }
 
 /// One pass over a list. With `BOTH`, moments on bodies j are kept apart from those on bodies i; with `MIXED`, radii differ,
@@ -133,25 +129,27 @@ where
     V: MotionView,
     P: Fn(usize) -> Of<PairParameters<L>, F64x4>,
 {
+    #[allow(clippy::too_many_arguments)]
     #[inline(never)]
     fn run(
         &self,
         ids: &[Ids],
         blocks: &mut [Block<L>],
         other_moments: &mut [[f64; LANES]],
-        sums: &mut impl Accumulator,
+        sums: &mut ChunkSums<V>,
         totals: &mut LaneTotals,
-        scratch: &mut Scratch,
+        GroupGeometry(geometries): &mut GroupGeometry,
+        ended: &mut Ended,
     ) {
-        let Scratch { meetings, ended } = scratch;
         for (group, (blocks, ids)) in blocks.chunks_mut(GROUP).zip(ids.chunks(GROUP)).enumerate() {
             let first = GROUP * group;
-            self.contact_geometries(first, ids, meetings);
-            for (index, ((block, ids), meeting)) in blocks.iter_mut().zip(ids).zip(&*meetings).enumerate() {
+            self.contact_geometries(first, ids, geometries);
+            for (index, ((block, ids), geometry)) in blocks.iter_mut().zip(ids).zip(&*geometries).enumerate()
+            {
                 let index = first + index;
                 let other = if BOTH { Some(&mut other_moments[index]) } else { None };
                 let touching =
-                    self.advance(block, ids, meeting, &(self.parameters)(index), other, sums, totals);
+                    self.advance(block, ids, geometry, &(self.parameters)(index), other, sums, totals);
                 ended.note(index, touching);
             }
         }
@@ -160,35 +158,29 @@ where
     /// Where the bodies of some blocks meet, the first of which is `first`. A function of its own, for which the registers
     /// suffice.
     #[inline(never)]
-    fn contact_geometries(&self, first: usize, ids: &[Ids], meetings: &mut [ContactGeometry; GROUP]) {
-        for (index, (ids, meeting)) in ids.iter().zip(meetings).enumerate() {
-            *meeting = self.contact_geometry(ids, &(self.parameters)(first + index).1);
+    fn contact_geometries(&self, first: usize, ids: &[Ids], geometries: &mut [ContactGeometry; GROUP]) {
+        for (index, (ids, geometry)) in ids.iter().zip(geometries).enumerate() {
+            let Geometry { radius, other_radius } = (self.parameters)(first + index).1;
+            let apart = between(ids, |particle| self.motion.position(particle));
+            let distance = apart.dot(apart).sqrt();
+            let normal = apart.scaled(F64x4::ONE / distance);
+            *geometry = ContactGeometry { normal, overlap: (radius + other_radius) - distance };
         }
     }
 
-    /// Where the bodies of a block meet.
-    #[inline(always)]
-    fn contact_geometry(&self, ids: &Ids, geometry: &Geometry<F64x4>) -> ContactGeometry {
-        let apart = between(ids, |particle| self.motion.position(particle));
-        let distance = apart.dot(apart).sqrt();
-        let normal = apart.scaled(F64x4::ONE / distance);
-        ContactGeometry { normal, overlap: (geometry.radius + geometry.other_radius) - distance }
-    }
-
-    /// One step of a block: relative motion, law, work, new state, forces. Returns which lanes touch.
+    /// One step of a block: relative motion, law, work, forces. Returns which lanes touch.
     #[inline(always)]
     #[allow(clippy::too_many_arguments)]
     fn advance(
         &self,
         block: &mut Block<L>,
         ids: &Ids,
-        meeting: &ContactGeometry,
+        &ContactGeometry { normal, overlap }: &ContactGeometry,
         (law, geometry): &Of<PairParameters<L>, F64x4>,
         other_moment: Option<&mut [f64; LANES]>,
-        sums: &mut impl Accumulator,
+        sums: &mut ChunkSums<V>,
         totals: &mut LaneTotals,
     ) -> u32 {
-        let ContactGeometry { normal, overlap } = *meeting;
         let velocity = between(ids, |particle| self.motion.velocity(particle));
         let spin = lanes(|lane| self.motion.angular_velocity(ids.own[lane]));
         let other_spin = lanes(|lane| self.motion.angular_velocity(ids.other[lane]));
@@ -202,50 +194,34 @@ where
             slip_rate: normal.cross(velocity) - turning,
             rolling_rate: spin - other_spin,
         };
-        let last = ContactState::map(&block.state, F64x4::new);
-        let history = L::History::map(&block.history, F64x4::new);
-        let contact = Kinematics::new(&motion, &last, self.time.lanes());
-        let (response, history) = L::respond(law, &contact, &history);
+        let step = block::evaluate::<L>(block, law, &motion, (normal, arm), self.time, totals);
 
-        let (push, pull) = (response.normal_force, response.tangential_force);
-        let force = Vec2x4 { x: normal.x * push + normal.y * pull, y: normal.y * push - normal.x * pull };
-        let moment = if BOTH { arm * pull + response.rolling_moment } else { arm * pull };
-        let moment_on_other = if BOTH { other_arm * pull - response.rolling_moment } else { moment };
+        let moment = step.moment;
+        let moment_on_other = if BOTH { other_arm * step.tangential - step.rolling_moment } else { moment };
         // Each force is charged half of the displacement: the trapezoid of the step.
-        let both = Vec2x4 { x: force.x + last.force_x, y: force.y + last.force_y };
+        let both = Vec2x4 { x: step.force.x + step.last.force_x, y: step.force.y + step.last.force_y };
         let mut power = both.dot(velocity);
         if let Some(kept) = other_moment {
-            power += (moment + last.moment) * spin + (moment_on_other + F64x4::new(*kept)) * other_spin;
+            power += (moment + step.last.moment) * spin + (moment_on_other + F64x4::new(*kept)) * other_spin;
             *kept = moment_on_other.to_array();
         } else {
-            power += (moment + last.moment) * (spin + other_spin);
+            power += (moment + step.last.moment) * (spin + other_spin);
         }
         totals.power -= power;
         let depth =
-            if MIXED { overlap / geometry.radius.smaller(geometry.other_radius) } else { contact.overlap };
+            if MIXED { overlap / geometry.radius.smaller(geometry.other_radius) } else { step.overlap };
         totals.deepest = depth.larger(totals.deepest);
-        totals.add_flows(L::FLOWS, &response.flows);
-        block.state = ContactState {
-            overlap: contact.overlap.to_array(),
-            separation_rate: contact.last_rate.to_array(),
-            force_x: force.x.to_array(),
-            force_y: force.y.to_array(),
-            moment: moment.to_array(),
-        };
-        block.history = L::History::map(&history, F64x4::to_array);
         let (moments, other_moments) = (moment.to_array(), moment_on_other.to_array());
-        for (lane, force) in force.to_array().into_iter().enumerate() {
+        for (lane, force) in step.force.to_array().into_iter().enumerate() {
             sums.subtract(ids.own[lane], force, moments[lane]);
             sums.add(ids.other[lane], force, other_moments[lane]);
         }
-        contact.touching.to_bitmask()
+        step.touching
     }
 }
 
 /// What the vectors of bodies j have that those of bodies i have not.
 #[inline(always)]
 fn between(ids: &Ids, vector: impl Fn(u32) -> [f64; 2]) -> Vec2x4 {
-    let [own, own_odd] = rows(|lane| vector(ids.own[lane]));
-    let [other, other_odd] = rows(|lane| vector(ids.other[lane]));
-    Vec2x4::from_rows([other - own, other_odd - own_odd])
+    differences(|lane| vector(ids.own[lane]), |lane| vector(ids.other[lane]))
 }

@@ -6,18 +6,14 @@
 
 use std::fmt::Debug;
 
-use super::accumulate::ChunkSums;
-use super::chunk::{ChunkContacts, ChunkScratch};
-use super::reactions::RemoteReactions;
+use super::chunk::Chunk;
 use super::totals::{FoldedTotals, Totals};
 use super::{Bodies, StepInputs};
-use crate::engine::contacts::{ContactRecord, NOT_LISTED};
+use crate::engine::contacts::ContactRecord;
 use crate::engine::motion::verlet::{DriftSums, Verlet, WHOLE};
-use crate::engine::motion::{
-    Arrays, CHUNK_FLAT, ChunkForces, FlatArrays, MotionArrays, MotionView, with_arrays,
-};
-use crate::engine::pair_list::{ChunkNeighbors, NearLimits, PairList};
-use crate::engine::parallel::{CHUNK, Chunked, Threads, chunk_count};
+use crate::engine::motion::{Arrays, ChunkForces, MotionArrays, MovingArrays, with_arrays};
+use crate::engine::pair_list::PairList;
+use crate::engine::parallel::{CHUNK, PerChunk, Threads, chunk_count};
 use crate::physics::columns::Columns;
 use crate::physics::contact::Stored;
 use crate::physics::contact::law::ContactLaw;
@@ -109,15 +105,6 @@ impl ForLaw for NewPass<'_> {
     }
 }
 
-/// What the pass has of one chunk.
-#[derive(Debug, Clone)]
-struct Chunk<L: ContactLaw> {
-    contacts: ChunkContacts<L>,
-    remote: RemoteReactions,
-    surfaces: Vec<SurfaceLoad>,
-    scratch: ChunkScratch,
-}
-
 #[derive(Debug, Clone)]
 struct Pass<L: ContactLaw> {
     count: usize,
@@ -131,12 +118,7 @@ impl<L: ContactLaw> Pass<L> {
     fn new(surfaces: usize, bodies: &Bodies) -> Self {
         let count = bodies.radii.len();
         let are_equal = bodies.are_equal();
-        let chunk = |index| Chunk {
-            contacts: ChunkContacts::new(index, count, bodies, are_equal),
-            remote: RemoteReactions::default(),
-            surfaces: vec![SurfaceLoad::default(); surfaces],
-            scratch: ChunkScratch::default(),
-        };
+        let chunk = |index| Chunk::new(index, count, surfaces, bodies, are_equal);
         let chunks = (0..chunk_count(count)).map(chunk).collect();
         let senders = vec![Vec::new(); chunk_count(count)];
         Self { count, chunks, senders, surfaces: vec![SurfaceLoad::default(); surfaces] }
@@ -154,11 +136,40 @@ impl<L: ContactLaw> Pass<L> {
         }
     }
 
-    /// Evaluates and moves on chunk after chunk.
-    fn sweep<const N: usize, const M: usize, const H: usize>(
+    /// Adds the reactions on a chunk's particles, in the order of the chunks that sent them.
+    fn gather(&self, own: &mut MotionArrays) {
+        let chunk = own.first / CHUNK;
+        for &sender in &self.senders[chunk] {
+            self.chunks[sender as usize].remote.gather(chunk, own);
+        }
+    }
+
+    /// Evaluates the contacts of all chunks, on several threads where that pays; reactions are still to be gathered.
+    fn evaluate_chunks(
         &mut self,
         list: &mut PairList,
-        arrays: &mut FlatArrays<N, M, H>,
+        arrays: &mut impl MovingArrays,
+        inputs: &StepInputs,
+        threads: &Threads,
+    ) {
+        let limits = list.limits();
+        let (motion, ChunkForces { force, torque }) = arrays.lend();
+        let chunks = (PerChunk(&mut self.chunks), PerChunk(&mut list.chunks));
+        let work = (chunks, (PerChunk(&mut *force), PerChunk(&mut *torque)));
+        threads.for_each_chunk(self.count, work, &|((chunk, neighbors), (force, torque))| {
+            let PerChunk::<Chunk<L>>([chunk]) = chunk else { return };
+            // The arrays are longer than the load.
+            if let ([neighbors], [force, ..], [torque, ..]) = (neighbors.0, force.0, torque.0) {
+                chunk.evaluate(neighbors, limits, motion, inputs, (force, torque));
+            }
+        });
+    }
+
+    /// Evaluates chunk after chunk, and moves each on while it is in the cache.
+    fn evaluate_and_advance_in_turn(
+        &mut self,
+        list: &mut PairList,
+        arrays: &mut impl MovingArrays,
         inputs: &StepInputs,
         verlet: &Verlet,
         sums: &mut [DriftSums],
@@ -170,122 +181,9 @@ impl<L: ContactLaw> Pass<L> {
             self.chunks[index].evaluate(&mut list.chunks[index], limits, motion, inputs, own);
             let first = index * CHUNK;
             let mut own = arrays.part(first..self.count.min(first + CHUNK));
-            self.gather(index, &mut own);
-            *sums = verlet.advance::<WHOLE>(first, own);
+            self.gather(&mut own);
+            *sums = verlet.advance::<WHOLE>(own);
         }
-    }
-
-    /// Adds the reactions on a chunk's particles, in the order of the chunks that sent them.
-    fn gather(&self, index: usize, own: &mut MotionArrays) {
-        for &sender in &self.senders[index] {
-            self.chunks[sender as usize].remote.gather(index, own);
-        }
-    }
-
-    /// Evaluates the contacts of all chunks, on several threads where that pays; reactions are still to be gathered.
-    fn evaluate_chunks<const N: usize, const M: usize, const H: usize>(
-        &mut self,
-        list: &mut PairList,
-        arrays: &mut FlatArrays<N, M, H>,
-        inputs: &StepInputs,
-        threads: &Threads,
-    ) {
-        let limits = list.limits();
-        let (motion, ChunkForces { force, torque }) = arrays.lend();
-        let work = Evaluation { chunks: &mut self.chunks, neighbors: &mut list.chunks, force, torque };
-        threads.for_each_chunk(self.count, work, &|work: Evaluation<L>| {
-            if let ([chunk], [neighbors], [force, ..], [torque, ..]) =
-                (work.chunks, work.neighbors, work.force, work.torque)
-            {
-                chunk.evaluate(neighbors, limits, motion, inputs, (force, torque));
-            }
-        });
-    }
-
-    /// Brings reactions to their particles; then moves them on, if there is a `verlet`.
-    fn complete<const N: usize, const M: usize, const H: usize>(
-        &self,
-        arrays: &mut FlatArrays<N, M, H>,
-        verlet: Option<&Verlet>,
-        sums: &mut [DriftSums],
-        threads: &Threads,
-    ) {
-        let work = Completion { first: 0, arrays: arrays.part(0..self.count), sums };
-        threads.for_each_chunk(self.count, work, &|mut work: Completion| {
-            self.gather(work.first / CHUNK, &mut work.arrays);
-            if let (Some(verlet), [sums]) = (verlet, work.sums) {
-                *sums = verlet.advance::<WHOLE>(work.first, work.arrays);
-            }
-        });
-    }
-}
-
-impl<L: ContactLaw> Chunk<L> {
-    /// Evaluates the chunk's contacts, of whose particles these are the forces and torques.
-    fn evaluate(
-        &mut self,
-        neighbors: &mut ChunkNeighbors,
-        limits: NearLimits,
-        motion: impl MotionView,
-        inputs: &StepInputs,
-        (force, torque): (&mut [f64; CHUNK_FLAT], &mut [f64; CHUNK]),
-    ) {
-        let Self { contacts, remote, surfaces, scratch } = self;
-        remote.clear();
-        surfaces.fill(SurfaceLoad::default());
-        let chunk = neighbors.particles.start / CHUNK as u32;
-        if remote.targets().is_empty() {
-            let mut sums = ChunkSums::<true> { chunk, force, torque, remote };
-            contacts.evaluate(neighbors, limits, motion, inputs, &mut sums, surfaces, scratch);
-        } else {
-            let mut sums = ChunkSums::<false> { chunk, force, torque, remote };
-            contacts.evaluate(neighbors, limits, motion, inputs, &mut sums, surfaces, scratch);
-        }
-    }
-}
-
-/// Chunks whose contacts are to be evaluated.
-struct Evaluation<'a, L: ContactLaw> {
-    chunks: &'a mut [Chunk<L>],
-    neighbors: &'a mut [ChunkNeighbors],
-    force: &'a mut [[f64; CHUNK_FLAT]],
-    torque: &'a mut [[f64; CHUNK]],
-}
-
-impl<L: ContactLaw> Chunked for Evaluation<'_, L> {
-    fn chunks(&self) -> usize {
-        self.chunks.len()
-    }
-
-    fn split(self, chunks: usize) -> (Self, Self) {
-        let (own, more) = self.chunks.split_at_mut(chunks);
-        let (neighbors, more_neighbors) = self.neighbors.split_at_mut(chunks);
-        let (force, more_force) = self.force.split_at_mut(chunks);
-        let (torque, more_torque) = self.torque.split_at_mut(chunks);
-        (
-            Self { chunks: own, neighbors, force, torque },
-            Self { chunks: more, neighbors: more_neighbors, force: more_force, torque: more_torque },
-        )
-    }
-}
-
-/// Chunks that gather their reactions, and move on if `sums` are there.
-struct Completion<'a> {
-    first: usize,
-    arrays: MotionArrays<'a>,
-    sums: &'a mut [DriftSums],
-}
-
-impl Chunked for Completion<'_> {
-    fn chunks(&self) -> usize {
-        chunk_count(self.arrays.position.len())
-    }
-
-    fn split(self, chunks: usize) -> (Self, Self) {
-        let (arrays, more_arrays) = self.arrays.split_at(chunks * CHUNK);
-        let (sums, more_sums) = self.sums.split_at_mut(chunks.min(self.sums.len()));
-        let first = self.first + chunks * CHUNK;
-        (Self { first: self.first, arrays, sums }, Self { first, arrays: more_arrays, sums: more_sums })
     }
 }
 
@@ -293,7 +191,8 @@ impl<L: ContactLaw> ForcePass for Pass<L> {
     fn evaluate(&mut self, list: &mut PairList, arrays: &mut Arrays, inputs: &StepInputs, threads: &Threads) {
         with_arrays!(arrays, arrays => {
             self.evaluate_chunks(list, arrays, inputs, threads);
-            self.complete(arrays, None, &mut [], threads);
+            let work = arrays.part(0..self.count);
+            threads.for_each_chunk(self.count, work, &|mut own: MotionArrays| self.gather(&mut own));
         });
         self.add_up();
     }
@@ -310,9 +209,13 @@ impl<L: ContactLaw> ForcePass for Pass<L> {
         with_arrays!(arrays, arrays => {
             if threads.serve(self.count) {
                 self.evaluate_chunks(list, arrays, inputs, threads);
-                self.complete(arrays, Some(verlet), sums, threads);
+                let work = (arrays.part(0..self.count), PerChunk(&mut *sums));
+                threads.for_each_chunk(self.count, work, &|(mut own, sums): (MotionArrays, PerChunk<_>)| {
+                    self.gather(&mut own);
+                    sums.set(verlet.advance::<WHOLE>(own));
+                });
             } else {
-                self.sweep(list, arrays, inputs, verlet, sums);
+                self.evaluate_and_advance_in_turn(list, arrays, inputs, verlet, sums);
             }
         });
         self.add_up();
@@ -321,9 +224,9 @@ impl<L: ContactLaw> ForcePass for Pass<L> {
     fn link(&mut self, list: &mut PairList) {
         self.senders.iter_mut().for_each(Vec::clear);
         for (index, (chunk, neighbors)) in self.chunks.iter_mut().zip(&mut list.chunks).enumerate() {
-            chunk.contacts.link(neighbors);
+            chunk.link(neighbors);
             // Contacts may be with particles that are no neighbors any more.
-            let others = (0..chunk.contacts.pairs.len()).map(|contact| chunk.contacts.pairs.key(contact).1);
+            let others = (0..chunk.pairs.len()).map(|contact| chunk.pairs.key(contact).1);
             let watched = neighbors.watched.iter().map(|&other| other * CHUNK as u32);
             chunk.remote.prepare(index, watched.chain(others));
             for &target in chunk.remote.targets() {
@@ -337,27 +240,27 @@ impl<L: ContactLaw> ForcePass for Pass<L> {
     }
 
     fn deepest(&self) -> f64 {
-        self.chunks.iter().fold(0.0, |most, chunk| most.max(chunk.contacts.totals.deepest()))
+        self.chunks.iter().fold(0.0, |most, chunk| most.max(chunk.totals.deepest()))
     }
 
     fn fold(&mut self) -> FoldedTotals {
-        let folded = self.chunks.iter_mut().map(|chunk| chunk.contacts.totals.fold());
+        let folded = self.chunks.iter_mut().map(|chunk| chunk.totals.fold());
         folded.fold(FoldedTotals::default(), FoldedTotals::plus)
     }
 
     fn totals(&self) -> Vec<Totals> {
-        self.chunks.iter().map(|chunk| chunk.contacts.totals).collect()
+        self.chunks.iter().map(|chunk| chunk.totals).collect()
     }
 
     fn set_totals(&mut self, totals: &[Totals]) {
         for (chunk, &totals) in self.chunks.iter_mut().zip(totals) {
-            chunk.contacts.totals = totals;
+            chunk.totals = totals;
         }
     }
 
     fn stored(&self) -> Stored<f64> {
         let mut sum = Stored::build(|_| 0.0);
-        for list in self.chunks.iter().flat_map(|chunk| chunk.contacts.lists()) {
+        for list in self.chunks.iter().flat_map(|chunk| chunk.lists()) {
             for (index, record) in list.records().enumerate() {
                 let (law, _) = list.parameters(index);
                 let stored = L::stored(&law, record.overlap, &record.history_of::<L>());
@@ -368,36 +271,35 @@ impl<L: ContactLaw> ForcePass for Pass<L> {
     }
 
     fn counts(&self) -> (usize, usize) {
-        self.chunks.iter().fold((0, 0), |(pairs, walls), Chunk { contacts, .. }| {
-            (pairs + contacts.pairs.len(), walls + contacts.rim.len() + contacts.outlines.len())
+        self.chunks.iter().fold((0, 0), |(pairs, walls), chunk| {
+            (pairs + chunk.pairs.len(), walls + chunk.rim.len() + chunk.outlines.len())
         })
     }
 
     fn contacts(&self) -> Lists {
-        let chunks = || self.chunks.iter().map(|chunk| &chunk.contacts);
-        Lists {
-            pairs: chunks().flat_map(|contacts| contacts.pairs.records()).collect(),
-            walls: chunks()
-                .flat_map(|contacts| contacts.rim.records().chain(contacts.outlines.records()))
-                .collect(),
+        let mut lists = Lists::default();
+        for chunk in &self.chunks {
+            lists.pairs.extend(chunk.pairs.records());
+            lists.walls.extend(chunk.rim.records().chain(chunk.outlines.records()));
         }
+        lists
     }
 
     fn insert(&mut self, contacts: &Lists, bodies: &Bodies) {
         for record in &contacts.pairs {
             let chunk = &mut self.chunks[record.particle as usize / CHUNK];
-            chunk.contacts.insert_pair(record, NOT_LISTED, bodies);
+            chunk.insert_pair(record, bodies);
         }
         for record in &contacts.walls {
             let chunk = &mut self.chunks[record.particle as usize / CHUNK];
-            chunk.contacts.insert_wall(record, NOT_LISTED, bodies);
+            chunk.insert_wall(record, bodies);
         }
     }
 
     fn drain(&mut self) -> Lists {
         let lists = self.contacts();
         for chunk in &mut self.chunks {
-            chunk.contacts.clear();
+            chunk.clear();
         }
         lists
     }

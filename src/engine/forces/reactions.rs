@@ -47,7 +47,9 @@ impl RemoteReactions {
 
     /// Forgets the last step's.
     pub fn clear(&mut self) {
-        self.reactions.iter_mut().for_each(Vec::clear);
+        for reactions in &mut self.reactions {
+            reactions.clear();
+        }
     }
 
     /// Keeps a reaction; one on a particle that is none is dropped.

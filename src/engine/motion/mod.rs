@@ -4,7 +4,7 @@ pub mod verlet;
 
 use std::ops::Range;
 
-use crate::engine::parallel::CHUNK;
+use crate::engine::parallel::{CHUNK, Chunked, chunk_count};
 use crate::physics::particles::Particles;
 
 /// Numbers in the flat force array of a chunk.
@@ -29,6 +29,8 @@ pub fn at_offset(offset: u32) -> u32 {
 /// The moving part of the particles, flat.
 #[derive(Debug)]
 pub struct MotionArrays<'a> {
+    /// The number of the first particle.
+    pub first: usize,
     /// Centers [m].
     pub position: &'a mut [[f64; 2]],
     /// Velocities [m/s].
@@ -47,6 +49,7 @@ impl<'a> MotionArrays<'a> {
     /// Those of some particles.
     pub fn of(particles: &'a mut Particles) -> Self {
         Self {
+            first: 0,
             position: bytemuck::must_cast_slice_mut(&mut particles.positions),
             velocity: bytemuck::must_cast_slice_mut(&mut particles.velocities),
             angle: &mut particles.angles,
@@ -55,20 +58,34 @@ impl<'a> MotionArrays<'a> {
             torque: &mut particles.torques,
         }
     }
+
+    fn copy_from(&mut self, other: &MotionArrays) {
+        self.position.copy_from_slice(other.position);
+        self.velocity.copy_from_slice(other.velocity);
+        self.force.copy_from_slice(other.force);
+        self.angle.copy_from_slice(other.angle);
+        self.angular_velocity.copy_from_slice(other.angular_velocity);
+        self.torque.copy_from_slice(other.torque);
+    }
 }
 
-impl<'a> MotionArrays<'a> {
-    /// The arrays before and from a particle on.
-    pub fn split_at(self, particle: usize) -> (MotionArrays<'a>, MotionArrays<'a>) {
-        let (position, more_position) = self.position.split_at_mut(particle);
-        let (velocity, more_velocity) = self.velocity.split_at_mut(particle);
-        let (angle, more_angle) = self.angle.split_at_mut(particle);
-        let (angular_velocity, more_angular_velocity) = self.angular_velocity.split_at_mut(particle);
-        let (force, more_force) = self.force.split_at_mut(particle);
-        let (torque, more_torque) = self.torque.split_at_mut(particle);
+impl Chunked for MotionArrays<'_> {
+    fn chunks(&self) -> usize {
+        chunk_count(self.position.len())
+    }
+
+    fn split(self, chunks: usize) -> (Self, Self) {
+        let middle = chunks * CHUNK;
+        let (position, more_position) = self.position.split_at_mut(middle);
+        let (velocity, more_velocity) = self.velocity.split_at_mut(middle);
+        let (angle, more_angle) = self.angle.split_at_mut(middle);
+        let (angular_velocity, more_angular_velocity) = self.angular_velocity.split_at_mut(middle);
+        let (force, more_force) = self.force.split_at_mut(middle);
+        let (torque, more_torque) = self.torque.split_at_mut(middle);
         (
-            Self { position, velocity, angle, angular_velocity, force, torque },
+            Self { first: self.first, position, velocity, angle, angular_velocity, force, torque },
             Self {
+                first: self.first + middle,
                 position: more_position,
                 velocity: more_velocity,
                 angle: more_angle,
@@ -86,7 +103,7 @@ impl<'a> MotionArrays<'a> {
 /// `N` numbers hold the vectors of `H` particles; `M` is N + 1. The arrays are longer than most loads: memory that is not used
 /// is not touched.
 #[derive(Debug, Clone)]
-pub struct FlatArrays<const N: usize, const M: usize, const H: usize> {
+pub struct FlatArrays<const N: usize, const M: usize, const H: usize, const ONE_CHUNK: bool> {
     position: Box<[f64; M]>,
     velocity: Box<[f64; N]>,
     force: Box<[f64; N]>,
@@ -95,20 +112,19 @@ pub struct FlatArrays<const N: usize, const M: usize, const H: usize> {
     torque: Box<[f64; H]>,
 }
 
-/// Arrays that offsets of 16 bits reach.
-pub type SmallArrays = FlatArrays<{ 1 << 16 }, { (1 << 16) + 1 }, { 1 << 15 }>;
-/// Arrays for a million particles.
-pub type MediumArrays = FlatArrays<{ 1 << 21 }, { (1 << 21) + 1 }, { 1 << 20 }>;
-/// Arrays for as many as there may be.
-pub type LargeArrays = FlatArrays<{ 1 << 28 }, { (1 << 28) + 1 }, { 1 << 27 }>;
+/// Arrays that offsets of 16 bits reach: the cheapest masks there are.
+pub type SmallArrays<const ONE_CHUNK: bool> =
+    FlatArrays<{ 1 << 16 }, { (1 << 16) + 1 }, { 1 << 15 }, ONE_CHUNK>;
+/// Arrays for 16 million particles.
+pub type LargeArrays = FlatArrays<{ 1 << 25 }, { (1 << 25) + 1 }, { 1 << 24 }, false>;
 
 /// Arrays of the size that a load needs.
 #[derive(Debug, Clone)]
 pub enum Arrays {
+    /// For one chunk, whose contacts need not ask whether a particle is another chunk's.
+    OneChunk(SmallArrays<true>),
     /// Up to 32 766 particles.
-    Small(SmallArrays),
-    /// Up to 1 048 574.
-    Medium(MediumArrays),
+    Small(SmallArrays<false>),
     /// More.
     Large(LargeArrays),
 }
@@ -117,8 +133,8 @@ pub enum Arrays {
 macro_rules! with_arrays {
     ($arrays:expr, $own:ident => $work:expr) => {
         match $arrays {
+            $crate::engine::motion::Arrays::OneChunk($own) => $work,
             $crate::engine::motion::Arrays::Small($own) => $work,
-            $crate::engine::motion::Arrays::Medium($own) => $work,
             $crate::engine::motion::Arrays::Large($own) => $work,
         }
     };
@@ -130,11 +146,23 @@ impl Arrays {
     /// everything, and one at `inside`, where it touches no rim.
     pub fn new(count: usize, inside: f64) -> Self {
         match count {
+            0..=CHUNK => Self::OneChunk(FlatArrays::new(count, inside)),
             0..=32_766 => Self::Small(FlatArrays::new(count, inside)),
-            32_767..=1_048_574 => Self::Medium(FlatArrays::new(count, inside)),
             _ => Self::Large(FlatArrays::new(count, inside)),
         }
     }
+}
+
+/// Arrays that hold what moves of a load.
+pub trait MovingArrays {
+    /// How contacts read them.
+    type View<'a>: MotionView
+    where
+        Self: 'a;
+    /// How the particles move, to read; forces and torques by chunk, to write to.
+    fn lend(&mut self) -> (Self::View<'_>, ChunkForces<'_>);
+    /// The arrays of some of the particles.
+    fn part(&mut self, range: Range<usize>) -> MotionArrays<'_>;
 }
 
 /// Zeros that take no memory until they are written to.
@@ -143,7 +171,7 @@ fn zeros<const N: usize>() -> Box<[f64; N]> {
     vec![0.0; N].into_boxed_slice().try_into().expect("a slice of this length")
 }
 
-impl<const N: usize, const M: usize, const H: usize> FlatArrays<N, M, H> {
+impl<const N: usize, const M: usize, const H: usize, const ONE_CHUNK: bool> FlatArrays<N, M, H, ONE_CHUNK> {
     fn new(count: usize, inside: f64) -> Self {
         let mut position = zeros();
         position[2 * count] = FAR;
@@ -161,25 +189,13 @@ impl<const N: usize, const M: usize, const H: usize> FlatArrays<N, M, H> {
     /// Takes what moves from the particles.
     pub fn load(&mut self, particles: &mut Particles) {
         let count = particles.len();
-        let (own, other) = (self.part(0..count), MotionArrays::of(particles));
-        own.position.copy_from_slice(other.position);
-        own.velocity.copy_from_slice(other.velocity);
-        own.force.copy_from_slice(other.force);
-        own.angle.copy_from_slice(other.angle);
-        own.angular_velocity.copy_from_slice(other.angular_velocity);
-        own.torque.copy_from_slice(other.torque);
+        self.part(0..count).copy_from(&MotionArrays::of(particles));
     }
 
     /// Brings it back to them.
     pub fn store(&mut self, particles: &mut Particles) {
         let count = particles.len();
-        let (own, other) = (self.part(0..count), MotionArrays::of(particles));
-        other.position.copy_from_slice(own.position);
-        other.velocity.copy_from_slice(own.velocity);
-        other.force.copy_from_slice(own.force);
-        other.angle.copy_from_slice(own.angle);
-        other.angular_velocity.copy_from_slice(own.angular_velocity);
-        other.torque.copy_from_slice(own.torque);
+        MotionArrays::of(particles).copy_from(&self.part(0..count));
     }
 
     /// Brings the positions back to the particles.
@@ -187,19 +203,24 @@ impl<const N: usize, const M: usize, const H: usize> FlatArrays<N, M, H> {
         let count = particles.len();
         MotionArrays::of(particles).position.copy_from_slice(self.part(0..count).position);
     }
+}
 
-    /// How the particles move, to read; forces and torques by chunk, to write to.
+impl<const N: usize, const M: usize, const H: usize, const ONE_CHUNK: bool> MovingArrays
+    for FlatArrays<N, M, H, ONE_CHUNK>
+{
+    type View<'a> = FlatView<'a, N, M, H, ONE_CHUNK>;
+
     #[inline(always)]
-    pub fn lend(&mut self) -> (FlatView<'_, N, M, H>, ChunkForces<'_>) {
+    fn lend(&mut self) -> (Self::View<'_>, ChunkForces<'_>) {
         let Self { position, velocity, angular_velocity, force, torque, .. } = self;
         let forces = ChunkForces { force: force.as_chunks_mut().0, torque: torque.as_chunks_mut().0 };
         (FlatView { position, velocity, angular_velocity }, forces)
     }
 
-    /// The arrays of some of the particles.
-    pub fn part(&mut self, range: Range<usize>) -> MotionArrays<'_> {
+    fn part(&mut self, range: Range<usize>) -> MotionArrays<'_> {
         let flat = 2 * range.start..2 * range.end;
         MotionArrays {
+            first: range.start,
             position: self.position[flat.clone()].as_chunks_mut().0,
             velocity: self.velocity[flat.clone()].as_chunks_mut().0,
             force: self.force[flat].as_chunks_mut().0,
@@ -231,6 +252,8 @@ pub fn inside(count: usize) -> u32 {
 
 /// How particles move, as contacts read it, by their offsets.
 pub trait MotionView: Copy + Send + Sync {
+    /// Whether there is no more than one chunk.
+    const ONE_CHUNK: bool;
     /// Center of a particle [m].
     fn position(self, offset: u32) -> [f64; 2];
     /// Velocity in the middle of the step [m/s].
@@ -241,13 +264,17 @@ pub trait MotionView: Copy + Send + Sync {
 
 /// The motion in flat arrays.
 #[derive(Debug, Clone, Copy)]
-pub struct FlatView<'a, const N: usize, const M: usize, const H: usize> {
+pub struct FlatView<'a, const N: usize, const M: usize, const H: usize, const ONE_CHUNK: bool> {
     position: &'a [f64; M],
     velocity: &'a [f64; N],
     angular_velocity: &'a [f64; H],
 }
 
-impl<const N: usize, const M: usize, const H: usize> MotionView for FlatView<'_, N, M, H> {
+impl<const N: usize, const M: usize, const H: usize, const ONE_CHUNK: bool> MotionView
+    for FlatView<'_, N, M, H, ONE_CHUNK>
+{
+    const ONE_CHUNK: bool = ONE_CHUNK;
+
     #[inline(always)]
     fn position(self, offset: u32) -> [f64; 2] {
         // Positions alone are read without a number beside them: an offset need not be known to be even.

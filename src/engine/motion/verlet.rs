@@ -68,16 +68,16 @@ impl Verlet {
         Self { time_step, half_gravity: [gravity.x * half, gravity.y * half], inertias, are_equal }
     }
 
-    /// Moves a chunk's particles, the first of which is `first`; `arrays` are theirs alone.
-    pub fn advance<const PART: Part>(&self, first: usize, arrays: MotionArrays) -> DriftSums {
+    /// Moves a chunk's particles; `arrays` are theirs alone.
+    pub fn advance<const PART: Part>(&self, arrays: MotionArrays) -> DriftSums {
         match self.inertias.first() {
             Some(&inertia) if self.are_equal => self.run::<PART>(&Same::new(inertia), arrays),
-            _ => self.run::<PART>(&Each(&self.inertias[first..]), arrays),
+            _ => self.run::<PART>(&Each(&self.inertias[arrays.first..]), arrays),
         }
     }
 
     fn run<const PART: Part>(&self, inertia: &impl EachBody, arrays: MotionArrays) -> DriftSums {
-        let MotionArrays { position, velocity, angle, angular_velocity, force, torque } = arrays;
+        let MotionArrays { position, velocity, angle, angular_velocity, force, torque, .. } = arrays;
         let (count, quads) = (position.len(), position.len() / LANES);
         let mut sums = LaneSums::default();
         {

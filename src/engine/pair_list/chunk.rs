@@ -3,9 +3,9 @@
 use std::ops::Range;
 
 use super::horizon::{Horizon, STEPS};
-use super::near::{NearList, Reach};
-use super::neighbors::{Neighbors, Status};
-use crate::engine::contacts::{ListKind, NOT_LISTED};
+use super::near::Reach;
+use super::neighbors::Neighbors;
+use crate::engine::contacts::ListKind;
 use crate::engine::forces::StepInputs;
 use crate::engine::motion::{MotionView, far, inside, offset};
 use crate::engine::parallel::CHUNK;
@@ -21,16 +21,10 @@ pub struct ChunkNeighbors {
     pub particles: Range<u32>,
     /// Pairs with later particles.
     pub pairs: Neighbors,
+    /// Every particle with the rim.
+    pub rim: Neighbors,
     /// Pairs with edges and vertices of outlines.
     pub features: Neighbors,
-    /// By particle, whether it is a contact of the rim.
-    pub at_rim: Vec<Status>,
-    /// The pairs that are near.
-    pub near_pairs: NearList,
-    /// The particles near the rim.
-    pub near_rim: NearList,
-    /// The pairs with features that are near.
-    pub near_features: NearList,
     /// The chunks of the particles of the pairs; ascending.
     pub watched: Vec<u32>,
     /// For how long the near lists hold.
@@ -52,12 +46,9 @@ impl ChunkNeighbors {
         let first = (index * CHUNK) as u32;
         let particles = first..(count.min((index + 1) * CHUNK)) as u32;
         Self {
-            pairs: Neighbors::default(),
-            features: Neighbors::default(),
-            at_rim: vec![Status::Apart; particles.len()],
-            near_pairs: NearList::new(ListKind::Pairs, (first, far(count))),
-            near_rim: NearList::new(ListKind::Walls, (inside(count), RIM)),
-            near_features: NearList::new(ListKind::Walls, (far(count), RIM)),
+            pairs: Neighbors::new(ListKind::Pairs, (first, far(count))),
+            rim: Neighbors::new(ListKind::Walls, (inside(count), RIM)),
+            features: Neighbors::new(ListKind::Walls, (far(count), RIM)),
             watched: Vec::new(),
             horizon: Horizon::of(STEPS),
             longest_way: f64::INFINITY,
@@ -77,7 +68,7 @@ impl ChunkNeighbors {
             time: F64x4::splat(time),
             budget: F64x4::splat(self.horizon.budget()),
         };
-        self.near_pairs.fill_with_pairs(&self.pairs, motion, &reach);
+        self.pairs.find_near_pairs(motion, &reach);
         self.look_at_particles(motion, inputs, time);
         self.fill_near_features(motion, inputs, time);
     }
@@ -87,7 +78,7 @@ impl ChunkNeighbors {
     ///
     /// |x + k u|² ≤ |x|² + 2 k max(0, x·u) + k² u² is compared with (R − r − S)².
     fn look_at_particles(&mut self, motion: impl MotionView, inputs: &StepInputs, time: f64) {
-        self.near_rim.clear();
+        self.rim.near.clear();
         let (time, speed) = (F64x4::splat(time), F64x4::splat(inputs.angular_velocity));
         let rim = inputs.drum.radius().map(|rim| (rim - 0.5 * self.horizon.budget()) * ROUND_OFF);
         let free_of = |radius: F64x4| (F64x4::splat(rim.unwrap_or(f64::MAX)) - radius).larger(F64x4::ZERO);
@@ -109,8 +100,8 @@ impl ChunkNeighbors {
             for lane in (0..LANES).filter(|lane| inside >> lane & 1 == 0) {
                 let particle = first + lane as u32;
                 let own = (particle - start) as usize;
-                if self.at_rim.get(own) == Some(&Status::Apart) {
-                    self.near_rim.push((particle, RIM), own as u32);
+                if self.rim.is_apart(own) {
+                    self.rim.near.push((particle, RIM), own as u32);
                 }
             }
         }
@@ -119,18 +110,19 @@ impl ChunkNeighbors {
 
     /// Pairs with features that may touch. As seen from the drum only the particle moves.
     fn fill_near_features(&mut self, motion: impl MotionView, inputs: &StepInputs, time: f64) {
-        self.near_features.clear();
-        for (place, &(particle, feature)) in self.features.pairs().iter().enumerate() {
-            if self.features.status()[place] != Status::Apart {
+        self.features.near.clear();
+        for place in 0..self.features.len() {
+            if !self.features.is_apart(place) {
                 continue;
             }
+            let (particle, feature) = self.features.pairs()[place];
             let ([x, y], [u, v]) = (motion.position(offset(particle)), motion.velocity(offset(particle)));
             let (position, velocity) = (Vec2::new(x, y), Vec2::new(u, v));
             let seen = velocity - crate::physics::vector::perpendicular(position) * inputs.angular_velocity;
             let way = seen.norm() * time + 0.5 * self.horizon.budget();
             let distance = inputs.drum.distance_to(feature, inputs.rotation.apply_inverse(position));
             if distance * ROUND_OFF <= inputs.bodies.radius_of(particle) + way {
-                self.near_features.push((particle, feature), place as u32);
+                self.features.near.push((particle, feature), place as u32);
             }
         }
     }
@@ -145,29 +137,6 @@ impl ChunkNeighbors {
             most = squared_rate(position, velocity, speed).larger(most);
         }
         greatest(most.to_array()).sqrt() * inputs.time.step
-    }
-
-    /// Takes note that a pair of particles has parted: it may touch again at once.
-    pub fn release_pair(&mut self, key: (u32, u32), place: u32) {
-        if place != NOT_LISTED {
-            self.pairs.set(place, Status::Apart);
-            self.near_pairs.push(key, place);
-        }
-    }
-
-    /// Takes note that a particle has left the rim.
-    pub fn release_rim(&mut self, particle: u32) {
-        let own = particle - self.particles.start;
-        self.at_rim[own as usize] = Status::Apart;
-        self.near_rim.push((particle, RIM), own);
-    }
-
-    /// Takes note that a particle has left a feature.
-    pub fn release_feature(&mut self, key: (u32, u32), place: u32) {
-        if place != NOT_LISTED {
-            self.features.set(place, Status::Apart);
-            self.near_features.push(key, place);
-        }
     }
 }
 

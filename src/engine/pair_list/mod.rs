@@ -15,7 +15,7 @@ use cells::CellGrid;
 pub use chunk::{ChunkNeighbors, NearLimits};
 use horizon::Horizon;
 pub use near::{NearBlock, Opened};
-pub use neighbors::Status;
+pub use neighbors::Neighbors;
 use search::Search;
 
 use crate::engine::forces::StepInputs;

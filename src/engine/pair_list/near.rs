@@ -6,10 +6,9 @@
 //! prunes its outer list to an inner one in the same way). No result depends on it, since a pair that is left out cannot
 //! touch before the list ends (`horizon`).
 
-use super::neighbors::{Neighbors, Status};
 use crate::engine::contacts::{ListKind, NOT_LISTED};
 use crate::engine::motion::{MotionView, at_offset, offset};
-use crate::engine::simd::{ALL_LANES, F64x4, LANES, Vec2x4, lanes, rows};
+use crate::engine::simd::{ALL_LANES, F64x4, LANES, differences, lanes};
 use crate::physics::scalar::Scalar;
 
 /// Four pairs that are near.
@@ -109,54 +108,41 @@ impl NearList {
         }
     }
 
-    /// Fills the list anew with the pairs of particles that may touch while less than the budget is used up.
-    pub fn fill_with_pairs(&mut self, neighbors: &Neighbors, motion: impl MotionView, reach: &Reach) {
-        self.clear();
-        let (pairs, rest) = neighbors.pairs().as_chunks::<LANES>();
-        for (block, four) in pairs.iter().enumerate() {
-            self.push_near(four, LANES * block, neighbors.status(), motion, reach);
-        }
-        let mut last = [self.vacant; LANES];
-        last[..rest.len()].copy_from_slice(rest);
-        self.push_near(&last, LANES * pairs.len(), neighbors.status(), motion, reach);
-    }
-
-    /// Appends those of four neighbors that are near; the first of them is at place `first`.
-    #[inline(always)]
-    fn push_near(
+    /// Fills the list anew with those of `pairs` that may touch while less than the budget is used up, and are apart.
+    pub fn fill_with_pairs(
         &mut self,
-        pairs: &[(u32, u32); LANES],
-        first: usize,
-        status: &[Status],
+        pairs: &[(u32, u32)],
+        is_apart: impl Fn(usize) -> bool,
         motion: impl MotionView,
         reach: &Reach,
     ) {
-        let apart = between(pairs, |particle| motion.position(offset(particle)));
-        let velocity = between(pairs, |particle| motion.velocity(offset(particle)));
-        let distance = reach.of(|lane| pairs[lane]);
-        // The gap is (d² − reach²) / (d + reach). The approach is over d, which is no less than the reach.
-        let excess = apart.dot(apart) - distance * distance;
-        let gap = excess.larger(F64x4::ZERO) * reach.inverse_sum;
-        let approach = -(apart.dot(velocity)) * (reach.time / distance);
-        let far = gap.exceeds(approach.larger(F64x4::ZERO) + reach.budget).to_bitmask();
-        if far == ALL_LANES {
-            return;
+        self.clear();
+        let (blocks, rest) = pairs.as_chunks::<LANES>();
+        for (block, four) in blocks.iter().enumerate() {
+            let near = reach.near(four, motion);
+            if near != 0 {
+                self.push_some(near, four, LANES * block, &is_apart);
+            }
         }
-        for lane in (0..LANES).filter(|lane| far >> lane & 1 == 0) {
-            let place = first + lane;
-            if status.get(place) == Some(&Status::Apart) {
-                self.push(pairs[lane], place as u32);
+        let mut last = [self.vacant; LANES];
+        last[..rest.len()].copy_from_slice(rest);
+        self.push_some(reach.near(&last, motion), &last, LANES * blocks.len(), &is_apart);
+    }
+
+    /// Appends those of four pairs that are near, given as bits, and apart; the first of them is at place `first`.
+    fn push_some(
+        &mut self,
+        near: u32,
+        four: &[(u32, u32); LANES],
+        first: usize,
+        is_apart: &impl Fn(usize) -> bool,
+    ) {
+        for lane in (0..LANES).filter(|lane| near >> lane & 1 == 1) {
+            if is_apart(first + lane) {
+                self.push(four[lane], (first + lane) as u32);
             }
         }
     }
-}
-
-/// What the vectors of bodies j have that those of bodies i have not.
-#[inline(always)]
-fn between(pairs: &[(u32, u32); LANES], vector: impl Fn(u32) -> [f64; 2]) -> Vec2x4 {
-    let [own, own_odd] = rows(|lane| vector(pairs[lane].0));
-    let [other, other_odd] = rows(|lane| vector(pairs[lane].1));
-    Vec2x4::from_rows([other - own, other_odd - own_odd])
 }
 
 /// When two particles count as near.
@@ -175,6 +161,20 @@ pub struct Reach<'a> {
 }
 
 impl Reach<'_> {
+    /// Which of four pairs may touch, as bits.
+    #[inline(always)]
+    fn near(&self, pairs: &[(u32, u32); LANES], motion: impl MotionView) -> u32 {
+        let (own, other) = (|lane: usize| offset(pairs[lane].0), |lane: usize| offset(pairs[lane].1));
+        let apart = differences(|lane| motion.position(own(lane)), |lane| motion.position(other(lane)));
+        let velocity = differences(|lane| motion.velocity(own(lane)), |lane| motion.velocity(other(lane)));
+        let distance = self.of(|lane| pairs[lane]);
+        // The gap is (d² − reach²) / (d + reach). The approach is over d, which is no less than the reach.
+        let excess = apart.dot(apart) - distance * distance;
+        let gap = excess.larger(F64x4::ZERO) * self.inverse_sum;
+        let approach = -(apart.dot(velocity)) * (self.time / distance);
+        !gap.exceeds(approach.larger(F64x4::ZERO) + self.budget).to_bitmask() & ALL_LANES
+    }
+
     /// The sums of the radii of four pairs.
     #[inline(always)]
     fn of(&self, pair: impl Fn(usize) -> (u32, u32)) -> F64x4 {

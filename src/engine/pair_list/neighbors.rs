@@ -1,6 +1,8 @@
-//! The neighbors of a chunk's particles: which pairs may touch while the list holds, and whether they do.
+//! The neighbors of a chunk's particles: which pairs may touch while the list holds, whether they do, and which are near.
 
-use crate::engine::contacts::NOT_LISTED;
+use super::near::{NearList, Reach};
+use crate::engine::contacts::{ListKind, NOT_LISTED};
+use crate::engine::motion::MotionView;
 
 /// What is known of two neighbors.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -13,13 +15,20 @@ pub enum Status {
 }
 
 /// Pairs of bodies near each other, in key order.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub struct Neighbors {
     pairs: Vec<(u32, u32)>,
     status: Vec<Status>,
+    /// Those that may touch within the next steps.
+    pub near: NearList,
 }
 
 impl Neighbors {
+    /// None yet; vacant lanes of the near list refer to the bodies `vacant`.
+    pub fn new(kind: ListKind, vacant: (u32, u32)) -> Self {
+        Self { pairs: Vec::new(), status: Vec::new(), near: NearList::new(kind, vacant) }
+    }
+
     /// Forgets all, keeping the memory.
     pub fn clear(&mut self) {
         self.pairs.clear();
@@ -47,15 +56,24 @@ impl Neighbors {
         &self.pairs
     }
 
-    /// What is known of them.
-    pub fn status(&self) -> &[Status] {
-        &self.status
+    /// Whether the pair at a place is no contact; false where there is no such place.
+    #[inline]
+    pub fn is_apart(&self, place: usize) -> bool {
+        self.status.get(place) == Some(&Status::Apart)
     }
 
-    /// Takes note of what became of the pair at a place, if it is listed.
-    pub fn set(&mut self, place: u32, status: Status) {
+    /// Takes note that the pair at a place, if it is listed, is a contact.
+    pub fn open(&mut self, place: u32) {
         if place != NOT_LISTED {
-            self.status[place as usize] = status;
+            self.status[place as usize] = Status::Contact;
+        }
+    }
+
+    /// Takes note that the pair at a place, if it is listed, has parted: it may touch again at once.
+    pub fn release(&mut self, key: (u32, u32), place: u32) {
+        if place != NOT_LISTED {
+            self.status[place as usize] = Status::Apart;
+            self.near.push(key, place);
         }
     }
 
@@ -68,5 +86,11 @@ impl Neighbors {
     pub fn of(&self, own: u32) -> std::ops::Range<usize> {
         let start = self.pairs.partition_point(|pair| pair.0 < own);
         start..start + self.pairs[start..].partition_point(|pair| pair.0 == own)
+    }
+
+    /// Makes the near list anew, of the pairs of particles that may touch while less than the budget is used up.
+    pub fn find_near_pairs(&mut self, motion: impl MotionView, reach: &Reach) {
+        let Self { pairs, status, near } = self;
+        near.fill_with_pairs(pairs, |place| status.get(place) == Some(&Status::Apart), motion, reach);
     }
 }

@@ -2,9 +2,9 @@
 
 use super::cells::CellGrid;
 use super::chunk::ChunkNeighbors;
-use super::neighbors::Status;
 use crate::engine::forces::StepInputs;
 use crate::engine::parallel::CHUNK;
+use crate::physics::drum::RIM;
 use crate::physics::vector::{Vec2, dot};
 
 /// Where a search looks.
@@ -24,11 +24,12 @@ impl Search<'_> {
         chunk.pairs.clear();
         chunk.features.clear();
         chunk.watched.clear();
-        chunk.at_rim.fill(Status::Apart);
+        chunk.rim.clear();
         chunk.horizon.end();
         let mut features = Vec::new();
         for particle in chunk.particles.clone() {
             self.find_particles(chunk, particle, inputs);
+            chunk.rim.push(particle, RIM);
             let center = self.anchors[particle as usize];
             features.clear();
             inputs.drum.features_near(center, inputs.bodies.radius_of(particle) + self.skin, &mut features);

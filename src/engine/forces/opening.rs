@@ -1,0 +1,60 @@
+//! Contacts that open and end, in an order that neither lists nor threads show in.
+
+use super::Bodies;
+use super::chunk::Ended;
+use crate::engine::contacts::{ContactList, ContactRecord};
+use crate::engine::pair_list::{Neighbors, Opened};
+use crate::engine::simd::LANES;
+use crate::physics::contact::law::ContactLaw;
+
+impl<L: ContactLaw> ContactList<L> {
+    /// Adds a contact as it is, at the end of the list; `place` is its place among the neighbors.
+    pub fn insert(&mut self, record: &ContactRecord, place: u32, bodies: &Bodies) {
+        self.push(record, place, &bodies.parameters::<L>(record.key(), self.kind));
+    }
+
+    /// Links the contacts to neighbors that have been searched for anew.
+    pub fn link(&mut self, neighbors: &mut Neighbors) {
+        for index in 0..self.len() {
+            let place = neighbors.place_of(self.key(index));
+            neighbors.open(place);
+            *self.neighbor_mut(index) = place;
+        }
+    }
+
+    /// Makes contacts of neighbors that have begun to touch: those of one step by key.
+    #[cold]
+    pub fn open(&mut self, opened: &mut Vec<Opened>, neighbors: &mut Neighbors, bodies: &Bodies) {
+        opened.sort_unstable();
+        // A pair can be in the near list twice, if it has opened there by the history of another.
+        opened.dedup();
+        for ((particle, other), place) in opened.drain(..) {
+            let record = ContactRecord { particle, other, ..ContactRecord::default() };
+            self.insert(&record, place, bodies);
+            neighbors.open(place);
+        }
+    }
+
+    /// Takes out contacts that have ended, from the highest place down.
+    #[inline]
+    pub fn close(&mut self, ended: &Ended, neighbors: &mut Neighbors) {
+        let blocks = ended.blocks(self.len());
+        if !blocks.is_empty() {
+            self.close_in(blocks, neighbors);
+        }
+    }
+
+    /// Takes out those of some blocks, which are in order.
+    #[cold]
+    fn close_in(&mut self, blocks: &[u32], neighbors: &mut Neighbors) {
+        for &block in blocks.iter().rev() {
+            for lane in (0..LANES).rev() {
+                let index = LANES * block as usize + lane;
+                if index < self.len() && self.overlap(index) == 0.0 {
+                    let (key, place) = self.remove(index);
+                    neighbors.release(key, place);
+                }
+            }
+        }
+    }
+}
