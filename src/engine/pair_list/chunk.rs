@@ -21,7 +21,7 @@ pub struct ChunkNeighbors {
     pub particles: Range<u32>,
     /// Pairs with later particles.
     pub pairs: Neighbors,
-    /// Every particle with the rim.
+    /// Pairs with the rim.
     pub rim: Neighbors,
     /// Pairs with edges and vertices of outlines.
     pub features: Neighbors,
@@ -69,43 +69,31 @@ impl ChunkNeighbors {
             budget: F64x4::splat(self.horizon.budget()),
         };
         self.pairs.find_near_pairs(motion, &reach);
-        self.look_at_particles(motion, inputs, time);
+        self.longest_way = self.measure_way(motion, inputs);
+        self.fill_near_rim(motion, inputs, time);
         self.fill_near_features(motion, inputs, time);
     }
 
-    /// Measures how far particles move in a step as seen from the drum, and finds those that may touch the rim: in a straight
-    /// line at their velocity, or by what changes of it add.
+    /// Particles that may touch the rim: in a straight line at their velocity, or by what changes of it add.
     ///
     /// |x + k u|² ≤ |x|² + 2 k max(0, x·u) + k² u² is compared with (R − r − S)².
-    fn look_at_particles(&mut self, motion: impl MotionView, inputs: &StepInputs, time: f64) {
+    fn fill_near_rim(&mut self, motion: impl MotionView, inputs: &StepInputs, time: f64) {
         self.rim.near.clear();
-        let (time, speed) = (F64x4::splat(time), F64x4::splat(inputs.angular_velocity));
-        let rim = inputs.drum.radius().map(|rim| (rim - 0.5 * self.horizon.budget()) * ROUND_OFF);
-        let free_of = |radius: F64x4| (F64x4::splat(rim.unwrap_or(f64::MAX)) - radius).larger(F64x4::ZERO);
-        let same = inputs.bodies.radius.map(|radius| free_of(F64x4::splat(radius)));
-        let (start, last) = (self.particles.start, self.particles.end - 1);
-        let mut most = F64x4::ZERO;
-        for first in (start..=last).step_by(LANES) {
-            let particle = |lane: usize| (first + lane as u32).min(last);
+        let Some(rim) = inputs.drum.radius() else { return };
+        let rim = F64x4::splat((rim - 0.5 * self.horizon.budget()) * ROUND_OFF);
+        let (time, last) = (F64x4::splat(time), self.rim.len().saturating_sub(1));
+        for first in (0..self.rim.len()).step_by(LANES) {
+            let particle = |lane: usize| self.rim.pairs()[(first + lane).min(last)].0;
             let (position, velocity) = gather(motion, particle);
-            most = squared_rate(position, velocity, speed).larger(most);
             let way = velocity.scaled(time);
             let outwards = position.dot(way).larger(F64x4::ZERO);
             let farthest = position.dot(position) + (outwards + outwards) + way.dot(way);
-            let free = same.unwrap_or_else(|| free_of(lanes(|lane| inputs.bodies.radius_of(particle(lane)))));
-            let inside = (free * free).exceeds(farthest).to_bitmask();
-            if rim.is_none() || inside == ALL_LANES {
-                continue;
-            }
-            for lane in (0..LANES).filter(|lane| inside >> lane & 1 == 0) {
-                let particle = first + lane as u32;
-                let own = (particle - start) as usize;
-                if self.rim.is_apart(own) {
-                    self.rim.near.push((particle, RIM), own as u32);
-                }
+            let free = (rim - lanes(|lane| inputs.bodies.radius_of(particle(lane)))).larger(F64x4::ZERO);
+            let near = !(free * free).exceeds(farthest).to_bitmask() & ALL_LANES;
+            if near != 0 {
+                self.rim.push_near(near, first);
             }
         }
-        self.longest_way = greatest(most.to_array()).sqrt() * inputs.time.step;
     }
 
     /// Pairs with features that may touch. As seen from the drum only the particle moves.

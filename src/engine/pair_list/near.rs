@@ -108,40 +108,9 @@ impl NearList {
         }
     }
 
-    /// Fills the list anew with those of `pairs` that may touch while less than the budget is used up, and are apart.
-    pub fn fill_with_pairs(
-        &mut self,
-        pairs: &[(u32, u32)],
-        is_apart: impl Fn(usize) -> bool,
-        motion: impl MotionView,
-        reach: &Reach,
-    ) {
-        self.clear();
-        let (blocks, rest) = pairs.as_chunks::<LANES>();
-        for (block, four) in blocks.iter().enumerate() {
-            let near = reach.near(four, motion);
-            if near != 0 {
-                self.push_some(near, four, LANES * block, &is_apart);
-            }
-        }
-        let mut last = [self.vacant; LANES];
-        last[..rest.len()].copy_from_slice(rest);
-        self.push_some(reach.near(&last, motion), &last, LANES * blocks.len(), &is_apart);
-    }
-
-    /// Appends those of four pairs that are near, given as bits, and apart; the first of them is at place `first`.
-    fn push_some(
-        &mut self,
-        near: u32,
-        four: &[(u32, u32); LANES],
-        first: usize,
-        is_apart: &impl Fn(usize) -> bool,
-    ) {
-        for lane in (0..LANES).filter(|lane| near >> lane & 1 == 1) {
-            if is_apart(first + lane) {
-                self.push(four[lane], (first + lane) as u32);
-            }
-        }
+    /// The bodies of a vacant lane.
+    pub fn vacant(&self) -> (u32, u32) {
+        self.vacant
     }
 }
 
@@ -163,7 +132,7 @@ pub struct Reach<'a> {
 impl Reach<'_> {
     /// Which of four pairs may touch, as bits.
     #[inline(always)]
-    fn near(&self, pairs: &[(u32, u32); LANES], motion: impl MotionView) -> u32 {
+    pub fn near(&self, pairs: &[(u32, u32); LANES], motion: impl MotionView) -> u32 {
         let (own, other) = (|lane: usize| offset(pairs[lane].0), |lane: usize| offset(pairs[lane].1));
         let apart = differences(|lane| motion.position(own(lane)), |lane| motion.position(other(lane)));
         let velocity = differences(|lane| motion.velocity(own(lane)), |lane| motion.velocity(other(lane)));

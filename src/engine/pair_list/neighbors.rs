@@ -3,6 +3,7 @@
 use super::near::{NearList, Reach};
 use crate::engine::contacts::{ListKind, NOT_LISTED};
 use crate::engine::motion::MotionView;
+use crate::engine::simd::LANES;
 
 /// What is known of two neighbors.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -90,7 +91,30 @@ impl Neighbors {
 
     /// Makes the near list anew, of the pairs of particles that may touch while less than the budget is used up.
     pub fn find_near_pairs(&mut self, motion: impl MotionView, reach: &Reach) {
-        let Self { pairs, status, near } = self;
-        near.fill_with_pairs(pairs, |place| status.get(place) == Some(&Status::Apart), motion, reach);
+        self.near.clear();
+        let (blocks, rest) = self.pairs.as_chunks::<LANES>();
+        // Those behind the last pair are far.
+        let mut last = [self.near.vacant(); LANES];
+        last[..rest.len()].copy_from_slice(rest);
+        let last = (reach.near(&last, motion), LANES * blocks.len());
+        for block in 0..blocks.len() {
+            let near = reach.near(&self.pairs.as_chunks::<LANES>().0[block], motion);
+            if near != 0 {
+                self.push_near(near, LANES * block);
+            }
+        }
+        self.push_near(last.0, last.1);
+    }
+
+    /// Takes those of the four pairs from place `first` on that are near, given as bits, into the near list, if they are apart.
+    pub fn push_near(&mut self, near: u32, first: usize) {
+        let mut left = near;
+        while left != 0 {
+            let place = first + left.trailing_zeros() as usize;
+            left &= left - 1;
+            if self.is_apart(place) {
+                self.near.push(self.pairs[place], place as u32);
+            }
+        }
     }
 }

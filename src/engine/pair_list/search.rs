@@ -29,10 +29,13 @@ impl Search<'_> {
         let mut features = Vec::new();
         for particle in chunk.particles.clone() {
             self.find_particles(chunk, particle, inputs);
-            chunk.rim.push(particle, RIM);
-            let center = self.anchors[particle as usize];
+            let (center, reach) =
+                (self.anchors[particle as usize], inputs.bodies.radius_of(particle) + self.skin);
+            if inputs.drum.radius().is_some_and(|rim| center.norm() >= rim - reach) {
+                chunk.rim.push(particle, RIM);
+            }
             features.clear();
-            inputs.drum.features_near(center, inputs.bodies.radius_of(particle) + self.skin, &mut features);
+            inputs.drum.features_near(center, reach, &mut features);
             for &feature in &features {
                 chunk.features.push(particle, feature);
             }
