@@ -81,9 +81,9 @@ class Parts:
         save_pieces(path, table, records.count, records.none().metadata())
 
     def remove(self) -> None:
-        """Remove all parts."""
-        for kind in ("series", "frames"):
-            for _, path in self._parts(kind):
+        """Remove all parts, and what a kill left of one."""
+        for pattern in ("series-*.parquet", "frames-*.parquet", ".*.tmp"):
+            for path in (self._folder / _FOLDER).glob(pattern):
                 path.unlink()
         with contextlib.suppress(OSError):
             (self._folder / _FOLDER).rmdir()

@@ -150,7 +150,7 @@ impl Snapshot<'_> {
     }
 
     /// What the next sample needs of this one.
-    pub fn seen(&self) -> Earlier {
+    pub fn for_next(&self) -> Earlier {
         Earlier {
             time: Some(self.time),
             drum_work: self.ledger.drum_work(),

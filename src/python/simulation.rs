@@ -9,7 +9,7 @@ use std::sync::mpsc;
 use std::thread;
 use std::time::{Duration, Instant};
 
-use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray2};
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -342,10 +342,10 @@ impl Simulation {
         into.set_item("frames", arrays::frames(py, frames, count)?)
     }
 
-    #[pyo3(signature = (rows, taken))]
-    fn put_back_rows(&self, py: Python<'_>, rows: PyReadonlyArray2<'_, f64>, taken: bool) -> PyResult<()> {
-        let rows = rows.as_slice()?;
-        self.with(py, |core| core.put_back_rows(rows, taken)).map_err(|error| to_python(py, &error))
+    fn put_back_rows(&self, py: Python<'_>, rows: &Bound<'_, PyArray2<f64>>, taken: bool) -> PyResult<()> {
+        let rows = rows.try_readonly()?;
+        let values = rows.as_slice()?;
+        self.with(py, |core| core.put_back_rows(values, taken)).map_err(|error| to_python(py, &error))
     }
 
     fn put_back_frames(&self, py: Python<'_>, frames: &Bound<'_, PyDict>) -> PyResult<()> {

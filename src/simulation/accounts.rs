@@ -132,8 +132,8 @@ impl Simulation {
             earlier: &state.recorded.earlier,
         };
         self.records.series.push(&snapshot);
-        let seen = snapshot.seen();
-        state.recorded.earlier = seen;
+        let earlier = snapshot.for_next();
+        state.recorded.earlier = earlier;
         state.recorded.samples += 1;
         state.ledger.overlap_ratio = 0.0;
     }

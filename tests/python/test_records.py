@@ -75,7 +75,7 @@ def test_a_run_with_a_folder_needs_no_memory_for_its_frames(tmp_path):
     file = FramesFile.of(tmp_path / "out" / "frames.parquet")
     assert 16 * file.count * len(file) > 190e6
     # Ten times the frames, at most what a part takes while it is written more.
-    assert many < few + 120e6
+    assert many < few + 150e6
     assert not (tmp_path / "out" / "records").exists()
 
 
@@ -146,6 +146,11 @@ def start(*words) -> subprocess.Popen:
     return subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
 
 
+def written(path) -> int:
+    """Return when a file was written; 0 where there is none."""
+    return path.stat().st_mtime_ns if path.exists() else 0
+
+
 def ended(child: subprocess.Popen) -> tuple[int, str]:
     """Return status and complaint of a child, but for what --softer says."""
     _, complaint = child.communicate()
@@ -159,8 +164,8 @@ def test_blows_at_random_moments_change_no_byte(tmp_path, blow):
     assert ended(start("run", *case, whole)) == (0, "")
     words, draw, blows, parts = ["run", *case, broken], random.Random(blow), 0, 0
     for _ in range(3):
-        child = start(*words)
-        while child.poll() is None and not (broken / "checkpoint.bin").exists():
+        child, seen = start(*words), written(broken / "checkpoint.bin")
+        while child.poll() is None and written(broken / "checkpoint.bin") == seen:
             time.sleep(0.01)
         time.sleep(draw.uniform(0.2, 0.8))
         child.send_signal(blow)
@@ -174,6 +179,27 @@ def test_blows_at_random_moments_change_no_byte(tmp_path, blow):
     assert ended(start(*words)) == (0, "")
     assert same(whole, broken)
     assert {path.name for path in whole.iterdir()} == {path.name for path in broken.iterdir()}
+
+
+def test_what_came_after_the_checkpoint_is_dropped(drum, tmp_path, monkeypatch):
+    """As after a kill between two checkpoints: parts of other lengths than those to come."""
+    assert drum("run", *DENSE, "--set", "run.duration=0.1", "--out", tmp_path / "whole")[0] == 0
+    folder = RunFolder(tmp_path / "broken")
+    folder.clear()
+    shutil.copy(tmp_path / "whole" / "config.toml", folder.path)
+    simulation = drumrs.Simulation(drumrs.Config.read(folder.path / "config.toml"))
+    simulation.run(steps=400)
+    folder.save(simulation)
+    monkeypatch.setattr("drumrs.run_folder.PART_SIZE", 1)
+    for steps in (77, 301, 12):
+        simulation.run(steps=steps)
+        folder.keep_up(simulation)
+    monkeypatch.undo()
+    (folder.path / "records" / ".frames.1a2b.tmp").write_bytes(b"half a part")
+    assert len(list(folder.path.glob("records/frames-*.parquet"))) == 4
+    assert drum("run", "--resume", folder.path)[0] == 0
+    assert same(tmp_path / "whole", folder.path)
+    assert not (folder.path / "records").exists()
 
 
 def test_a_finished_run_goes_on(drum, tmp_path):
@@ -277,7 +303,7 @@ def test_an_unstable_run_keeps_all_parts(drum, tmp_path, monkeypatch):
     case = [*soft, "--set", "run.duration=3", "--set", "rotation.rpm=100"]
     status, _, _ = drum("run", *case, "--out", tmp_path)
     assert status == 1
-    assert len(taken) > 3
+    assert len(taken) >= 3
     alone = drumrs.Simulation(drumrs.Config.read(tmp_path / "config.toml"))
     with pytest.raises(drumrs.UnstableError):
         alone.run()

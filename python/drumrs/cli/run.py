@@ -47,7 +47,8 @@ def run(
         TOML file with some keys of `drumrs config`.
     out
         Folder for summary.json, series.parquet, frames.parquet, config.toml, pictures, player.html and checkpoints. A
-        run that ends unstable leaves unstable.json instead of summary.json and pictures; the rest shows its end.
+        run that ends unstable leaves unstable.json instead of summary.json and pictures; the rest shows its end. While
+        it runs, series and frames go to its folder "records" as they come.
     json
         Print the summary as one JSON object, and nothing else, on standard output.
     resume
