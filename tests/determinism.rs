@@ -157,6 +157,23 @@ fn any_skin_gives_the_same_bits() {
 }
 
 #[test]
+fn near_lists_for_any_number_of_steps_give_the_same_bits() {
+    for config in [baseline(120, 0), baseline(120, 3), two_chunks(3)] {
+        let bed = bed(&config);
+        let bits_of = |near_steps: u32| {
+            let mut simulation = start(&config, bed.clone());
+            simulation.set_near_steps(near_steps);
+            simulation.run(STEPS).expect("a stable run");
+            bits(&simulation)
+        };
+        let reference = bits_of(32);
+        for near_steps in [1, 7, 100] {
+            assert_eq!(reference, bits_of(near_steps), "{} bundles, {near_steps} steps", config.load.count);
+        }
+    }
+}
+
+#[test]
 fn a_restart_at_an_odd_step_gives_the_same_bits() {
     let small = baseline(120, 3);
     for mut straight in [tumbled(&small, bed(&small), 2345), after(&large(), 1, 1723)] {

@@ -36,13 +36,12 @@ fn config(stored: &Value) -> SimulationConfig {
     let contact = config["contact"].as_object_mut().expect("a table");
     contact.insert("species".into(), 1.into());
     for table in ["bundle", "drum"] {
-        contact[table]["adhesion"] = 0.0.into();
-    }
-    for table in ["bundle", "drum"] {
-        contact[table]["tangential_damping_ratio"] = 0.0.into();
-    }
-    for table in ["bundle", "drum"] {
-        contact[table]["rolling_friction"] = 0.0.into();
+        for term in ["adhesion", "tangential_damping_ratio", "rolling_friction"] {
+            contact[table][term] = 0.0.into();
+        }
+        contact[table]["base"] = "linear".into();
+        contact[table]["young_modulus"] = Value::Null;
+        contact[table]["poisson_ratio"] = 0.3.into();
     }
     contact.insert("pairs".into(), Value::Array(Vec::new()));
     contact.insert("walls".into(), Value::Array(Vec::new()));

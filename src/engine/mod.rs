@@ -1,16 +1,26 @@
 //! How it is fast: nothing here changes a bit of what happens.
 //!
-//! | word           | is                                                                                  |
-//! |----------------|-------------------------------------------------------------------------------------|
-//! | lane           | one of four numbers that are worked on at once (`simd`)                              |
-//! | block          | four contacts, column by column (`contacts`)                                         |
-//! | chunk          | 512 particles in a row in memory, and the contacts that they own (`parallel`)        |
-//! | small load     | one that is a single chunk; its arrays have a length that the compiler knows         |
-//! | pair list      | pairs that may touch before any particle has moved half the skin (`pair_list`)       |
-//! | near list      | those of them that may touch within the next 32 steps                                |
-//! | horizon        | for how long a near list holds                                                       |
-//! | reaction       | what a contact does to a particle of another chunk (`forces::reactions`)             |
-//! | memory order   | the order of particles along Hilbert's curve, from 2048 on (`memory_order`)          |
+//! | word         | is                                                                                                 |
+//! |--------------|----------------------------------------------------------------------------------------------------|
+//! | lane         | one of four numbers that are worked on at once (`simd`)                                            |
+//! | block        | four contacts, column by column (`contacts`)                                                       |
+//! | vacant lane  | one without a contact: it refers to bodies that never touch, and adds nothing to any sum           |
+//! | group        | eight blocks, which go through the stages of a pass together (`forces`)                            |
+//! | quad         | four particles, which drift together (`motion::verlet`)                                            |
+//! | offset       | twice the number of a particle: where its vectors are in flat arrays (`motion`)                    |
+//! | chunk        | 512 particles in a row in memory, and the contacts that they own (`parallel`)                      |
+//! | pair list    | pairs that may touch before any particle has moved half the skin (`pair_list`)                     |
+//! | skin         | the margin of the pair list, 0.8 radii of the largest particle unless `run.skin` is set            |
+//! | slack        | how far any particle may still move before the pair list has to be checked                         |
+//! | near list    | those pairs of the pair list that may touch within the next 32 steps                               |
+//! | horizon      | for how long a near list holds: 32 steps, or until changes of displacements use up its budget      |
+//! | key          | the bodies of a contact: (particle, later particle), or (particle, feature of the drum)            |
+//! | reaction     | what a contact does to a particle of a later chunk (`forces`)                                      |
+//! | fused pass   | forces, kick and drift chunk by chunk on one thread: each chunk once through the cache             |
+//! | fold         | bringing the sums over contacts since the last sample to the ledger (`forces`)                     |
+//! | memory order | the order of particles along Hilbert's curve, from 2048 on, anew every 8192 steps (`memory_order`) |
+//!
+//! `docs/internals/` has a page with a drawing on each of the mechanisms.
 
 pub mod contacts;
 pub mod forces;
@@ -106,6 +116,11 @@ impl Engine {
     /// The threads.
     pub fn threads(&self) -> &Threads {
         &self.threads
+    }
+
+    /// Makes near lists for so many steps from now on. No result depends on it.
+    pub fn set_near_steps(&mut self, steps: u32) {
+        self.list.set_near_steps(steps);
     }
 
     /// Adds contacts as they are.

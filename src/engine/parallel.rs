@@ -80,7 +80,7 @@ struct Pool {
 
 impl Pool {
     fn is_at_home(&self) -> bool {
-        // To ask for the process takes a call of the system; who is one of the threads knows.
+        // To ask for the process takes a call of the system; a thread of the pool needs none.
         let is_one = |threads: &rayon::ThreadPool| threads.current_thread_index().is_some();
         self.threads.as_ref().is_some_and(is_one) || std::process::id() == self.home
     }
@@ -146,9 +146,9 @@ impl Threads {
     pub fn for_each_chunk<W: Chunked>(&self, count: usize, work: W, kernel: &(impl Fn(W) + Sync)) {
         if self.serve(count) {
             let chunks = work.chunks();
-            let pieces = (self.count() * PIECES).min(chunks);
-            let ends = (1..=pieces).map(|piece| chunks * piece / pieces);
-            self.for_each(count, cut(work, ends), &|piece| in_turn(piece).for_each(kernel));
+            let tasks = (self.count() * TASKS).min(chunks);
+            let ends = (1..=tasks).map(|task| chunks * task / tasks);
+            self.for_each(count, cut(work, ends), &|task| in_turn(task).for_each(kernel));
         } else {
             in_turn(work).for_each(kernel);
         }
@@ -180,16 +180,16 @@ impl Threads {
         most.into_iter().fold(none, larger)
     }
 
-    /// Runs `kernel` on each of `pieces`, on several threads where that pays for `count` particles.
+    /// Runs `kernel` on each of `tasks`, on several threads where that pays for `count` particles.
     pub fn for_each<W: Send>(
         &self,
         count: usize,
-        pieces: impl Iterator<Item = W> + Send,
+        tasks: impl Iterator<Item = W> + Send,
         kernel: &(impl Fn(W) + Sync),
     ) {
         match self.pool_for(count) {
-            Some(pool) => pool.install(|| share(pieces, kernel, pool.current_num_threads())),
-            None => pieces.for_each(kernel),
+            Some(pool) => pool.install(|| share(tasks, kernel, pool.current_num_threads())),
+            None => tasks.for_each(kernel),
         }
     }
 }
@@ -199,17 +199,17 @@ impl Threads {
 /// 1.5 at 5 000.
 const PARALLEL_THRESHOLD: usize = 4096;
 
-/// Pieces of work for each thread: so many that nobody waits long for the last.
-pub const PIECES: usize = 16;
+/// Tasks for each thread: so many that none waits long for the last.
+pub const TASKS: usize = 16;
 
-/// Gives each thread as many pieces in a row, the same in every pass, so that it finds in its own cache what it left there.
-/// Who is done takes what others have not come to: a thread whose CPU is busy with something else holds nobody up.
-fn share<W: Send>(pieces: impl Iterator<Item = W>, kernel: &(impl Fn(W) + Sync), threads: usize) {
-    let pieces: Vec<_> = pieces.map(|piece| Mutex::new(Some(piece))).collect();
-    let members = threads.min(pieces.len());
-    let own = |number: usize| &pieces[pieces.len() * number / members..pieces.len() * (number + 1) / members];
-    let take = |piece: &Mutex<Option<W>>| {
-        let taken = piece.lock().unwrap_or_else(PoisonError::into_inner).take();
+/// Gives each thread as many tasks in a row, the same in every pass, so that it finds in its own cache what it left there.
+/// A thread that is done takes what others have not come to: one whose CPU is busy with something else holds no other up.
+fn share<W: Send>(tasks: impl Iterator<Item = W>, kernel: &(impl Fn(W) + Sync), threads: usize) {
+    let tasks: Vec<_> = tasks.map(|task| Mutex::new(Some(task))).collect();
+    let members = threads.min(tasks.len());
+    let own = |number: usize| &tasks[tasks.len() * number / members..tasks.len() * (number + 1) / members];
+    let take = |task: &Mutex<Option<W>>| {
+        let taken = task.lock().unwrap_or_else(PoisonError::into_inner).take();
         taken.into_iter().for_each(kernel);
     };
     in_company(0..members, &|number| {
@@ -232,7 +232,7 @@ fn in_company(numbers: Range<usize>, work: &(impl Fn(usize) + Sync)) {
     }
 }
 
-/// Cuts `work` into pieces that end before the chunks `ends`, of which the last is the number of chunks.
+/// Cuts `work` into tasks that end before the chunks `ends`, of which the last is the number of chunks.
 pub fn cut<W: Chunked>(work: W, ends: impl IntoIterator<Item = usize>) -> impl Iterator<Item = W> {
     let chunks = work.chunks();
     let (mut left, mut start) = (Some(work), 0);
@@ -241,9 +241,9 @@ pub fn cut<W: Chunked>(work: W, ends: impl IntoIterator<Item = usize>) -> impl I
         if end >= chunks {
             return Some(work);
         }
-        let (piece, rest) = work.split(end - start);
+        let (task, rest) = work.split(end - start);
         (left, start) = (Some(rest), end);
-        Some(piece)
+        Some(task)
     })
 }
 
@@ -267,15 +267,15 @@ mod tests {
     use std::sync::atomic::{AtomicUsize, Ordering};
 
     #[test]
-    fn every_piece_is_done_once_however_few_there_are() {
+    fn every_task_is_done_once_however_few_there_are() {
         for threads in [1, 3] {
             let threads = Threads::new(threads).unwrap();
-            for pieces in [0, 1, 2, 3, 40] {
-                let done: Vec<AtomicUsize> = (0..pieces).map(|_| AtomicUsize::new(0)).collect();
-                threads.for_each(PARALLEL_THRESHOLD, done.iter(), &|piece: &AtomicUsize| {
-                    piece.fetch_add(1, Ordering::Relaxed);
+            for tasks in [0, 1, 2, 3, 40] {
+                let done: Vec<AtomicUsize> = (0..tasks).map(|_| AtomicUsize::new(0)).collect();
+                threads.for_each(PARALLEL_THRESHOLD, done.iter(), &|task: &AtomicUsize| {
+                    task.fetch_add(1, Ordering::Relaxed);
                 });
-                assert!(done.into_iter().all(|piece| piece.into_inner() == 1), "{pieces} pieces");
+                assert!(done.into_iter().all(|task| task.into_inner() == 1), "{tasks} tasks");
             }
         }
     }

@@ -199,6 +199,9 @@ fn check(state: &State, engine: &EngineState, config: &SimulationConfig) -> Resu
     if state.particles.species.iter().any(|&species| usize::from(species) >= table.count()) {
         return Err(refuse("a bundle is of a species that is not there"));
     }
+    if drum.radius().is_some_and(|rim| state.particles.largest_radius() >= rim) {
+        return Err(refuse("a bundle is larger than its drum"));
+    }
     let count = state.particles.len();
     if state.ledger.surfaces.len() != drum.surface_count() {
         return Err(refuse("its accounts are not those of its drum"));

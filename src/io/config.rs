@@ -107,7 +107,13 @@ impl ContactTables {
         for (index, (_, parameters)) in self.walls.iter().enumerate() {
             parameters.validate(&format!("contact.walls[{index}]"))?;
         }
-        self.table().map(|_| ())
+        let table = self.table()?;
+        if let Some(other) = table.all().find(|parameters| parameters.base != self.bundle.base) {
+            let (found, base) = (format!("{:?}", other.base), format!("{:?}", self.bundle.base));
+            let limit = format!("{} in every table: a run has one base law", base.to_lowercase());
+            return Err(Error::config("contact.base", found.to_lowercase(), limit));
+        }
+        Ok(())
     }
 }
 
@@ -160,7 +166,7 @@ impl SimulationConfig {
     }
 }
 
-/// Ids are 32 bits wide, and so are slots, of which a bundle has a few.
+/// Offsets, twice an id, are 32 bits wide, and the largest arrays hold some 134 million particles.
 const MOST_BUNDLES: usize = 100_000_000;
 
 impl LoadParameters {

@@ -1,4 +1,4 @@
-//! The bundles: structure of arrays, one entry a particle, in memory order (see `order`). What leaves the core is in id
+//! The bundles: structure of arrays, one entry a particle, in memory order (see `engine::memory_order`). What leaves the core is in id
 //! order.
 
 use std::f64::consts::PI;
@@ -57,7 +57,7 @@ impl Particles {
         }
     }
 
-    /// Number of particles. (While an engine does steps, the arrays that move have a few places more.)
+    /// Number of particles.
     pub fn len(&self) -> usize {
         self.ids.len()
     }
@@ -87,7 +87,7 @@ impl Particles {
 
     /// One of the vectors above in id order.
     pub fn by_id<T: Copy>(&self, values: &[T]) -> Vec<T> {
-        let mut sorted = values[..self.len()].to_vec();
+        let mut sorted = values.to_vec();
         for (&id, &value) in self.ids.iter().zip(values) {
             sorted[id as usize] = value;
         }

@@ -29,12 +29,16 @@ pub trait Scalar:
     /// The same number everywhere.
     fn splat(value: f64) -> Self;
     /// Square root.
+    #[must_use]
     fn sqrt(self) -> Self;
     /// Magnitude.
+    #[must_use]
     fn abs(self) -> Self;
     /// The larger of two; `other` where they are equal or either is not a number.
+    #[must_use]
     fn larger(self, other: Self) -> Self;
     /// The smaller of two; `other` where they are equal or either is not a number.
+    #[must_use]
     fn smaller(self, other: Self) -> Self;
     /// Where this is greater than `other`.
     fn exceeds(self, other: Self) -> Self::Mask;
@@ -43,6 +47,7 @@ pub trait Scalar:
     /// `yes` where the mask holds, `no` elsewhere.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
     /// This where the mask holds, 0 elsewhere.
+    #[must_use]
     fn within(self, mask: Self::Mask) -> Self;
     /// Whether a mask holds anywhere.
     fn any(mask: Self::Mask) -> bool;
@@ -54,6 +59,7 @@ pub trait Scalar:
     }
 
     /// The number closest to this one within ±`limit`; `limit` is not negative.
+    #[must_use]
     #[inline(always)]
     fn clamped(self, limit: Self) -> Self {
         self.larger(-limit).smaller(limit)

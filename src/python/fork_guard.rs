@@ -1,7 +1,7 @@
 //! The guard at the door of every simulation, which a fork closes.
 //!
 //! A forked child has only the thread that forked: a lock that another thread held would stay locked in it for ever. So
-//! Python closes the guard before a fork, which waits until nobody has entered (a slice of a run at most), and opens it
+//! Python closes the guard before a fork, which waits until no thread has entered (a slice of a run at most), and opens it
 //! afterwards in both processes. Atomics only: the guard itself must not be locked at the moment of a fork.
 
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};

@@ -72,6 +72,6 @@ fn time_step(config: &SimulationConfig, table: &SpeciesTable, particles: &Partic
 
 /// Shortest collision times [s]: (between bundles, with the drum).
 pub(super) fn collision_times(table: &SpeciesTable, particles: &Particles) -> (f64, f64) {
-    let lightest = particles.masses.iter().copied().fold(f64::INFINITY, f64::min);
-    table.collision_times(lightest)
+    let least = |values: &[f64]| values.iter().copied().fold(f64::INFINITY, f64::min);
+    table.collision_times((least(&particles.masses), least(&particles.radii)))
 }

@@ -66,8 +66,8 @@ impl Simulation {
         let clear = drum.clear_radius() * drum.clear_radius();
         let is_near = |&place: &usize| particles.positions[place].norm_squared() >= clear;
         let inside = |place: usize| drum.solid_at(rotation.apply_inverse(particles.positions[place]));
-        let near = (0..particles.len()).filter(is_near);
-        match near.filter_map(|place| Some((place, inside(place)?))).next() {
+        let mut near = (0..particles.len()).filter(is_near);
+        match near.find_map(|place| Some((place, inside(place)?))) {
             Some((place, surface)) => {
                 Err(Error::Escaped { incident: self.incident(place), surface: drum.surface_name(surface) })
             }

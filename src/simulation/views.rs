@@ -10,6 +10,12 @@ use crate::io::config::SimulationConfig;
 use crate::physics::drum::Drum;
 
 impl Simulation {
+    /// Makes near lists for so many steps from now on, 32 unless told otherwise. No result depends on it, which is what this is
+    /// for to test.
+    pub fn set_near_steps(&mut self, steps: u32) {
+        self.engine.set_near_steps(steps);
+    }
+
     /// Time [s]: steps × time step.
     pub fn time(&self) -> f64 {
         self.time_at(self.state.step)

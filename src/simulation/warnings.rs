@@ -5,7 +5,7 @@ use std::fmt;
 use super::Simulation;
 use crate::physics::contact::law::BodyPair;
 use crate::physics::contact::linear::{collision_time, damping_ratio, undamped_collision_time};
-use crate::physics::contact::parameters::{ContactParameters, Tension};
+use crate::physics::contact::parameters::{Base, ContactParameters, Tension};
 use crate::physics::particles::Particles;
 
 /// How many times shorter than without damping "auto" may make the time step unsaid.
@@ -69,7 +69,7 @@ impl fmt::Display for Warning {
     }
 }
 
-/// A contact that there may be: who, by which table.
+/// A contact that there may be: its bodies, and the table that is theirs.
 struct Encounter<'a> {
     bodies: String,
     key: String,
@@ -87,6 +87,10 @@ impl Simulation {
     /// What a user should know before this simulation runs.
     pub fn warnings(&self) -> Vec<Warning> {
         let encounters = self.lightest_encounters();
+        if self.derived.table.base() == Base::Hertz {
+            // Its damping follows from a restitution, and has no critical value that the overlap does not change.
+            return Vec::new();
+        }
         let (pairs, walls) = &encounters;
         let overdamped = [pairs, walls].into_iter().filter_map(|encounters| overdamped(encounters));
         let all = || pairs.iter().chain(walls);

@@ -6,7 +6,7 @@ use drumrs::io::config::{ContactTables, LoadParameters, RunParameters, Simulatio
 use drumrs::observe::summary::summarize;
 use drumrs::physics::contact::law::{BodyPair, ContactLaw};
 use drumrs::physics::contact::linear::{Linear, LinearHistory, LinearLaw};
-use drumrs::physics::contact::parameters::{ContactParameters, Tension};
+use drumrs::physics::contact::parameters::{Base, ContactParameters, Tension};
 use drumrs::physics::contact::{ContactState, Kinematics, RelativeMotion, Response};
 use drumrs::physics::drum::DrumParameters;
 use drumrs::physics::drum::baffle::{BaffleParameters, BaffleShape};
@@ -28,8 +28,11 @@ pub fn mass() -> f64 {
 
 pub fn law(normal_stiffness: f64) -> ContactParameters {
     ContactParameters {
+        base: Base::Linear,
         normal_stiffness,
         stiffness_ratio: 1.0,
+        young_modulus: None,
+        poisson_ratio: 0.3,
         restitution: Some(0.1),
         normal_damping: None,
         friction: 0.5,
@@ -42,7 +45,8 @@ pub fn law(normal_stiffness: f64) -> ContactParameters {
 
 /// The linear law between two bundles of Table 1.
 pub fn linear_law(parameters: &ContactParameters) -> LinearLaw<f64> {
-    let bodies = BodyPair { effective_mass: 0.5 * mass(), effective_radius: 0.5 * RADIUS };
+    let bodies =
+        BodyPair { effective_mass: 0.5 * mass(), effective_radius: 0.5 * RADIUS, layer: 2.0 * RADIUS };
     Linear::<true>::between(parameters, bodies)
 }
 

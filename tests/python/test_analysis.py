@@ -291,6 +291,13 @@ def test_what_counts_as_drifting(change, drifts):
     assert made_up_statistics(**change)["drifting"] is drifts
 
 
+def test_what_terms_take_counts_as_loss():
+    # The share of normal damping falls only because rolling takes ever more.
+    growing = np.linspace(0.0, 9.0, 1000)
+    assert made_up_statistics(dissipated_rolling=growing)["share_drift"] < -0.01
+    assert made_up_statistics(dissipated_rolling=growing)["dissipation_ratio"] == pytest.approx(2.0, rel=1e-3)
+
+
 def test_statistics_without_friction():
     columns = made_up_statistics(dissipated_sliding=0.0 * np.ones(1000), work_tangential=0.0)
     assert columns["drifting"] is False

@@ -72,6 +72,15 @@ def test_time_series_is_written(rows, tmp_path):
     assert (tmp_path / "series.png").stat().st_size > 1000
 
 
+def test_time_series_shows_the_terms_that_act():
+    plain = series(50)
+    terms = ("dissipated_tangential", "dissipated_rolling", "elastic_rolling")
+    acting = plain.with_columns(*(plain["time"].alias(name) for name in terms), adhesion=-plain["time"])
+    for table, more in ((plain, [0, 0]), (acting, [2, 1])):
+        power, energies = figures.time_series(table).axes[:2]
+        assert [len(power.lines) - 3, len(energies.lines) - 3] == more
+
+
 def test_means_of_power_are_exact():
     time = 0.01 * np.arange(301)
     _, power = history.mean_rate(time, 7.0 * time, 1.0)

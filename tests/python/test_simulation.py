@@ -2,6 +2,7 @@
 
 import math
 import pickle
+import re
 import signal
 import subprocess
 import sys
@@ -295,3 +296,64 @@ def test_summary_is_consistent(short):
     # Frames fall on whole steps, so that the last may fall just beyond the end.
     assert len(result.frames) in {6, 7}
     assert len(result.frames.baffles) == 3
+
+
+def test_terms_have_columns_and_meanings():
+    changes = {"rolling_friction": 0.2, "tangential_damping_ratio": 0.3, "adhesion": 2.0}
+    keys = {f"contact.{side}.{key}": value for side in ("bundle", "drum") for key, value in changes.items()}
+    config = drumrs.baseline(0.1).replace({"load.start_speed": 1.0, **keys})
+    simulation = drumrs.Simulation(config, seed=3)
+    simulation.run(0.2)
+    listed = drumrs.quantities()
+    for name, meaning in {
+        "dissipated_tangential": "energy taken by tangential dashpots since t = 0",
+        "dissipated_rolling": "energy taken by rolling since t = 0",
+        "elastic_rolling": "energy held by rolling springs",
+        "adhesion": "energy of adhesion, below zero while bodies touch",
+    }.items():
+        assert (listed[name].unit, listed[name].meaning) == ("J/m", meaning)
+        assert simulation.series[name].abs().max() > 0.0, name
+    assert simulation.series["adhesion"].max() <= 0.0
+    assert simulation.series["energy_residual"].max() < 1e-11
+
+
+HERTZ = {
+    "contact.base": "hertz",
+    "contact.bundle.young_modulus": 1e8,
+    "contact.drum.young_modulus": 1e8,
+    "run.time_step": "auto",
+}
+
+
+def test_hertz_keeps_its_accounts():
+    simulation = drumrs.Simulation(drumrs.baseline(0.1).replace({**HERTZ, "load.start_speed": 1.0}), seed=3)
+    simulation.run(0.2)
+    assert simulation.series["dissipated_normal"][-1] > 0.0
+    assert simulation.series["energy_residual"].max() < 1e-11
+
+
+@pytest.mark.parametrize(
+    ("changes", "sentence"),
+    [
+        ({"contact.base": "linear"}, "contact.bundle.young_modulus is 100000000, but must be missing where"),
+        (
+            {"contact.drum.young_modulus": None},
+            "contact.drum.young_modulus is missing, but must be given where",
+        ),
+        ({"contact.drum.rolling_friction": 0.1}, "contact.drum.rolling_friction is 0.1, but must be 0 where"),
+        (
+            {"contact.bundle.normal_damping": 5.0},
+            "contact.bundle.normal_damping is 5, but must be missing where",
+        ),
+        ({"contact.base": "jkr"}, "contact.base is 'jkr', but must be 'linear' or 'hertz'"),
+        ({"contact.drum.poisson_ratio": 0.6}, "contact.drum.poisson_ratio is 0.6, but must be at least 0"),
+    ],
+)
+def test_what_does_not_go_with_hertz_is_refused(changes, sentence):
+    with pytest.raises(drumrs.ConfigError, match=f"^{re.escape(sentence)}"):
+        drumrs.Simulation(drumrs.baseline(0.1).replace(HERTZ).replace(changes))
+
+
+def test_softer_springs_are_linear():
+    with pytest.raises(drumrs.ConfigError, match=r"^contact\.base is 'hertz', but must be 'linear'"):
+        drumrs.baseline().replace(HERTZ).softer(10.0)

@@ -80,7 +80,21 @@ WRONG_LAWS = {
         {"contact.bundle.restitution": 0.98, "contact.drum.restitution": 0.98},
         ["restitution-sweep", "normal-dissipation", "restitution-order"],
     ),
-    "tangential stiffness": ({"contact.drum.stiffness_ratio": 1.01}, ["equal-periods"]),
+    "tangential stiffness": ({"contact.drum.stiffness_ratio": 1.01}, ["equal-periods", "stuck-swing"]),
+    "rolling friction": (
+        {"contact.drum.rolling_friction": 1.02},
+        ["rolling-stop", "rolling-incline", "rolling-in-a-drum", "pressed-by-adhesion"],
+    ),
+    "tangential damping": (
+        {"contact.bundle.tangential_damping_ratio": 1.02, "contact.drum.tangential_damping_ratio": 1.02},
+        ["tangential-decrement", "tangential-restitution"],
+    ),
+    "adhesion": (
+        {"contact.drum.adhesion": 1.02},
+        ["hanging", "over-the-top", "adhesive-impact", "capture", "pressed-by-adhesion"],
+    ),
+    "modulus": ({"contact.drum.young_modulus": 1.01}, ["hertz-impact"]),
+    "restitution of spheres": ({"contact.drum.restitution": 0.98}, ["hertz-restitution"]),
     "speed": ({"rotation.rpm": 1.001}, ["free-disc"]),
 }
 

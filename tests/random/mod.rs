@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use drumrs::io::config::{ContactTables, LoadParameters, RunParameters, SimulationConfig};
-use drumrs::physics::contact::parameters::{ContactParameters, Tension};
+use drumrs::physics::contact::parameters::{Base, ContactParameters, Tension};
 use drumrs::physics::contact::species::SpeciesTable;
 use drumrs::physics::drum::DrumParameters;
 use drumrs::physics::drum::baffle::{BaffleParameters, BaffleShape};
@@ -124,7 +124,8 @@ fn put_together(draw: &Draw, mut baffles: BaffleParameters, mut walls: Vec<Vec<[
         pairs: Vec::new(),
         walls: Vec::new(),
     };
-    let (pairs, rim) = SpeciesTable::new(1, &contact.bundle, &contact.drum).collision_times(mass);
+    let (pairs, rim) =
+        SpeciesTable::new(1, &contact.bundle, &contact.drum).collision_times((mass, 0.5 * diameter));
     let time_step = pairs.min(rim) / draw.steps_a_collision;
     // Knots all over the run's 2 000 steps, the last beyond them.
     let knot = |(index, speed): (usize, &f64)| [500.0 * index as f64 * time_step, speed * natural / radius];
@@ -158,7 +159,10 @@ fn parameters(law: &Law, hardness: f64, mass: f64, speed: f64, diameter: f64) ->
     let normal_stiffness = hardness * mass * (speed / diameter) * (speed / diameter);
     let critical = 2.0 * (normal_stiffness * mass).sqrt();
     ContactParameters {
+        base: Base::Linear,
         normal_stiffness,
+        young_modulus: None,
+        poisson_ratio: 0.3,
         stiffness_ratio: law.stiffness_ratio,
         restitution: law.loss.ok(),
         normal_damping: law.loss.err().map(|ratio| ratio * critical),

@@ -6,6 +6,7 @@ import numpy as np
 
 from drumrs.analysis.blocks import Mean, Stretch, block_error, rate_with_error, ratio_with_error
 from drumrs.analysis.drift import FALSE_ALARMS, drift, ratio_drift, wandering
+from drumrs.energies import losses
 
 if TYPE_CHECKING:
     import polars as pl
@@ -83,10 +84,11 @@ def statistics(
 
 def _steadiness(series: "pl.DataFrame", window: tuple[float, float]) -> dict[str, float | bool | None]:
     # A share, not a ratio: it means as much near 0 as near 1.
-    both = series.with_columns((series[_LOSSES[0]] + series[_LOSSES[1]]).alias("dissipated"))
+    taken = series.select(losses(series.columns)).sum_horizontal().alias("dissipated")
+    whole = series.with_columns(taken)
     share = (_LOSSES[0], "dissipated", window)
-    mean, power = ratio_with_error(both, *share), drift(series, window)
-    share_drift, passing = ratio_drift(both, *share), wandering(both, *share)
+    mean, power = ratio_with_error(whole, *share), drift(series, window)
+    share_drift, passing = ratio_drift(whole, *share), wandering(whole, *share)
     changes = {
         "drift": (power.change, power.significance) if power else None,
         "share_drift": (share_drift.change * mean.value, share_drift.significance)

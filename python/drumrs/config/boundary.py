@@ -4,7 +4,7 @@ import math
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from drumrs.config.models import Contact, Drum, Rotation, Run
+    from drumrs.config.models import Contact, Drum, LinearContact, Rotation, Run
     from drumrs.config.root import Config
 
 
@@ -30,12 +30,16 @@ def _drum(drum: "Drum") -> dict[str, Any]:
 
 
 def _contact(contact: "Contact") -> dict[str, Any]:
+
+    def table(law: "LinearContact") -> dict[str, Any]:
+        return {"base": contact.base, **law.model_dump()}
+
     return {
-        "bundle": contact.bundle.model_dump(),
-        "drum": contact.drum.model_dump(),
+        "bundle": table(contact.bundle),
+        "drum": table(contact.drum),
         "species": contact.species,
-        "pairs": [(*law.between, law.over(contact.bundle).model_dump()) for law in contact.pairs],
-        "walls": [(law.species, law.over(contact.drum).model_dump()) for law in contact.walls],
+        "pairs": [(*law.between, table(law.over(contact.bundle))) for law in contact.pairs],
+        "walls": [(law.species, table(law.over(contact.drum))) for law in contact.walls],
     }
 
 

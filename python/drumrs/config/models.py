@@ -13,6 +13,7 @@ from drumrs.config.report import relation, show
 
 Shape = Annotated[Literal["triangle", "trapezoid", "polygon"], Limit("'triangle', 'trapezoid' or 'polygon'")]
 Tension = Annotated[Literal["allowed", "clipped"], Limit("'allowed' or 'clipped'")]
+Base = Annotated[Literal["linear", "hertz"], Limit("'linear' or 'hertz'")]
 TimeStep = Annotated[Literal["auto"] | Positive, Limit("'auto' or a positive finite number")]
 Skin = Annotated[Literal["auto"] | NonNegative, Limit("'auto' or a finite number of at least 0")]
 
@@ -103,12 +104,20 @@ class Load(Part):
 
 
 class LinearContact(Part):
-    """A linear spring and dashpot with a tangential spring that Coulomb friction cuts off."""
+    """A linear spring and dashpot with a tangential spring that Coulomb friction cuts off, and terms beside them."""
 
     pair: ClassVar[tuple[str, str] | None] = ("restitution", "normal_damping")
 
-    normal_stiffness: Positive = Field(description="Stiffness of the normal spring [N/m].")
-    stiffness_ratio: Positive = _key(1.0, "Tangential stiffness over normal stiffness")
+    normal_stiffness: Positive = Field(
+        description="Stiffness of the normal spring [N/m]; it does not count where contact.base is 'hertz'."
+    )
+    stiffness_ratio: Positive = _key(1.0, "Tangential stiffness over normal stiffness; likewise")
+    young_modulus: Positive | None = _key(
+        None, "Young's modulus of both bodies [Pa], where contact.base is 'hertz'", 1e8
+    )
+    poisson_ratio: fields.PoissonRatio = _key(
+        0.3, "Poisson's ratio of both bodies, where contact.base is 'hertz'"
+    )
     restitution: fields.Restitution | None = _key(
         None, "Coefficient of restitution; the damping follows from it", 0.1
     )
@@ -118,12 +127,18 @@ class LinearContact(Part):
     friction: NonNegative = _key(0.5, "Coefficient of friction")
     tension: Tension = _key("allowed", "Whether the dashpot may pull: 'allowed' (the paper) or 'clipped'")
     rolling_friction: NonNegative = _key(
-        0.0, "Coefficient of rolling friction: a rotational spring that yields at it; 0 for none"
+        0.0,
+        "Coefficient of rolling friction μ_r: a rotational spring that yields where its moment is μ_r times "
+        "normal force and radius; 0 for none",
     )
     tangential_damping_ratio: NonNegative = _key(
-        0.0, "Damping ratio of a dashpot beside the tangential spring; 0 for none"
+        0.0,
+        "Damping ratio of a dashpot beside the tangential spring, which acts while the contact sticks; 0 for none",
     )
-    adhesion: NonNegative = _key(0.0, "Constant pull while bodies touch [N/m of depth]; 0 for none")
+    adhesion: NonNegative = _key(
+        0.0,
+        "Constant pull while bodies touch [N/m of depth]; friction and rolling feel it as pressure; 0 for none",
+    )
 
 
 class _SomeOfContact(Part):
@@ -131,6 +146,8 @@ class _SomeOfContact(Part):
 
     normal_stiffness: Positive | None = None
     stiffness_ratio: Positive | None = None
+    young_modulus: Positive | None = None
+    poisson_ratio: fields.PoissonRatio | None = None
     restitution: fields.Restitution | None = None
     normal_damping: NonNegative | None = None
     friction: NonNegative | None = None
@@ -171,6 +188,10 @@ def _given(values: dict[str, Any]) -> dict[str, Any]:
 class Contact(Part):
     """The contact laws: bundle against bundle, bundle against drum."""
 
+    base: Base = _key(
+        "linear",
+        "Base law of all contacts: 'linear', or 'hertz', Hertz–Mindlin in a layer one disc diameter thick",
+    )
     species: fields.SpeciesCount = _key(
         1, "Number of species; a state tells which bundle is of which, from 0"
     )

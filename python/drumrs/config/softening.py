@@ -25,6 +25,8 @@ def softening(config: "Config", factor: float, name: str = "softer") -> dict[str
     """
     if not 1.0 <= factor < math.inf:
         raise ConfigError(f"{name} is {factor}, but must be a finite number of at least 1")
+    if config.contact.base != "linear":
+        raise ConfigError(f"contact.base is {config.contact.base!r}, but must be 'linear' for softer springs")
     root = math.sqrt(factor)
     changes: dict[str, tuple[float, float]] = {}
     for at, law in _laws(config.contact):

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.figure import Figure
 
+from drumrs.energies import held_by_contacts, shown_losses
 from drumrs.figures.shared import Array, drumrs_style, label_lines
 
 if TYPE_CHECKING:
@@ -61,11 +62,7 @@ def _power(axes: "Axes", columns: dict[str, Array]) -> None:
     long = _averaging_time(time)
     axes.set_title(f"Power of the drum and losses, means over {long:.2g} s [W/m]")
     steady = [0.0]
-    for name, label in (
-        ("work_drum", "drum"),
-        ("dissipated_normal", "normal damping"),
-        ("dissipated_sliding", "sliding"),
-    ):
+    for name, label in {"work_drum": "drum", **shown_losses(columns)}.items():
         middle, power = _thinned(*mean_rate(time, columns[name], long))
         axes.plot(middle, power, label=label)
         steady.extend(power[len(power) // 10 :][np.isfinite(power[len(power) // 10 :])])
@@ -78,12 +75,12 @@ def _power(axes: "Axes", columns: dict[str, Array]) -> None:
 def _energies(axes: "Axes", columns: dict[str, Array]) -> None:
     axes.set_title("Energy stored [J/m]")
     axes.set_yscale("log")
-    elastic = columns["elastic_normal"] + columns["elastic_tangential"]
-    for values, label in (
-        (columns["kinetic_translation"], "translation"),
-        (columns["kinetic_rotation"], "rotation"),
-        (elastic, "contacts"),
-    ):
+    stored = {
+        "translation": columns["kinetic_translation"],
+        "rotation": columns["kinetic_rotation"],
+        **held_by_contacts(columns),
+    }
+    for label, values in stored.items():
         time, smooth = _thinned(columns["time"], values)
         axes.plot(time, np.where(smooth > 0.0, smooth, np.nan), label=label)
 

@@ -18,8 +18,24 @@ Array = NDArray[np.float64]
 
 # Bundles of a tenth of the drum's diameter: a whole drum of little work.
 _LARGE = {"load.diameter": 0.0475, "run.time_step": 2.0 * TIME_STEP}
-_STORED = ("kinetic_translation", "kinetic_rotation", "gravitational", "elastic_normal", "elastic_tangential")
-_LOST = ("dissipated_normal", "dissipated_sliding", "numerical")
+# What is stored, and where energy goes.
+_STORED = (
+    "kinetic_translation",
+    "kinetic_rotation",
+    "gravitational",
+    "elastic_normal",
+    "elastic_tangential",
+    "elastic_rolling",
+    "adhesion",
+)
+_LOST = (
+    "dissipated_normal",
+    "dissipated_sliding",
+    "dissipated_tangential",
+    "dissipated_rolling",
+    "numerical",
+)
+_TERMS = {"rolling_friction": 0.2, "tangential_damping_ratio": 0.3, "adhesion": 4.0}
 
 
 def _worlds() -> dict[str, Config]:
@@ -38,6 +54,9 @@ def _worlds() -> dict[str, Config]:
         "wash program": world({"rotation.program": program}, 0.4, baffles=True),
         "coarse step": world({"run.time_step": 3e-5}, baffles=True),
         "spins locked": world({"load.spin_locked": True}, baffles=True),
+        "all terms": world(
+            {k: v for term in _TERMS.items() for k, v in scenes.both(*term).items()}, baffles=True
+        ),
     }
 
 

@@ -4,7 +4,19 @@ from collections.abc import Sequence
 from types import MappingProxyType
 
 from drumrs.errors import ConfigError
-from drumrs.verification import balances, bodies, friction, impacts, promises, rotation, sliding
+from drumrs.verification import (
+    adhesion,
+    balances,
+    bodies,
+    friction,
+    hertz,
+    impacts,
+    promises,
+    rolling,
+    rotation,
+    sliding,
+    sticking,
+)
 from drumrs.verification.case import Case
 
 FAMILIES = MappingProxyType(
@@ -13,6 +25,10 @@ FAMILIES = MappingProxyType(
         "The eight impact tests of Chung & Ooi": bodies.CASES,
         "Friction and rolling": friction.CASES,
         "In a turning drum": rotation.CASES,
+        "Rolling resistance": rolling.CASES,
+        "Tangential dashpot": sticking.CASES,
+        "Adhesion": adhesion.CASES,
+        "Hertz–Mindlin": hertz.CASES,
         "Balances of a whole drum": balances.CASES,
         "Promises": promises.CASES,
     }

@@ -22,12 +22,12 @@ _SWING = math.sqrt(3.0) * WALL_FREQUENCY
 _STEP = 1e-5
 
 
-def _resting(weight: float) -> float:
+def resting(weight: float) -> float:
     """Return the gap of a disc that rests on the floor [m]: minus its overlap."""
     return -weight / scenes.WALL_STIFFNESS
 
 
-def _at_rest(height: ArrayLike, stiffness: ArrayLike, damping: ArrayLike, step: float) -> Array:
+def at_rest(height: ArrayLike, stiffness: ArrayLike, damping: ArrayLike, step: float) -> Array:
     """Return the force by which a contact at a height may be wrong at rest [N/m], see `stack`."""
     return np.asarray(
         theory.EPSILON * np.asarray(height) * (np.asarray(stiffness) + np.asarray(damping) / step)
@@ -52,7 +52,7 @@ def slip_to_roll() -> Evidence:
     config = scenes.floor(
         {"run.time_step": _STEP, "gravity": (0.0, -GRAVITY), "contact.drum.friction": friction}
     )
-    state = scenes.on_the_floor([speed, 0.0], _resting(MASS * GRAVITY))
+    state = scenes.on_the_floor([speed, 0.0], resting(MASS * GRAVITY))
     samples = 30
     run = scenes.after(config, state, 2.0 * to_roll, samples=samples)
     series = run.series
@@ -71,18 +71,18 @@ def slip_to_roll() -> Evidence:
     stored = (
         series["elastic_tangential"].to_numpy()[1 : samples // 3] * 2.0 * scenes.WALL_STIFFNESS / force**2
     )
-    found += checks("stored / ((μ m g)²/2 kₛ) at sample {}", "1", 1.0, stored, 2.0 * _of_the_weight(speed))
+    found += checks("stored / ((μ m g)²/2 kₛ) at sample {}", "1", 1.0, stored, 2.0 * of_the_weight(speed))
     fine = np.linspace(0.0, 2.0, 200)
     curve = (fine, np.maximum(1.0 - fine / 3.0, 2.0 / 3.0))
     trace = Trace("", times / to_roll, speeds / speed, curve)
     return Evidence(tuple(found), Panel("t / (u₀/3 μ g)", "u / u₀", (trace,)))
 
 
-def _of_the_weight(speed: float) -> float:
+def of_the_weight(speed: float) -> float:
     """Return the part of its weight by which the floor's force on a sliding disc may be wrong, for round-off."""
     damping = 2.0 * theory.damping_ratio(0.1) * math.sqrt(scenes.WALL_STIFFNESS * MASS)
     tilted = damping * speed * theory.EPSILON * scenes.FLOOR / RADIUS
-    return (float(_at_rest(RADIUS, scenes.WALL_STIFFNESS, damping, _STEP)) + tilted) / (MASS * GRAVITY)
+    return (float(at_rest(RADIUS, scenes.WALL_STIFFNESS, damping, _STEP)) + tilted) / (MASS * GRAVITY)
 
 
 @case("incline", source="derived", formula="a = ⅔ g sin α where μ ≥ ⅓ tan α, else g (sin α − μ cos α)")
@@ -117,7 +117,7 @@ def _acceleration(slope: float, friction: float, time: float) -> float:
     """Return the mean acceleration from rest over g."""
     pull = (GRAVITY * math.sin(slope), -GRAVITY * math.cos(slope))
     config = scenes.floor({"run.time_step": _STEP, "gravity": pull, "contact.drum.friction": friction})
-    state = scenes.on_the_floor([0.0, 0.0], _resting(MASS * GRAVITY * math.cos(slope)))
+    state = scenes.on_the_floor([0.0, 0.0], resting(MASS * GRAVITY * math.cos(slope)))
     run = scenes.after(config, state, time)
     return float(run.velocities[0, 0]) / run.time / GRAVITY
 
@@ -140,7 +140,7 @@ def stack() -> Evidence:
     carried = (count - np.arange(count)) * MASS * GRAVITY
     masses = np.where(np.arange(count) == 0, MASS, MASS / 2.0)
     damping = 2.0 * theory.damping_ratio(0.1) * np.sqrt(stiffness * masses)
-    allowed = _at_rest(places, stiffness, damping, TIME_STEP)
+    allowed = at_rest(places, stiffness, damping, TIME_STEP)
     levels = [f"k δ/m g at level {k}" for k in range(1, count + 1)]
     weight = MASS * GRAVITY
     found = checks_at(levels, carried / weight, overlaps * stiffness / weight, allowed / weight)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from drumrs.energies import held_by_contacts, shown_losses
 from drumrs.frames import Frames
 
 if TYPE_CHECKING:
@@ -68,10 +69,10 @@ def _fastest(frames: Frames) -> Array:
 
 
 def _power(columns: dict[str, Array]) -> Panel:
-    named = {"drum": "work_drum", "damping": "dissipated_normal", "sliding": "dissipated_sliding"}
+    named = {"work_drum": "drum", **shown_losses(columns)}
     middle, interval = _moments(columns["time"], 0.5)
     lines = [
-        Line(name, _mean_rate(columns["time"], columns[key], middle, interval)) for name, key in named.items()
+        Line(name, _mean_rate(columns["time"], columns[key], middle, interval)) for key, name in named.items()
     ]
     return Panel(f"Power, means over {interval:.2g} s", "W/m", middle, lines, _limits(lines))
 
@@ -81,7 +82,7 @@ def _energies(columns: dict[str, Array]) -> Panel:
     named = {
         "translation": columns["kinetic_translation"],
         "rotation": columns["kinetic_rotation"],
-        "contacts": columns["elastic_normal"] + columns["elastic_tangential"],
+        **held_by_contacts(columns),
     }
     middle, interval = _moments(times, 0.1)
     lines = [

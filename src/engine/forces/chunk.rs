@@ -39,9 +39,8 @@ impl<L: ContactLaw> ChunkContacts<L> {
     /// None yet, for chunk `index` of `count` particles, which are equal in what contacts follow from or not.
     pub fn new(index: usize, count: usize, bodies: &super::Bodies, are_equal: bool) -> Self {
         let first = (index * CHUNK) as u32;
-        let parameters = |same: &dyn Fn() -> _| match are_equal {
-            true => ListParameters::Same(same()),
-            false => ListParameters::Each(Vec::new()),
+        let parameters = |same: &dyn Fn() -> _| {
+            if are_equal { ListParameters::Same(same()) } else { ListParameters::Each(Vec::new()) }
         };
         let walls = || parameters(&|| bodies.wall::<L>(0));
         Self {

@@ -21,7 +21,7 @@ use crate::engine::parallel::{CHUNK, Chunked, Threads, chunk_count};
 use crate::physics::columns::Columns;
 use crate::physics::contact::Stored;
 use crate::physics::contact::law::ContactLaw;
-use crate::physics::contact::model::{BareLaw, ClippedLaw, FullLaw, Model};
+use crate::physics::contact::model::{ForLaw, Model};
 use crate::physics::energy::SurfaceLoad;
 
 /// Contacts of pairs, and of particles with the drum, each in the order of their lists.
@@ -93,10 +93,19 @@ pub trait ForcePass: Debug + Send + Sync {
 
 /// A pass for these particles, with the law that they need.
 pub fn new_pass(model: Model, surfaces: usize, bodies: &Bodies) -> Box<dyn ForcePass> {
-    match model {
-        Model::Bare => Box::new(Pass::<BareLaw>::new(surfaces, bodies)),
-        Model::Clipped => Box::new(Pass::<ClippedLaw>::new(surfaces, bodies)),
-        Model::Full => Box::new(Pass::<FullLaw>::new(surfaces, bodies)),
+    model.make(NewPass { surfaces, bodies })
+}
+
+struct NewPass<'a> {
+    surfaces: usize,
+    bodies: &'a Bodies<'a>,
+}
+
+impl ForLaw for NewPass<'_> {
+    type Made = Box<dyn ForcePass>;
+
+    fn make<L: ContactLaw>(self) -> Self::Made {
+        Box::new(Pass::<L>::new(self.surfaces, self.bodies))
     }
 }
 

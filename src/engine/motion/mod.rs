@@ -29,11 +29,17 @@ pub fn at_offset(offset: u32) -> u32 {
 /// The moving part of the particles, flat.
 #[derive(Debug)]
 pub struct MotionArrays<'a> {
+    /// Centers [m].
     pub position: &'a mut [[f64; 2]],
+    /// Velocities [m/s].
     pub velocity: &'a mut [[f64; 2]],
+    /// Angles [rad].
     pub angle: &'a mut [f64],
+    /// Angular velocities [rad/s].
     pub angular_velocity: &'a mut [f64],
+    /// Forces [N/m].
     pub force: &'a mut [[f64; 2]],
+    /// Torques [N m/m].
     pub torque: &'a mut [f64],
 }
 
@@ -75,7 +81,7 @@ impl<'a> MotionArrays<'a> {
 }
 
 /// The moving part of a load, in arrays whose length the compiler knows, so that masked indices need not be compared with
-/// it. The textbook compares every one; here some 50 instructions of 290 for a block of contacts are saved.
+/// it. The textbook compares every one; here some 30 instructions of 290 for a block of contacts are saved.
 ///
 /// `N` numbers hold the vectors of `H` particles; `M` is N + 1. The arrays are longer than most loads: memory that is not used
 /// is not touched.

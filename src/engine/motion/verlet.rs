@@ -35,18 +35,18 @@ pub struct Verlet {
     time_step: f64,
     /// The velocity that gravity gives in half a step [m/s].
     half_gravity: [f64; 2],
-    inertias: Vec<Inertia>,
+    inertias: Vec<BodyConstants>,
     are_equal: bool,
 }
 
 /// The constants of one particle.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-struct Inertia {
+struct BodyConstants {
     mass: f64,
     /// Half a step over the mass.
-    per_mass: f64,
+    half_per_mass: f64,
     /// Half a step over the moment of inertia; 0 where the spin is locked.
-    per_inertia: f64,
+    half_per_inertia: f64,
 }
 
 impl Verlet {
@@ -54,10 +54,10 @@ impl Verlet {
     pub fn new(particles: &Particles, time_step: f64, gravity: Vec2) -> Self {
         let half = 0.5 * time_step;
         let per = |value: f64| if value > 0.0 { half / value } else { 0.0 };
-        let inertia = |(&mass, &inertia): (&f64, &f64)| Inertia {
+        let inertia = |(&mass, &inertia): (&f64, &f64)| BodyConstants {
             mass,
-            per_mass: per(mass),
-            per_inertia: per(inertia),
+            half_per_mass: per(mass),
+            half_per_inertia: per(inertia),
         };
         let mut inertias: Vec<_> = particles.masses.iter().zip(&particles.inertias).map(inertia).collect();
         let are_equal = inertias.windows(2).all(|two| two[0] == two[1]);
@@ -76,7 +76,7 @@ impl Verlet {
         }
     }
 
-    fn run<const PART: Part>(&self, inertia: &impl Inertias, arrays: MotionArrays) -> DriftSums {
+    fn run<const PART: Part>(&self, inertia: &impl EachBody, arrays: MotionArrays) -> DriftSums {
         let MotionArrays { position, velocity, angle, angular_velocity, force, torque } = arrays;
         let (count, quads) = (position.len(), position.len() / LANES);
         let mut sums = LaneSums::default();
@@ -94,9 +94,9 @@ impl Verlet {
                 let (position, velocity, force) =
                     (&mut position[quad], &mut velocity[quad], &mut force[quad]);
                 let rows = [0, LANES].map(|row| {
-                    let per_mass = inertia.per_mass(quad, row / LANES);
+                    let half_per_mass = inertia.half_per_mass(quad, row / LANES);
                     let [f, v, x] = [&*force, velocity, position].map(|values| F64x4::new(from(values, row)));
-                    let kick = f * per_mass + gravity;
+                    let kick = f * half_per_mass + gravity;
                     let (x, v) = kick_and_drift::<_, PART>(x, v, kick, step);
                     put(velocity, row, v);
                     if PART & START != 0 {
@@ -106,7 +106,7 @@ impl Verlet {
                     (kick, x)
                 });
                 sums.add(rows, inertia, quad);
-                let kick = F64x4::new(torque[quad]) * inertia.per_inertia(quad);
+                let kick = F64x4::new(torque[quad]) * inertia.half_per_inertia(quad);
                 let (a, w) =
                     kick_and_drift::<_, PART>(F64x4::new(angle[quad]), F64x4::new(spin[quad]), kick, step);
                 spin[quad] = w.to_array();
@@ -119,10 +119,10 @@ impl Verlet {
         let mut total = sums.total(inertia, self.time_step);
         // Those after the last whole quad, one by one.
         for k in LANES * quads..count {
-            let Inertia { mass, per_mass, per_inertia } = inertia.of(k);
+            let BodyConstants { mass, half_per_mass, half_per_inertia } = inertia.of(k);
             let mut squared_kick = 0.0;
             for axis in 0..2 {
-                let kick = force[k][axis] * per_mass + self.half_gravity[axis];
+                let kick = force[k][axis] * half_per_mass + self.half_gravity[axis];
                 squared_kick += kick * kick;
                 let (x, v) =
                     kick_and_drift::<_, PART>(position[k][axis], velocity[k][axis], kick, self.time_step);
@@ -130,7 +130,7 @@ impl Verlet {
                 total.mass_moment[axis] += mass * x;
             }
             total.change = total.change.max(2.0 * self.time_step * squared_kick.sqrt());
-            let kick = torque[k] * per_inertia;
+            let kick = torque[k] * half_per_inertia;
             let (a, w) = kick_and_drift::<_, PART>(angle[k], angular_velocity[k], kick, self.time_step);
             (angle[k], angular_velocity[k]) = (a, w);
             if PART & START != 0 {
@@ -161,12 +161,12 @@ fn put(values: &mut [f64; 2 * LANES], start: usize, four: F64x4) {
 }
 
 /// The constants of particles in a row.
-trait Inertias {
+trait EachBody {
     /// Those of one.
-    fn of(&self, particle: usize) -> Inertia;
+    fn of(&self, particle: usize) -> BodyConstants;
     /// Of two particles, for x and y.
-    fn per_mass(&self, quad: usize, row: usize) -> F64x4;
-    fn per_inertia(&self, quad: usize) -> F64x4;
+    fn half_per_mass(&self, quad: usize, row: usize) -> F64x4;
+    fn half_per_inertia(&self, quad: usize) -> F64x4;
     /// Positions (two a row) times masses, where these differ.
     fn weigh(&self, quad: usize, row: usize, position: F64x4) -> F64x4;
     /// The mass where all have the same.
@@ -175,31 +175,32 @@ trait Inertias {
 
 /// Equal particles.
 struct Same {
-    inertia: Inertia,
-    per_mass: F64x4,
-    per_inertia: F64x4,
+    inertia: BodyConstants,
+    half_per_mass: F64x4,
+    half_per_inertia: F64x4,
 }
 
 impl Same {
-    fn new(inertia: Inertia) -> Self {
-        let [per_mass, per_inertia] = [inertia.per_mass, inertia.per_inertia].map(F64x4::splat);
-        Self { inertia, per_mass, per_inertia }
+    fn new(inertia: BodyConstants) -> Self {
+        let [half_per_mass, half_per_inertia] =
+            [inertia.half_per_mass, inertia.half_per_inertia].map(F64x4::splat);
+        Self { inertia, half_per_mass, half_per_inertia }
     }
 }
 
-impl Inertias for Same {
-    fn of(&self, _particle: usize) -> Inertia {
+impl EachBody for Same {
+    fn of(&self, _particle: usize) -> BodyConstants {
         self.inertia
     }
 
     #[inline(always)]
-    fn per_mass(&self, _quad: usize, _row: usize) -> F64x4 {
-        self.per_mass
+    fn half_per_mass(&self, _quad: usize, _row: usize) -> F64x4 {
+        self.half_per_mass
     }
 
     #[inline(always)]
-    fn per_inertia(&self, _quad: usize) -> F64x4 {
-        self.per_inertia
+    fn half_per_inertia(&self, _quad: usize) -> F64x4 {
+        self.half_per_inertia
     }
 
     #[inline(always)]
@@ -213,31 +214,31 @@ impl Inertias for Same {
 }
 
 /// Particles that differ.
-struct Each<'a>(&'a [Inertia]);
+struct Each<'a>(&'a [BodyConstants]);
 
 impl Each<'_> {
     #[inline(always)]
-    fn two(&self, quad: usize, row: usize, value: impl Fn(&Inertia) -> f64) -> F64x4 {
+    fn two(&self, quad: usize, row: usize, value: impl Fn(&BodyConstants) -> f64) -> F64x4 {
         let first = LANES * quad + 2 * row;
         let (a, b) = (value(&self.0[first]), value(&self.0[first + 1]));
         F64x4::new([a, a, b, b])
     }
 }
 
-impl Inertias for Each<'_> {
-    fn of(&self, particle: usize) -> Inertia {
+impl EachBody for Each<'_> {
+    fn of(&self, particle: usize) -> BodyConstants {
         self.0[particle]
     }
 
     #[inline(always)]
-    fn per_mass(&self, quad: usize, row: usize) -> F64x4 {
-        self.two(quad, row, |inertia| inertia.per_mass)
+    fn half_per_mass(&self, quad: usize, row: usize) -> F64x4 {
+        self.two(quad, row, |inertia| inertia.half_per_mass)
     }
 
     #[inline(always)]
-    fn per_inertia(&self, quad: usize) -> F64x4 {
+    fn half_per_inertia(&self, quad: usize) -> F64x4 {
         let four = &self.0[LANES * quad..LANES * quad + LANES];
-        F64x4::new(std::array::from_fn(|lane| four[lane].per_inertia))
+        F64x4::new(std::array::from_fn(|lane| four[lane].half_per_inertia))
     }
 
     #[inline(always)]
@@ -261,7 +262,7 @@ struct LaneSums {
 
 impl LaneSums {
     #[inline(always)]
-    fn add(&mut self, rows: [(F64x4, F64x4); 2], inertia: &impl Inertias, quad: usize) {
+    fn add(&mut self, rows: [(F64x4, F64x4); 2], inertia: &impl EachBody, quad: usize) {
         let [(kick, position), (other_kick, other)] = rows;
         self.moments += inertia.weigh(quad, 0, position);
         self.moments += inertia.weigh(quad, 1, other);
@@ -269,7 +270,7 @@ impl LaneSums {
         self.squared_kick = (squares.x + squares.y).larger(self.squared_kick);
     }
 
-    fn total(&self, inertia: &impl Inertias, time_step: f64) -> DriftSums {
+    fn total(&self, inertia: &impl EachBody, time_step: f64) -> DriftSums {
         let ([a, b, c, d], mass) = (self.moments.to_array(), inertia.mass());
         DriftSums {
             mass_moment: [(a + c) * mass, (b + d) * mass],

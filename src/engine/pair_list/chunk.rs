@@ -59,7 +59,7 @@ impl ChunkNeighbors {
             near_rim: NearList::new(ListKind::Walls, (inside(count), RIM)),
             near_features: NearList::new(ListKind::Walls, (far(count), RIM)),
             watched: Vec::new(),
-            horizon: Horizon::default(),
+            horizon: Horizon::of(STEPS),
             longest_way: f64::INFINITY,
             particles,
         }
@@ -69,7 +69,7 @@ impl ChunkNeighbors {
     #[inline(never)]
     pub fn refresh(&mut self, motion: impl MotionView, inputs: &StepInputs, limits: NearLimits) {
         self.horizon.restart();
-        let time = f64::from(STEPS) * inputs.time.step;
+        let time = f64::from(self.horizon.steps()) * inputs.time.step;
         let reach = Reach {
             radius: inputs.bodies.radius,
             radii: inputs.bodies.radii,

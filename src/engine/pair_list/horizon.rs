@@ -19,8 +19,10 @@ const HEADROOM: f64 = 2.0;
 const DECAY: f64 = 0.5;
 
 /// Until when a near list holds.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy)]
 pub struct Horizon {
+    /// Steps for which a list is made.
+    steps: u32,
     steps_left: u32,
     /// Σ c.
     changes: f64,
@@ -33,6 +35,16 @@ pub struct Horizon {
 }
 
 impl Horizon {
+    /// Of lists that are made for so many steps, at least one; there is none yet.
+    pub fn of(steps: u32) -> Self {
+        Self { steps: steps.max(1), steps_left: 0, changes: 0.0, displaced: 0.0, budget: 0.0, expected: 0.0 }
+    }
+
+    /// Steps for which a list is made.
+    pub fn steps(&self) -> u32 {
+        self.steps
+    }
+
     /// Whether the list has to be made anew.
     #[inline]
     pub fn is_over(&self) -> bool {
@@ -54,11 +66,11 @@ impl Horizon {
 
     /// Begins a list for the next steps.
     pub fn restart(&mut self) {
-        let steps_done = STEPS - self.steps_left.min(STEPS - 1);
+        let steps_done = self.steps - self.steps_left.min(self.steps - 1);
         self.expected = (DECAY * self.expected).max(self.changes / f64::from(steps_done));
-        let steps_of_steps = 0.5 * f64::from(STEPS) * f64::from(STEPS + 1);
+        let steps_of_steps = 0.5 * f64::from(self.steps) * f64::from(self.steps + 1);
         self.budget = 2.0 * HEADROOM * self.expected * steps_of_steps;
-        (self.steps_left, self.changes, self.displaced) = (STEPS, 0.0, 0.0);
+        (self.steps_left, self.changes, self.displaced) = (self.steps, 0.0, 0.0);
     }
 
     /// Ends the list at once.
@@ -79,7 +91,7 @@ mod tests {
     /// Two particles that use all that their changes allow them, in lists made at any moment.
     #[test]
     fn no_pair_comes_closer_than_the_horizon_says() {
-        let mut horizon = Horizon::default();
+        let mut horizon = Horizon::of(STEPS);
         let (mut rate, mut gone, mut lists) = (0.0, 0.0, 0);
         let (mut approach, mut steps) = (0.0, 0);
         for step in 0..4000_i32 {

@@ -13,6 +13,7 @@ mod search;
 
 use cells::CellGrid;
 pub use chunk::{ChunkNeighbors, NearLimits};
+use horizon::Horizon;
 pub use near::{NearBlock, Opened};
 pub use neighbors::Status;
 use search::Search;
@@ -91,7 +92,7 @@ impl PairList {
     /// Whether the list may no longer hold.
     pub fn is_due(&self) -> bool {
         // What is not a number is due, too.
-        !(self.slack > 0.0)
+        self.slack.is_nan() || self.slack <= 0.0
     }
 
     /// Whether the list still holds for sure: no particle has moved half the skin, or close to it.
@@ -107,7 +108,7 @@ impl PairList {
         self.slack > 0.1 * half
     }
 
-    /// Measures how far particles move in a step as seen from the drum; returns the longest way [m] and the particle.
+    /// Measures how far particles move in a step as seen from the drum; returns the longest way [m].
     pub fn measure_ways(&mut self, motion: impl MotionView, inputs: &StepInputs) -> f64 {
         for chunk in &mut self.chunks {
             chunk.longest_way = chunk.measure_way(motion, inputs);
@@ -129,9 +130,15 @@ impl PairList {
         }
     }
 
+    /// Makes near lists for so many steps from now on.
+    pub fn set_near_steps(&mut self, steps: u32) {
+        for chunk in &mut self.chunks {
+            chunk.horizon = Horizon::of(steps);
+        }
+    }
+
     /// Builds the list anew. Contacts have to be linked to it afterwards.
     pub fn rebuild(&mut self, positions: &[Vec2], inputs: &StepInputs, threads: &Threads) {
-        let positions = &positions[..inputs.bodies.radii.len()];
         if positions.is_empty() {
             return;
         }

@@ -55,16 +55,6 @@ impl NearList {
         &self.blocks
     }
 
-    /// Number of lanes that have been used.
-    pub fn len(&self) -> usize {
-        self.len
-    }
-
-    /// Whether there are none.
-    pub fn is_empty(&self) -> bool {
-        self.len == 0
-    }
-
     /// Appends a pair.
     #[inline]
     pub fn push(&mut self, (own, other): (u32, u32), place: u32) {

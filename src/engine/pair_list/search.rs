@@ -32,7 +32,9 @@ impl Search<'_> {
             let center = self.anchors[particle as usize];
             features.clear();
             inputs.drum.features_near(center, inputs.bodies.radius_of(particle) + self.skin, &mut features);
-            features.iter().for_each(|&feature| chunk.features.push(particle, feature));
+            for &feature in &features {
+                chunk.features.push(particle, feature);
+            }
         }
         chunk.watched.sort_unstable();
         chunk.watched.dedup();

@@ -7,13 +7,13 @@ use crate::physics::columns::columns;
 use crate::physics::scalar::Scalar;
 
 columns! {
-    /// Fₙ = (force of spring and dashpot) − F_c  while the bodies touch
+    /// Fₙ = (force of spring and dashpot) − `F_c`  while the bodies touch
     ///
-    /// Its potential is −F_c δ, so that it takes no energy. Friction and rolling are limited by the force of spring and
-    /// dashpot, Fₙ + F_c: adhesion presses the bodies together. Where tension is clipped, spring and dashpot are, not the
+    /// Its potential is −`F_c` δ, so that it takes no energy. Friction and rolling are limited by the force of spring and
+    /// dashpot, Fₙ + `F_c`: adhesion presses the bodies together. Where tension is clipped, spring and dashpot are, not the
     /// pull.
     pub struct Adhesion {
-        /// F_c [N/m].
+        /// `F_c` [N/m].
         pull,
     }
 }

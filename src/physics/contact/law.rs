@@ -16,6 +16,8 @@ pub struct BodyPair {
     pub effective_mass: f64,
     /// R̄ = r₁ r₂ / (r₁ + r₂) [m]; the radius of the one at a wall.
     pub effective_radius: f64,
+    /// Diameter of the smaller disc [m]: the layer that a law of spheres is spread over.
+    pub layer: f64,
 }
 
 impl BodyPair {
@@ -24,12 +26,13 @@ impl BodyPair {
         Self {
             effective_mass: mass * other_mass / (mass + other_mass),
             effective_radius: radius * other_radius / (radius + other_radius),
+            layer: 2.0 * radius.min(other_radius),
         }
     }
 
     /// A disc of this mass and radius at a wall.
     pub fn at_wall((mass, radius): (f64, f64)) -> Self {
-        Self { effective_mass: mass, effective_radius: radius }
+        Self { effective_mass: mass, effective_radius: radius, layer: 2.0 * radius }
     }
 }
 

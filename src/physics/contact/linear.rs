@@ -164,7 +164,7 @@ pub fn collision_time(parameters: &ContactParameters, effective_mass: f64) -> f6
 /// Tension allowed: e = exp(−π ζ / √(1 − ζ²)), so ζ = −ln e / √(π² + ln² e).
 /// Clipped: the contact ends when the force vanishes; with φ = acos ζ, e = exp(−2 φ / tan φ), and beyond critical
 /// damping, φ = acosh ζ, e = exp(−2 φ / tanh φ) (Schwager & Pöschel, Granular Matter 9 (2007) 465), solved by bisection.
-fn damping_ratio_for(restitution: f64, tension: Tension) -> f64 {
+pub(super) fn damping_ratio_for(restitution: f64, tension: Tension) -> f64 {
     let decay = -libm::log(restitution);
     if decay <= 0.0 {
         return 0.0;
@@ -207,13 +207,17 @@ fn clipped_decay(ratio: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::parameters::Base;
     use super::super::{ContactState, RelativeMotion};
     use super::*;
 
     fn table_1(tension: Tension) -> ContactParameters {
         ContactParameters {
+            base: Base::Linear,
             normal_stiffness: 9.25e7,
             stiffness_ratio: 1.0,
+            young_modulus: None,
+            poisson_ratio: 0.3,
             restitution: Some(0.1),
             normal_damping: None,
             friction: 0.5,
@@ -246,7 +250,7 @@ mod tests {
 
     #[test]
     fn losses_are_never_negative() {
-        let bodies = BodyPair { effective_mass: 0.2, effective_radius: 0.006 };
+        let bodies = BodyPair { effective_mass: 0.2, effective_radius: 0.006, layer: 0.024 };
         for tension in [Tension::Allowed, Tension::Clipped] {
             let law = Linear::<true>::between(&table_1(tension), bodies);
             for k in 0..2000_i32 {

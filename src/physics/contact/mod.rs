@@ -7,11 +7,12 @@
 //! > F = Fₙ n − Fₜ t,
 //!
 //! on `i` the opposite. With the spring's stretch ξ growing as `j` moves along `t` relative to `i` (spin included),
-//! Fₜ = kₛ ξ. The moments about the centers are M = a Fₜ + M_r on `i`, with a the arm from its center to the contact and
-//! M_r the rolling moment, and a' Fₜ − M_r on `j`.
+//! Fₜ = kₛ ξ. The moments about the centers are M = a Fₜ + Mᵣ on `i`, with a the arm from its center to the contact and
+//! Mᵣ the rolling moment, and a' Fₜ − Mᵣ on `j`.
 
 pub mod adhesion;
 mod friction;
+pub mod hertz;
 mod kinematics;
 pub mod law;
 pub mod linear;
@@ -78,7 +79,7 @@ pub struct Response<S: Scalar> {
     pub normal_force: S,
     /// Tangential force Fₜ [N/m].
     pub tangential_force: S,
-    /// Rolling moment M_r [N m/m].
+    /// Rolling moment Mᵣ [N m/m].
     pub rolling_moment: S,
     /// The force that presses the bodies together [N/m]: that of spring and dashpot. It limits friction and rolling.
     pub pressing_force: S,

@@ -8,15 +8,15 @@ use crate::physics::columns::columns;
 use crate::physics::scalar::Scalar;
 
 columns! {
-    /// M_r = −k_r φ  with |M_r| ≤ μ_r R̄ |Fₙ|
+    /// Mᵣ = −kᵣ φ  with |Mᵣ| ≤ μᵣ R̄ |Fₙ|
     ///
-    /// φ grows by (ω_i − ω_j) Δt, Fₙ is the force that presses the bodies together, and k_r = kₛ R̄² makes rolling as stiff
+    /// φ grows by (ωᵢ − ωⱼ) Δt, Fₙ is the force that presses the bodies together, and kᵣ = kₛ R̄² makes rolling as stiff
     /// as shearing, so that it needs no dashpot of its own. Where the spring would exceed the limit it is truncated to it,
     /// and the lost angle is rolling friction. The moment acts on both bodies, on the drum, too.
     pub struct RollingResistance {
-        /// Stiffness k_r [N m/m per rad].
+        /// Stiffness kᵣ [N m/m per rad].
         stiffness,
-        /// μ_r R̄ / k_r [rad per N/m]: the angle at which a unit of normal force lets the contact roll.
+        /// μᵣ R̄ / kᵣ [rad per N/m]: the angle at which a unit of normal force lets the contact roll.
         roll_compliance,
     }
 }

@@ -1,7 +1,8 @@
 //! The table of laws by species: which parameters act between two species, and between a species and the drum.
 
-use super::linear;
-use super::parameters::{ContactParameters, Tension};
+use super::law::BodyPair;
+use super::parameters::{Base, ContactParameters, Tension};
+use super::{hertz, linear};
 use crate::error::Error;
 
 /// Parameters for all pairs of species, and for each species against the drum.
@@ -81,14 +82,25 @@ impl SpeciesTable {
         self.all().any(|parameters| parameters.tension == Tension::Clipped)
     }
 
-    /// Shortest collision times [s] for particles no lighter than `mass`: (between particles, with the drum).
-    pub fn collision_times(&self, mass: f64) -> (f64, f64) {
-        let shortest = |tables: &[ContactParameters], effective_mass: f64| {
+    /// The base law, which all pairs share.
+    pub fn base(&self) -> Base {
+        self.pairs.first().map_or(Base::Linear, |parameters| parameters.base)
+    }
+
+    /// Shortest collision times [s] for particles no lighter than one of this mass and radius: (between particles, with the
+    /// drum).
+    pub fn collision_times(&self, (mass, radius): (f64, f64)) -> (f64, f64) {
+        let shortest = |tables: &[ContactParameters], bodies: BodyPair| {
             tables
                 .iter()
-                .map(|table| linear::collision_time(table, effective_mass))
+                .map(|table| match table.base {
+                    Base::Linear => linear::collision_time(table, bodies.effective_mass),
+                    Base::Hertz => hertz::collision_time(table, bodies),
+                })
                 .fold(f64::INFINITY, f64::min)
         };
-        (shortest(&self.pairs, 0.5 * mass), shortest(&self.walls, mass))
+        let wall = BodyPair::at_wall((mass, radius));
+        let pair = BodyPair { effective_mass: 0.5 * mass, effective_radius: 0.5 * radius, ..wall };
+        (shortest(&self.pairs, pair), shortest(&self.walls, wall))
     }
 }
