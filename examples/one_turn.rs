@@ -16,10 +16,10 @@ const CONFIG: &str = r#"{
   "rotation": {"knots": [[0.0, 5.6548667764616276]]},
   "load": {"count": 100, "diameter": 0.02375, "density": 1000.0, "start_speed": 0.0, "spin_locked": false},
   "contact": {
-    "bundle": {"normal_stiffness": 9.25e7, "stiffness_ratio": 1.0, "restitution": 0.1, "normal_damping": null,
+    "bundle": {"base": "linear", "young_modulus": null, "poisson_ratio": 0.3, "normal_stiffness": 9.25e7, "stiffness_ratio": 1.0, "restitution": 0.1, "normal_damping": null,
                "friction": 0.5, "tension": "allowed", "rolling_friction": 0.0, "tangential_damping_ratio": 0.0,
                "adhesion": 0.0},
-    "drum": {"normal_stiffness": 9.70e7, "stiffness_ratio": 1.0, "restitution": 0.1, "normal_damping": null,
+    "drum": {"base": "linear", "young_modulus": null, "poisson_ratio": 0.3, "normal_stiffness": 9.70e7, "stiffness_ratio": 1.0, "restitution": 0.1, "normal_damping": null,
              "friction": 0.5, "tension": "allowed", "rolling_friction": 0.0, "tangential_damping_ratio": 0.0,
                "adhesion": 0.0},
     "species": 1, "pairs": [], "walls": []
