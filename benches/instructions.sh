@@ -56,7 +56,7 @@ while read -r bundles baffles; do
     before=$(sed -n "s/^$bundles $baffles //p" "$kept")
     echo "instructions per bundle and step, $bundles bundles, $baffles baffles: $each, kept: ${before:-none}"
     [ "${1:-}" = --keep ] || [ -z "$before" ] && continue
-    change=$(awk "BEGIN { print 100 * $each > (100 + $tolerance) * $before, 100 * $each < (100 - $tolerance) * $before }")
+    change=$(awk "BEGIN { print (100 * $each > (100 + $tolerance) * $before), (100 * $each < (100 - $tolerance) * $before) }")
     case $change in
     "1 0")
         echo "more by over $tolerance %: find out why, or keep the new figure with benches/instructions.sh --keep"

@@ -26,11 +26,11 @@ impl Simulation {
             all.max_by(|&a, &b| speed(a).total_cmp(&speed(b))).unwrap_or(0)
         };
         let particles = &self.state.particles;
-        let seen = |i: usize| {
+        let speed_over_surface = |i: usize| {
             let surface = perpendicular(particles.positions[i]) * drum.angular_velocity;
             (particles.velocities[i] - surface).norm()
         };
-        let place = fastest(&seen);
+        let place = fastest(&speed_over_surface);
         Err(Error::TooFast { incident: self.incident(place), way, limit })
     }
 
