@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from drumrs.tables import GROUP_ROWS, write_in_pieces
+from drumrs.files import replacing
+from drumrs.tables import ROW_GROUP_SIZE, Compression, sink_table
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -131,12 +132,12 @@ class Frames:
             "walls": [line.tolist() for line in self.walls],
         }
 
-    def pieces(self, first: int = 0) -> "pl.LazyFrame":
-        """Return the table, made piece by piece while it is written: whole, it takes three times the frames' memory."""
+    def lazy_table(self, first: int = 0) -> "pl.LazyFrame":
+        """Return the table, made batch by batch while it is written: whole, it takes three times the frames' memory."""
         from polars.io.plugins import register_io_source
 
         def tables(*_: object) -> "Iterator[pl.DataFrame]":
-            group = group_frames(self.count)
+            group = frames_per_row_group(self.count)
             for start in range(0, len(self), group):
                 yield self.picked(slice(start, start + group)).table(first + start)
 
@@ -152,7 +153,8 @@ class Frames:
         first
             Number of the first frame.
         """
-        save_pieces(path, self.pieces(first), self.count, self.metadata())
+        with replacing(path) as temporary:
+            sink_frames(temporary, self.lazy_table(first), self.count, self.metadata())
 
     @classmethod
     def load(cls, source: str | Path | io.BytesIO, most: int | None = None) -> "Frames":
@@ -170,7 +172,7 @@ class Frames:
 
 
 class FramesFile:
-    """A table of frames, read piece by piece.
+    """A table of frames, read batch by batch.
 
     Parameters
     ----------
@@ -208,17 +210,17 @@ class FramesFile:
 
     def times(self) -> NDArray[np.float64]:
         """Return the time of each frame [s]."""
-        times = [piece["time"].to_numpy()[:: self.count] for _, piece in self._pieces(["time"])]
+        times = [batch["time"].to_numpy()[:: self.count] for _, batch in self._batches(["time"])]
         return np.concatenate([np.empty(0), *times])
 
     def read(self, indices: NDArray[np.intp] | None = None) -> Frames:
         """Read the frames with these indices, in their order; all unless given."""
         kept = np.arange(len(self)) if indices is None else np.unique(indices)
         frames = self._empty(len(kept))
-        for start, piece in self._pieces(None, kept):
-            length = len(piece) // self.count
+        for start, batch in self._batches(None, kept):
+            length = len(batch) // self.count
             columns: dict[str, Any] = {
-                name: piece[name].to_numpy().reshape(-1, self.count) for name in piece.columns
+                name: batch[name].to_numpy().reshape(-1, self.count) for name in batch.columns
             }
             here = slice(*np.searchsorted(kept, [start, start + length]))
             rows = kept[here] - start
@@ -248,11 +250,11 @@ class FramesFile:
             walls=tuple(np.array(line) for line in scene["walls"]),
         )
 
-    def _pieces(
+    def _batches(
         self, columns: list[str] | None = None, wanted: NDArray[np.intp] | None = None
     ) -> "Iterator[tuple[int, pl.DataFrame]]":
         """Read groups of frames with the number of their first; those that hold none of the wanted are passed over."""
-        group = group_frames(self.count)
+        group = frames_per_row_group(self.count)
         table = self._table if columns is None else self._table.select(columns)
         for start in range(0, len(self), group):
             inside = True if wanted is None else np.diff(np.searchsorted(wanted, [start, start + group]))[0]
@@ -260,14 +262,21 @@ class FramesFile:
                 yield start, table.slice(start * self.count, group * self.count).collect()
 
 
-def save_pieces(path: str | Path, table: "pl.LazyFrame", count: int, metadata: dict[str, str]) -> None:
+def sink_frames(
+    path: Path,
+    table: "pl.LazyFrame",
+    count: int,
+    metadata: dict[str, str],
+    compression: Compression = "zstd",
+) -> None:
     """Write a table of frames of `count` bundles: the same bytes for the same frames, however they come."""
-    write_in_pieces(path, table, metadata, group_rows=group_frames(count) * max(count, 1))
+    rows = frames_per_row_group(count) * max(count, 1)
+    sink_table(path, table, metadata, row_group_size=rows, compression=compression)
 
 
-def group_frames(count: int) -> int:
+def frames_per_row_group(count: int) -> int:
     """Return how many frames of `count` bundles are written and read together."""
-    return max(1, GROUP_ROWS // max(count, 1))
+    return max(1, ROW_GROUP_SIZE // max(count, 1))
 
 
 def thinned(frames: int, count: int, most: int) -> NDArray[np.intp]:

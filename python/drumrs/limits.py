@@ -73,14 +73,27 @@ def require_memory(config: Config, count: int, time_step: float, *, with_frames:
     sizes = _sizes(config, count)
     if not with_frames:
         del sizes["run.frame_every"]
-    _require_room(config, time_step, sizes, (_memory(), "of memory"))
+    way_out = "shorten run.duration" + (
+        ", or let drumrs run --out OUT write frames to disk as they come" if with_frames else ""
+    )
+    _require_room(config, time_step, sizes, _memory(), "of memory", way_out)
 
 
 def require_disk(config: Config, count: int, time_step: float, folder: Path) -> None:
     """Refuse samples and frames that the disk of a folder has no room for."""
     existing = next(path for path in (folder.absolute(), *folder.absolute().parents) if path.exists())
-    room = (shutil.disk_usage(existing).free, f"on the disk of {str(folder)!r}")
-    _require_room(config, time_step, _sizes(config, count), room)
+    disk = shutil.disk_usage(existing)
+    # File systems without a size, such as /proc and some of a network, do not tell what they hold.
+    if disk.total:
+        where = f"on the disk of {str(folder)!r}"
+        _require_room(
+            config,
+            time_step,
+            _sizes(config, count),
+            disk.free,
+            where,
+            "shorten run.duration, or free the disk",
+        )
 
 
 def _sizes(config: Config, count: int) -> dict[str, tuple[float, int]]:
@@ -94,21 +107,26 @@ def _sizes(config: Config, count: int) -> dict[str, tuple[float, int]]:
 
 
 def _require_room(
-    config: Config, time_step: float, sizes: dict[str, tuple[float, int]], room: tuple[float, str]
+    config: Config,
+    time_step: float,
+    sizes: dict[str, tuple[float, int]],
+    most: float,
+    where: str,
+    way_out: str,
 ) -> None:
-    duration, (most, where) = config.run.duration, room
+    duration = config.run.duration
     needed = {key: duration / max(interval, time_step) * size for key, (interval, size) in sizes.items()}
-    if sum(needed.values()) <= most:
+    total = sum(needed.values())
+    if total <= most:
         return
     key = max(needed, key=lambda key: needed[key])
     interval, size = sizes[key]
-    # The rest is the smaller part; half of the room is enough for it.
-    left = max(most - (sum(needed.values()) - needed[key]), most / 2.0)
-    way = "; drumrs run --out OUT writes frames to disk as they come" if where == "of memory" else ""
+    # The rest is the smaller part; half of the room is enough for it. A full disk has room for nothing.
+    left = max(most - (total - needed[key]), most / 2.0, 1.0)
     raise ConfigError(
         f"{key} is {interval}, but must be at least {duration * size / left:.4g}: "
-        f"what is recorded over run.duration = {duration} would take {sum(needed.values()) / 2**30:.4g} GiB {where}, "
-        f"and {most / 2**30:.4g} are there for it{way if key == 'run.frame_every' else ''}"
+        f"what is recorded over run.duration = {duration} would take {total / 2**30:.4g} GiB {where}, "
+        f"and {most / 2**30:.4g} are there for it; {way_out}"
     )
 
 

@@ -10,7 +10,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from drumrs.errors import CheckpointError
-from drumrs.frames import FramesFile, save_pieces
+from drumrs.files import replacing
+from drumrs.frames import FramesFile, sink_frames
 from drumrs.records import Records
 from drumrs.tables import write_table
 
@@ -36,7 +37,7 @@ class Parts:
         # Taken, and not written yet: an interrupt or a full disk must not lose it.
         self._held: dict[str, Any] = {}
 
-    def take(self, records: Records) -> None:
+    def append(self, records: Records) -> None:
         """Write everything that a simulation holds and that was not taken yet.
 
         Raises
@@ -66,7 +67,7 @@ class Parts:
         if taken["series"]:
             records.put_back(self._table("series", taken["series"]).collect(), None)
 
-    def give_back(self, records: Records) -> None:
+    def reload(self, records: Records) -> None:
         """Give a simulation that was loaded everything that was taken of it, if it is all there."""
         with contextlib.suppress(CheckpointError):
             series = self._table("series", records.taken_samples).collect()
@@ -78,12 +79,14 @@ class Parts:
     def merge_frames(self, path: Path, records: Records) -> None:
         """Write all frames taken to one file: as `Frames.save` would if they were in memory."""
         table = self._table("frames", records.taken_frames, records.count)
-        save_pieces(path, table, records.count, records.none().metadata())
+        with replacing(path) as temporary:
+            sink_frames(temporary, table, records.count, records.none().metadata())
 
     def remove(self) -> None:
         """Remove all parts, and what a kill left of one."""
         for pattern in ("series-*.parquet", "frames-*.parquet", ".*.tmp"):
-            for path in (self._folder / _FOLDER).glob(pattern):
+            # The first ones first: where a kill leaves the others, what lies before them is in the run's tables.
+            for path in sorted((self._folder / _FOLDER).glob(pattern)):
                 path.unlink()
         with contextlib.suppress(OSError):
             (self._folder / _FOLDER).rmdir()
@@ -118,17 +121,17 @@ class Parts:
         parts = [(first, path) for first, path in self._parts(kind) if first < count]
         reached = parts[0][0] if parts else count
         try:
-            pieces = [self._finished(kind, reached, rows)] if reached else []
+            tables = [self._finished(kind, reached, rows)] if reached else []
             for first, path in parts:
                 if first != reached:
                     raise self._missing(kind, reached)
-                pieces.append(pl.scan_parquet(path))
-                reached += pieces[-1].select(pl.len()).collect().item() // rows
+                tables.append(pl.scan_parquet(path))
+                reached += tables[-1].select(pl.len()).collect().item() // rows
         except (OSError, pl.exceptions.PolarsError):
             raise self._missing(kind, reached) from None
         if reached != count:
             raise self._missing(kind, reached)
-        return pl.concat(pieces) if pieces else pl.LazyFrame()
+        return pl.concat(tables) if tables else pl.LazyFrame()
 
     def _finished(self, kind: str, count: int, rows: int) -> "pl.LazyFrame":
         """Return the first samples or frames of the run's table."""
@@ -142,5 +145,5 @@ class Parts:
     def _missing(self, kind: str, reached: int) -> CheckpointError:
         return CheckpointError(
             f"{str(self._folder / _FOLDER)!r} must hold the {kind} that the checkpoint knows of, "
-            f"but lacks what comes after the first {reached} of them"
+            f"but lacks what comes after the first {reached} of them; begin the run anew, without --resume"
         )

@@ -80,7 +80,7 @@ def finish(
 
     def after_slice(step: int) -> None:
         if folder is not None:
-            folder.keep_up(simulation)
+            folder.flush(simulation)
         if report is not None:
             report(step)
 

@@ -120,7 +120,9 @@ class Records:
         """Return the samples in memory, one row each."""
         import polars as pl
 
-        return pl.DataFrame(self._core.series())
+        columns = self._core.series()
+        # polars copies: a column at a time, or there would be two tables for a moment.
+        return pl.DataFrame([pl.Series(name, columns.pop(name)) for name in list(columns)])
 
     def frames(self, *, keep: bool = True) -> Frames:
         """Return the frames in memory.
@@ -152,7 +154,7 @@ class Records:
         frames
             The frames that were taken. Without them, all stay where they are, and samples are noted as taken.
         """
-        rows = np.ascontiguousarray(series.to_numpy(), dtype=np.float64)
+        rows = series.to_numpy(order="c")
         self._core.put_back_rows(rows, frames is None)
         if frames is not None:
             arrays: dict[str, NDArray[Any]] = {
@@ -202,7 +204,7 @@ class Records:
         )
 
 
-class Recorded:
+class HasRecords:
     """The part of a simulation that shows what it has recorded."""
 
     _records: Records

@@ -1,6 +1,7 @@
 """`RunFolder`: the folder of a run: records and checkpoints while it is under way, its results at the end."""
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -11,6 +12,9 @@ from drumrs.parts import PART_SIZE, Parts
 from drumrs.result import UNSTABLE, Summary, draw, write_tables
 from drumrs.simulation import Simulation, units
 from drumrs.unstable import UnstableRun
+
+if TYPE_CHECKING:
+    import polars as pl
 
 _CHECKPOINT = "checkpoint.bin"
 
@@ -29,9 +33,10 @@ class RunFolder:
         self._parts = Parts(path)
 
     def clear(self) -> None:
-        """Make the folder where there is none, and remove what a run goes on from or tells that it is finished."""
+        """Make the folder where there is none, and remove what an earlier run recorded there or goes on from."""
         self.path.mkdir(parents=True, exist_ok=True)
-        for name in ("summary.json", UNSTABLE, _CHECKPOINT):
+        # Tables of another run must not pass for the beginning of this one.
+        for name in ("summary.json", UNSTABLE, _CHECKPOINT, "series.parquet", "frames.parquet"):
             (self.path / name).unlink(missing_ok=True)
         self._parts.remove()
 
@@ -49,20 +54,20 @@ class RunFolder:
         """Give a simulation of `load` its series, and drop what was recorded after its checkpoint."""
         self._parts.restore(simulation.records)
 
-    def keep_up(self, simulation: Simulation) -> None:
+    def flush(self, simulation: Simulation) -> None:
         """Write what was recorded since, where that has grown to a part."""
         if simulation.records.size >= PART_SIZE:
-            self._parts.take(simulation.records)
+            self._parts.append(simulation.records)
 
     def save(self, simulation: Simulation) -> None:
         """Write what was recorded since, then a checkpoint."""
-        self._parts.take(simulation.records)
+        self._parts.append(simulation.records)
         simulation.save(self.path / _CHECKPOINT)
 
     def conclude(self, simulation: Simulation) -> tuple[Summary, list[Path]]:
         """Write what `Result.save` writes; return the summary and the files written."""
         summary, series = simulation.summary(), simulation.series
-        written = self._write_tables(simulation)
+        written = self._write_tables(simulation, series)
         file = FramesFile.of(self.path / "frames.parquet")
         drawn = draw(self.path, simulation.config, summary, series, *_pictured(file, simulation))
         # The summary comes last: a folder that has one is complete.
@@ -73,15 +78,15 @@ class RunFolder:
 
     def conclude_unstable(self, simulation: Simulation, error: UnstableError) -> None:
         """Write what `UnstableRun.save` writes."""
-        self._write_tables(simulation)
+        series = simulation.series
+        self._write_tables(simulation, series)
         frames = _shown(FramesFile.of(self.path / "frames.parquet"))
-        run = UnstableRun.of(simulation, error, frames)
-        run.save_end(self.path)
+        UnstableRun.of(simulation, error, series, frames).save_end(self.path)
         self._parts.remove()
 
-    def _write_tables(self, simulation: Simulation) -> list[Path]:
-        self._parts.take(simulation.records)
-        series, path = simulation.series, self.path / "frames.parquet"
+    def _write_tables(self, simulation: Simulation, series: "pl.DataFrame") -> list[Path]:
+        self._parts.append(simulation.records)
+        path = self.path / "frames.parquet"
         known = {column: units(column) for column in series.columns}
         written = write_tables(self.path, simulation.config, series, known)
         self._parts.merge_frames(path, simulation.records)

@@ -27,14 +27,14 @@ from drumrs.limits import (
     step_count,
 )
 from drumrs.parts import Parts
-from drumrs.records import Recorded, Records
+from drumrs.records import HasRecords, Records
 from drumrs.result import Result, Summary
 from drumrs.state import State
 
 Array = NDArray[np.float64]
 
 
-class Simulation(Recorded):
+class Simulation(HasRecords):
     """A load in a turning drum, stepped at will.
 
     Parameters
@@ -383,7 +383,7 @@ class Simulation(Recorded):
             raise CheckpointError(f"{path}: its configuration is not that of its state")
         simulation = cls._around(config, core)
         if with_records and not simulation.records.are_whole:
-            Parts(Path(path).parent).give_back(simulation.records)
+            Parts(Path(path).parent).reload(simulation.records)
         return simulation
 
     @classmethod

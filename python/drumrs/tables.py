@@ -1,6 +1,5 @@
-"""Tables as parquet files that are whole or not there: written at once, or piece by piece where they may be large."""
+"""Tables as parquet files that are whole or not there: written at once, or batch by batch where they may be large."""
 
-import io
 import os
 import re
 from collections.abc import Iterator, Mapping
@@ -8,41 +7,41 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
-from drumrs.files import replacing, write_whole
+from drumrs.files import replacing
 
 if TYPE_CHECKING:
     import polars as pl
 
+Compression = Literal["zstd", "uncompressed"]
 # Rows that are in memory together while a large table is written or read.
-GROUP_ROWS = 2**18
+ROW_GROUP_SIZE = 2**18
 
 
 def write_table(path: str | Path, table: "pl.DataFrame", metadata: Mapping[str, str]) -> None:
     """Write a table as parquet, whole or not at all, with `metadata` on the file."""
-    buffer = io.BytesIO()
-    table.write_parquet(buffer, metadata=dict(metadata))
-    write_whole(path, buffer.getvalue())
+    with replacing(path) as temporary, _system_errors():
+        table.write_parquet(temporary, metadata=dict(metadata))
 
 
-def write_in_pieces(
-    path: str | Path,
+def sink_table(
+    path: Path,
     table: "pl.LazyFrame",
     metadata: Mapping[str, str],
     *,
-    group_rows: int,
-    compression: Literal["zstd", "uncompressed"] = "zstd",
+    row_group_size: int,
+    compression: Compression = "zstd",
 ) -> None:
     """Write a table that may be larger than all memory; the bytes depend on what it holds, not on how it comes.
 
     Parameters
     ----------
     path
-        File to write.
+        File to write; an error leaves it in pieces.
     table
         Rows in their order, from wherever they are.
     metadata
         Words on the file.
-    group_rows
+    row_group_size
         Rows of a group of the file.
     compression
         How columns are compressed.
@@ -52,22 +51,9 @@ def write_in_pieces(
     OSError
         Where there is no room, or the folder cannot be written.
     """
-    with replacing(path) as temporary:
-        sink(temporary, table, metadata, group_rows=group_rows, compression=compression)
-
-
-def sink(
-    path: Path,
-    table: "pl.LazyFrame",
-    metadata: Mapping[str, str],
-    *,
-    group_rows: int,
-    compression: Literal["zstd", "uncompressed"] = "zstd",
-) -> None:
-    """Write a table to this very file, which may be left in pieces."""
     with _system_errors():
         table.sink_parquet(
-            path, row_group_size=group_rows, metadata=dict(metadata), compression=compression, mkdir=False
+            path, row_group_size=row_group_size, metadata=dict(metadata), compression=compression, mkdir=False
         )
 
 

@@ -50,7 +50,9 @@ class UnstableRun:
     frames: Frames
 
     @classmethod
-    def of(cls, simulation: Simulation, error: UnstableError, frames: Frames) -> "UnstableRun":
+    def of(
+        cls, simulation: Simulation, error: UnstableError, series: "pl.DataFrame", frames: Frames
+    ) -> "UnstableRun":
         """Take what a simulation has recorded until it raised `error`; of the frames, those to be shown."""
         return cls(
             config=simulation.config,
@@ -58,7 +60,7 @@ class UnstableRun:
             step=simulation.step,
             time=simulation.time,
             summary=_summary(simulation),
-            series=simulation.series,
+            series=series,
             frames=frames,
         )
 

@@ -28,9 +28,9 @@ pub const FORMAT_VERSION: u32 = 5;
 const MOST_STEPS: u64 = 1 << 53;
 const HEADER: usize = MAGIC.len() + 4 + 32;
 
-/// What is written. Records may be larger than all the rest: they are not copied for it.
+/// What is written: borrowed, since the records may be larger than all the rest.
 #[derive(Serialize)]
-struct Written<'a> {
+struct SnapshotRef<'a> {
     physics_version: u32,
     config: String,
     seed: u64,
@@ -66,7 +66,7 @@ impl Simulation {
         if let Some(failure) = self.failure() {
             return Err(failure.clone());
         }
-        let snapshot = Written {
+        let snapshot = SnapshotRef {
             physics_version: PHYSICS_VERSION,
             config: self.config().to_json(),
             seed: self.seed(),
@@ -78,7 +78,7 @@ impl Simulation {
         let refused = |error: postcard::Error| refuse(error.to_string());
         let size = HEADER + postcard::experimental::serialized_size(&snapshot).map_err(refused)?;
         let mut bytes = Vec::new();
-        memory::make_room(&mut bytes, size, "writing a checkpoint")?;
+        memory::reserve(&mut bytes, size, "writing a checkpoint")?;
         bytes.resize(size, 0);
         let (header, body) = bytes.split_at_mut(HEADER);
         postcard::to_slice(&snapshot, body).map_err(refused)?;
@@ -96,11 +96,12 @@ impl Simulation {
     /// `Error::Checkpoint` saying why they cannot be used.
     pub fn from_checkpoint(bytes: &[u8], threads: usize) -> Result<Self, Error> {
         // What is read takes up to twice as much while its lists grow.
-        memory::make_room(&mut Vec::<u8>::new(), bytes.len().saturating_mul(2), "reading a checkpoint")?;
+        memory::reserve(&mut Vec::<u8>::new(), bytes.len().saturating_mul(2), "reading a checkpoint")?;
         let snapshot = read(bytes)?;
         let config =
             SimulationConfig::from_json(&snapshot.config).map_err(|error| refuse(error.to_string()))?;
-        let mut records = check(&snapshot.state, &snapshot.engine, &config)?;
+        let drum = check(&snapshot.state, &snapshot.engine, &config)?;
+        let mut records = Records::new(&drum);
         records.series.prepend(&snapshot.rows)?;
         records.frames = snapshot.frames;
         check_records(&snapshot.state, &records, snapshot.rows.len())?;
@@ -187,8 +188,8 @@ fn check_records(state: &State, records: &Records, values: usize) -> Result<(), 
     Err(refuse("its series or frames are not those of its bundles"))
 }
 
-/// Refuses a state whose parts do not belong together, which a matching digest alone does not rule out; returns no records.
-fn check(state: &State, engine: &EngineState, config: &SimulationConfig) -> Result<Records, Error> {
+/// Refuses a state whose parts do not belong together, which a matching digest alone does not rule out; returns its drum.
+fn check(state: &State, engine: &EngineState, config: &SimulationConfig) -> Result<Drum, Error> {
     let refused = |error: Error| refuse(error.to_string());
     let drum = Drum::new(&config.drum).map_err(refused)?;
     let table = config.contact.table().map_err(refused)?;
@@ -219,7 +220,7 @@ fn check(state: &State, engine: &EngineState, config: &SimulationConfig) -> Resu
             && contacts.iter().all(|contact| contact.overlap > 0.0)
     };
     if ordered && known(&contacts.pairs, count as u32) && known(&contacts.walls, drum.feature_count()) {
-        Ok(Records::new(&drum))
+        Ok(drum)
     } else {
         Err(refuse("its contacts are not those of its bundles"))
     }

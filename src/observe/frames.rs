@@ -6,7 +6,7 @@ use super::memory;
 use crate::error::Error;
 use crate::physics::particles::Particles;
 
-/// Pictures of the load: single precision is plenty for them (15 nm in a drum of half a metre).
+/// Pictures of the load: single precision is plenty for them (15 nm in a drum of half a meter).
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Frames {
     /// Times [s].
@@ -22,33 +22,25 @@ pub struct Frames {
 }
 
 impl Frames {
-    /// Makes room for a frame of `count` particles, so that `push` cannot fail.
+    /// Reserves memory for frames of `count` particles, so that `push` cannot fail.
     ///
     /// # Errors
-    /// `Error::Memory` where there is none.
-    pub fn make_room(&mut self, count: usize) -> Result<(), Error> {
-        self.make_room_for(1, count, "recording a frame")
+    /// `Error::Memory` naming `action` where there is none.
+    pub fn reserve(&mut self, frames: usize, count: usize, action: &'static str) -> Result<(), Error> {
+        memory::reserve(&mut self.times, frames, action)?;
+        memory::reserve(&mut self.drum_angles, frames, action)?;
+        memory::reserve(&mut self.positions, 2 * frames * count, action)?;
+        memory::reserve(&mut self.angles, frames * count, action)?;
+        memory::reserve(&mut self.speeds, frames * count, action)
     }
 
-    fn make_room_for(&mut self, frames: usize, count: usize, action: &'static str) -> Result<(), Error> {
-        memory::make_room(&mut self.times, frames, action)?;
-        memory::make_room(&mut self.drum_angles, frames, action)?;
-        memory::make_room(&mut self.positions, 2 * frames * count, action)?;
-        memory::make_room(&mut self.angles, frames * count, action)?;
-        memory::make_room(&mut self.speeds, frames * count, action)
-    }
-
-    /// A copy.
+    /// A copy of these frames of `count` particles.
     ///
     /// # Errors
     /// `Error::Memory` where there is no room for it.
-    pub fn try_clone(&self) -> Result<Self, Error> {
+    pub fn try_clone(&self, count: usize) -> Result<Self, Error> {
         let mut copy = Self::default();
-        copy.make_room_for(
-            self.len(),
-            self.angles.len().checked_div(self.len()).unwrap_or(0),
-            "reading the frames",
-        )?;
+        copy.reserve(self.len(), count, "reading the frames")?;
         copy.extend(self);
         Ok(copy)
     }
@@ -58,7 +50,7 @@ impl Frames {
     /// # Errors
     /// `Error::Memory` where there is no room for them; nothing has changed then.
     pub fn prepend(&mut self, mut earlier: Self, count: usize) -> Result<(), Error> {
-        earlier.make_room_for(self.len(), count, "putting frames back")?;
+        earlier.reserve(self.len(), count, "putting frames back")?;
         earlier.extend(self);
         *self = earlier;
         Ok(())

@@ -7,11 +7,11 @@ use crate::error::Error;
 /// leaves unused is small, and the system moves its pages without copying them [bytes].
 const LONG: usize = 1 << 24;
 
-/// Makes room for `more` entries at the end of a list.
+/// Reserves memory for `more` entries at the end of a list.
 ///
 /// # Errors
 /// `Error::Memory` naming `action` where there is none; the list has not changed then.
-pub fn make_room<T>(list: &mut Vec<T>, more: usize, action: &'static str) -> Result<(), Error> {
+pub fn reserve<T>(list: &mut Vec<T>, more: usize, action: &'static str) -> Result<(), Error> {
     if list.capacity() - list.len() >= more {
         return Ok(());
     }
@@ -31,7 +31,7 @@ pub fn prepend<T: Copy + Default>(
     earlier: &[T],
     action: &'static str,
 ) -> Result<(), Error> {
-    make_room(list, earlier.len(), action)?;
+    reserve(list, earlier.len(), action)?;
     let length = list.len();
     list.resize(length + earlier.len(), T::default());
     list.copy_within(..length, earlier.len());
@@ -46,7 +46,7 @@ mod tests {
     #[test]
     fn room_that_cannot_be_is_an_error_and_changes_nothing() {
         let mut list = vec![1.0, 2.0];
-        let error = make_room(&mut list, usize::MAX / 16, "recording a frame").unwrap_err();
+        let error = reserve(&mut list, usize::MAX / 16, "recording a frame").unwrap_err();
         assert!(error.to_string().starts_with("recording a frame: there is no memory for "), "{error}");
         assert_eq!(list, [1.0, 2.0]);
     }

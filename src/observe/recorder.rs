@@ -284,12 +284,12 @@ impl Series {
         memory::prepend(&mut self.values, rows, "putting samples back")
     }
 
-    /// Makes room for a row, so that `push` cannot fail.
+    /// Reserves memory for a row, so that `push` cannot fail.
     ///
     /// # Errors
     /// `Error::Memory` where there is none.
-    pub fn make_room(&mut self) -> Result<(), Error> {
-        memory::make_room(&mut self.values, self.width, "recording a sample")
+    pub fn reserve(&mut self) -> Result<(), Error> {
+        memory::reserve(&mut self.values, self.width, "recording a sample")
     }
 
     /// Appends a row.
@@ -313,7 +313,7 @@ impl Series {
     /// `Error::Memory` where there is none.
     pub fn try_column(&self, index: usize) -> Result<Vec<f64>, Error> {
         let mut column = Vec::new();
-        memory::make_room(&mut column, self.len(), "reading the series")?;
+        memory::reserve(&mut column, self.len(), "reading the series")?;
         column.extend(self.values.iter().skip(index).step_by(self.width.max(1)));
         Ok(column)
     }

@@ -62,7 +62,7 @@ fn copied<T: Element + Copy>(table: &Bound<'_, PyDict>, key: &str) -> Result<Vec
     let array: PyReadonlyArrayDyn<T> = item.extract().map_err(|_| wrong())?;
     let values = array.as_slice().map_err(|_| wrong())?;
     let mut copy = Vec::new();
-    memory::make_room(&mut copy, values.len(), "putting frames back")?;
+    memory::reserve(&mut copy, values.len(), "putting frames back")?;
     copy.extend_from_slice(values);
     Ok(copy)
 }

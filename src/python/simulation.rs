@@ -280,16 +280,6 @@ impl Simulation {
     }
 
     #[getter]
-    fn sample_count(&self, py: Python<'_>) -> usize {
-        self.with(py, |core| core.series().len())
-    }
-
-    #[getter]
-    fn frame_count(&self, py: Python<'_>) -> usize {
-        self.with(py, |core| core.frames().len())
-    }
-
-    #[getter]
     fn collision_times<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let (bundle, drum) = self.with(py, |core| core.collision_times());
         let times = PyDict::new(py);
@@ -317,7 +307,10 @@ impl Simulation {
     }
 
     fn frames<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let (frames, count) = self.with(py, |core| (core.frames().try_clone(), core.state().particles.len()));
+        let (frames, count) = self.with(py, |core| {
+            let count = core.state().particles.len();
+            (core.frames().try_clone(count), count)
+        });
         arrays::frames(py, frames.map_err(|error| to_python(py, &error))?, count)
     }
 

@@ -65,14 +65,14 @@ impl Simulation {
 
     /// Records a sample or a frame where one is due; both or nothing.
     pub(super) fn record(&mut self) -> Result<(), Error> {
-        self.state.recorded.is_owed = true;
+        self.state.recorded.is_pending = true;
         if self.is_sample_due() {
-            self.records.series.make_room()?;
+            self.records.series.reserve()?;
         }
         if self.is_frame_due() {
-            self.records.frames.make_room(self.state.particles.len())?;
+            self.records.frames.reserve(1, self.state.particles.len(), "recording a frame")?;
         }
-        self.state.recorded.is_owed = false;
+        self.state.recorded.is_pending = false;
         if self.is_sample_due() {
             self.sample();
         }
@@ -90,7 +90,7 @@ impl Simulation {
         let shown = particles.positions.iter().chain(&particles.velocities).all(is_shown);
         let is_whole = shown && particles.first_non_finite().is_none();
         // Where there is no memory for it, that is not what the run ended on.
-        if is_whole && self.records.frames.make_room(particles.len()).is_ok() {
+        if is_whole && self.records.frames.reserve(1, particles.len(), "recording a frame").is_ok() {
             self.push_frame();
         }
     }
@@ -132,8 +132,7 @@ impl Simulation {
             earlier: &state.recorded.earlier,
         };
         self.records.series.push(&snapshot);
-        let earlier = snapshot.for_next();
-        state.recorded.earlier = earlier;
+        state.recorded.earlier = snapshot.for_next();
         state.recorded.samples += 1;
         state.ledger.overlap_ratio = 0.0;
     }

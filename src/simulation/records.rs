@@ -81,7 +81,7 @@ impl Simulation {
     /// `Error::Memory` where there is no room for the copy; nothing is taken then.
     pub fn take_rows(&mut self) -> Result<Vec<f64>, Error> {
         let mut rows = Vec::new();
-        memory::make_room(&mut rows, self.records.untaken_rows().len(), "taking samples")?;
+        memory::reserve(&mut rows, self.records.untaken_rows().len(), "taking samples")?;
         rows.extend_from_slice(self.records.untaken_rows());
         self.records.taken = self.records.series.len();
         Ok(rows)

@@ -29,7 +29,7 @@ impl Simulation {
     }
 
     fn run_steps(&mut self, steps: u64) -> Result<(), Error> {
-        if self.state.recorded.is_owed {
+        if self.state.recorded.is_pending {
             self.record()?;
         }
         self.next_event = self.event_after(self.state.step);
@@ -37,7 +37,7 @@ impl Simulation {
         for left in (0..steps).rev() {
             if let Err(error) = self.step(left == 0) {
                 if matches!(error, Error::Memory { .. }) {
-                    // The step is done and up to date; only its records are owed.
+                    // The step is done and up to date; only its records are pending.
                     return Err(error);
                 }
                 self.engine.finish();

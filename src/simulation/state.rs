@@ -31,8 +31,8 @@ pub struct Recorded {
     pub frames: u64,
     /// What the last sample had seen.
     pub earlier: Earlier,
-    /// Whether what is due at this step could not be recorded yet.
-    pub is_owed: bool,
+    /// Whether what is due at this step is still to be recorded, since there was no memory for it.
+    pub is_pending: bool,
 }
 
 /// What the engine holds of the state.

@@ -39,6 +39,9 @@ def same_frames(one: drumrs.Frames, other: drumrs.Frames) -> bool:
     )
 
 
+# What the writing of a part takes, and leaves with the allocator [bytes].
+PART = 150e6
+
 SHAPED = ("times", "drum_angles", "positions", "angles", "speeds", "radii")
 
 MEASURED = """
@@ -74,9 +77,28 @@ def test_a_run_with_a_folder_needs_no_memory_for_its_frames(tmp_path):
     many = peak(code.format([*words, "--set", "run.frame_every=3.7e-5"]), RLIMIT_AS=2_500_000_000)
     file = FramesFile.of(tmp_path / "out" / "frames.parquet")
     assert 16 * file.count * len(file) > 190e6
-    # Ten times the frames, at most what a part takes while it is written more.
-    assert many < few + 150e6
+    # Ten times the frames, and no more memory than a part takes.
+    assert many < few + PART
     assert not (tmp_path / "out" / "records").exists()
+
+
+def test_the_series_of_a_run_with_a_folder_needs_what_the_rule_counts(tmp_path):
+    """540 000 samples, twice: in the simulation, and where it is drawn and written."""
+    words = [
+        "run",
+        "--softer",
+        "100",
+        "--set",
+        "load.count=5",
+        "--set",
+        "run.frame_every=1",
+        "--out",
+        str(tmp_path),
+    ]
+    code = "from drumrs.cli import run_command; assert run_command({}) == 0"
+    few = peak(code.format([*words, "--set", "run.duration=1"]))
+    many = peak(code.format([*words, "--set", "run.sample_every=3.7e-5"]))
+    assert many < few + PART + 1.5 * 2 * 272 * 540_000
 
 
 def test_a_run_in_memory_needs_what_the_rule_counts(tmp_path):
@@ -193,7 +215,7 @@ def test_what_came_after_the_checkpoint_is_dropped(drum, tmp_path, monkeypatch):
     monkeypatch.setattr("drumrs.run_folder.PART_SIZE", 1)
     for steps in (77, 301, 12):
         simulation.run(steps=steps)
-        folder.keep_up(simulation)
+        folder.flush(simulation)
     monkeypatch.undo()
     (folder.path / "records" / ".frames.1a2b.tmp").write_bytes(b"half a part")
     assert len(list(folder.path.glob("records/frames-*.parquet"))) == 4
@@ -295,9 +317,9 @@ def test_full_memory_ends_a_run_with_a_checkpoint(drum, tmp_path, monkeypatch):
 
 def test_an_unstable_run_keeps_all_parts(drum, tmp_path, monkeypatch):
     monkeypatch.setattr("drumrs.run_folder.PART_SIZE", 3_000)
-    taken, take = [], drumrs.parts.Parts.take
+    taken, append = [], drumrs.parts.Parts.append
     monkeypatch.setattr(
-        drumrs.parts.Parts, "take", lambda parts, records: (taken.append(1), take(parts, records))
+        drumrs.parts.Parts, "append", lambda parts, records: (taken.append(1), append(parts, records))
     )
     soft = ["--softer", "30000", "--set", "run.frame_every=1e-3"]
     case = [*soft, "--set", "run.duration=3", "--set", "rotation.rpm=100"]
@@ -332,7 +354,7 @@ def test_missing_parts_are_named(drum, tmp_path):
 
 def test_what_there_is_no_room_for_is_refused_before_the_run(drum, tmp_path, monkeypatch):
     many = drumrs.baseline().replace({"run.frame_every": 3.7e-6, "run.duration": 60.0})
-    with pytest.raises(ConfigError, match=r"GiB of memory, .*; drumrs run --out OUT writes frames to disk"):
+    with pytest.raises(ConfigError, match=r"GiB of memory, .* let drumrs run --out OUT write frames to disk"):
         drumrs.Simulation(many)
     assert drumrs.Simulation(many, in_memory=False).step == 0
     few = drumrs.baseline().replace({"run.frame_every": 1e-3})
@@ -342,11 +364,13 @@ def test_what_there_is_no_room_for_is_refused_before_the_run(drum, tmp_path, mon
         drumrs.Simulation(few.replace({"run.duration": 60.0}))
     room = shutil.disk_usage(tmp_path)._replace(free=10_000_000)
     monkeypatch.setattr("shutil.disk_usage", lambda _: room)
-    status, _, told = drum("run", "--set", "run.frame_every=1e-3", "--out", tmp_path / "out")
-    assert status == 2
-    assert "run.frame_every is 0.001, but must be at least " in told
-    assert f"GiB on the disk of {str(tmp_path / 'out')!r}, and 0.009313 are there for it" in told
-    assert not (tmp_path / "out").exists()
+    for free, shown in ((10_000_000, "0.009313"), (0, "0")):
+        room = room._replace(free=free)
+        status, _, told = drum("run", "--set", "run.frame_every=1e-3", "--out", tmp_path / "out")
+        assert status == 2
+        assert "run.frame_every is 0.001, but must be at least " in told
+        assert f"GiB on the disk of {str(tmp_path / 'out')!r}, and {shown} are there for it" in told
+        assert not (tmp_path / "out").exists()
 
 
 @pytest.mark.parametrize(

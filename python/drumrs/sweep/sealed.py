@@ -13,9 +13,8 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 
 from drumrs.errors import ConfigError
 from drumrs.files import read_plain, replacing, write_whole
-from drumrs.frames import Frames, group_frames
+from drumrs.frames import Frames, sink_frames
 from drumrs.sweep.case import Case, physics_version
-from drumrs.tables import sink
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -57,12 +56,11 @@ def write_sealed(
 
 
 def write_sealed_frames(path: Path, case: Case, frames: Frames) -> None:
-    """Write the frames of a case, whole or not at all, and piece by piece: the table takes three times their memory."""
+    """Write the frames of a case, whole or not at all, and batch by batch: the table takes three times their memory."""
     seal = json.dumps({**_claims(case, "frames"), "sha256": _BLANK})
-    group = group_frames(frames.count) * frames.count
     with replacing(path) as temporary:
         words = {**frames.metadata(), _KEY: seal}
-        sink(temporary, frames.pieces(), words, group_rows=group, compression="uncompressed")
+        sink_frames(temporary, frames.lazy_table(), frames.count, words, "uncompressed")
         with temporary.open("rb+") as file:
             digest = hashlib.file_digest(file, "sha256").hexdigest()
             # The seal stands in the footer, whose length the file's last words tell.
