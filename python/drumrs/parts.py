@@ -65,12 +65,12 @@ class Parts:
                     path.unlink()
         self._table("frames", taken["frames"], records.count)
         if taken["series"]:
-            records.put_back(self._table("series", taken["series"]).collect(), None)
+            records.put_back(self._series(taken["series"]), None)
 
     def reload(self, records: Records) -> None:
         """Give a simulation that was loaded everything that was taken of it, if it is all there."""
         with contextlib.suppress(CheckpointError):
-            series = self._table("series", records.taken_samples).collect()
+            series = self._series(records.taken_samples)
             frames = FramesFile(
                 self._table("frames", records.taken_frames, records.count), records.none().scene()
             )
@@ -132,6 +132,14 @@ class Parts:
         if reached != count:
             raise self._missing(kind, reached)
         return pl.concat(tables) if tables else pl.LazyFrame()
+
+    def _series(self, count: int) -> "pl.DataFrame":
+        import polars as pl
+
+        try:
+            return self._table("series", count).collect()
+        except pl.exceptions.PolarsError:
+            raise self._missing("series", 0) from None
 
     def _finished(self, kind: str, count: int, rows: int) -> "pl.LazyFrame":
         """Return the first samples or frames of the run's table."""

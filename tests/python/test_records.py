@@ -9,6 +9,7 @@ import signal
 import subprocess
 import sys
 import time
+from pathlib import Path
 
 import numpy as np
 import polars as pl
@@ -234,6 +235,32 @@ def test_a_finished_run_goes_on(drum, tmp_path):
     assert drumrs.load(tmp_path / "twice").frames.times[-1] > 0.29
 
 
+def test_a_blow_while_parts_are_removed_leaves_a_run_that_goes_on(drum, tmp_path, monkeypatch):
+    goal = ["--until", "0.0001", "--limit", "0.3"]
+    case = [*DENSE, "--set", "run.duration=0.1", "--set", "run.window=[0.05, 0.1]", "--out"]
+    assert drum("run", *case, tmp_path / "whole", *goal)[0] == 0
+    unlink = Path.unlink
+
+    def broken_off(path, **options):
+        if path.name.startswith("frames-") and int(path.stem.removeprefix("frames-")) > 0:
+            raise KeyboardInterrupt
+        unlink(path, **options)
+
+    monkeypatch.setattr(Path, "unlink", broken_off)
+    assert drum("run", *case, tmp_path / "broken")[0] == 130
+    monkeypatch.undo()
+    assert len(list(tmp_path.glob("broken/records/frames-*.parquet"))) == 1
+    assert drum("run", "--resume", tmp_path / "broken", *goal)[0] == 0
+    assert same(tmp_path / "whole", tmp_path / "broken")
+
+
+def test_a_run_removes_what_another_one_left_in_its_folder(tmp_path):
+    drumrs.run(dense(0.1), progress=False).save(tmp_path, pictures=False)
+    folder = RunFolder(tmp_path)
+    folder.clear()
+    assert [path.name for path in tmp_path.iterdir()] == ["config.toml"]
+
+
 @pytest.mark.parametrize("error", [KeyboardInterrupt, OSError(28, "No space left on device")])
 def test_what_could_not_be_written_is_written_the_next_time(tmp_path, monkeypatch, error):
     alone, kept = drumrs.Simulation(dense(0.2)), drumrs.Simulation(dense(0.2))
@@ -349,6 +376,20 @@ def test_missing_parts_are_named(drum, tmp_path):
     assert status == 2
     assert "must hold the frames that the checkpoint knows of, but lacks what comes after the first" in told
     with pytest.raises(CheckpointError, match="lacks what comes after"):
+        folder.restore(folder.load(1))
+
+
+def test_a_damaged_part_is_named(tmp_path):
+    folder = RunFolder(tmp_path)
+    folder.clear()
+    simulation = drumrs.Simulation(dense(0.2))
+    simulation.run(steps=400)
+    folder.save(simulation)
+    (part,) = tmp_path.glob("records/series-*.parquet")
+    part.write_bytes(
+        b"PAR1" + bytes(part.stat().st_size // 2) + part.read_bytes()[part.stat().st_size // 2 + 4 :]
+    )
+    with pytest.raises(CheckpointError, match="must hold the series that the checkpoint knows of"):
         folder.restore(folder.load(1))
 
 
