@@ -19,7 +19,7 @@ ROW_GROUP_SIZE = 2**18
 
 def write_table(path: str | Path, table: "pl.DataFrame", metadata: Mapping[str, str]) -> None:
     """Write a table as parquet, whole or not at all, with `metadata` on the file."""
-    with replacing(path) as temporary, _system_errors():
+    with replacing(path) as temporary, _system_errors(temporary):
         table.write_parquet(temporary, metadata=dict(metadata))
 
 
@@ -51,15 +51,15 @@ def sink_table(
     OSError
         Where there is no room, or the folder cannot be written.
     """
-    with _system_errors():
+    with _system_errors(path):
         table.sink_parquet(
             path, row_group_size=row_group_size, metadata=dict(metadata), compression=compression, mkdir=False
         )
 
 
 @contextmanager
-def _system_errors() -> Iterator[None]:
-    """Raise as `OSError` what polars tells of one in words."""
+def _system_errors(path: Path) -> Iterator[None]:
+    """Raise as `OSError` what polars tells of one in words, while it writes a file."""
     from polars.exceptions import PolarsError
 
     try:
@@ -67,6 +67,9 @@ def _system_errors() -> Iterator[None]:
     except PolarsError as error:
         told = re.search(r"\(os error (\d+)\)", str(error))
         if told is None:
+            # Of a disk that is full at the footer, polars tells nothing of use; the next bytes do.
+            with path.open("ab") as file:
+                file.write(bytes(2**16))
             raise
         number = int(told.group(1))
         raise OSError(number, os.strerror(number)) from None
