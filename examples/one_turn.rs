@@ -33,7 +33,7 @@ fn main() -> Result<(), Error> {
     let speed = simulation.config().rotation.angular_velocity(0.0);
     let turn = std::f64::consts::TAU / speed;
     simulation.run((turn / simulation.time_step()).ceil() as u64)?;
-    let series = &simulation.state().series;
+    let series = simulation.series();
     for (name, value) in summarize(series, simulation.mass(), 0.5 * turn, turn)? {
         println!("{name:26} {}", value.map_or("-".to_owned(), |value| format!("{value:.6e}")));
     }

@@ -99,6 +99,15 @@ pub enum Error {
         reason: String,
     },
 
+    /// Memory that there is none of. What was being done is not done; everything before it is whole.
+    #[error("{action}: there is no memory for {bytes} bytes more")]
+    Memory {
+        /// What was being done.
+        action: &'static str,
+        /// How much was asked for.
+        bytes: usize,
+    },
+
     /// A thread pool or file that the system refused.
     #[error("{action}: {reason}")]
     System {

@@ -270,7 +270,7 @@ fn a_sort_in_memory_changes_no_promise() {
 #[test]
 fn what_leaves_is_in_id_order() {
     let simulation = to_be_sorted(None);
-    let (p, frames) = (&simulation.state().particles, &simulation.state().frames);
+    let (p, frames) = (&simulation.state().particles, simulation.frames());
     assert!(!p.ids.is_sorted());
     assert!(p.by_id(&p.ids).is_sorted());
     // Two frames in id order are pictures of the same bundles: nobody went far in between.

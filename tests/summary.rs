@@ -13,7 +13,7 @@ fn tumbled(seconds: f64) -> Simulation {
 }
 
 fn optional(simulation: &Simulation, name: &str, window: [f64; 2]) -> Option<f64> {
-    let statistics = summarize(&simulation.state().series, simulation.mass(), window[0], window[1]).unwrap();
+    let statistics = summarize(simulation.series(), simulation.mass(), window[0], window[1]).unwrap();
     statistics.iter().find(|entry| entry.0 == name).unwrap().1
 }
 
@@ -37,7 +37,7 @@ fn a_window_snaps_to_the_nearest_samples() {
 fn windows_without_two_samples_are_refused() {
     let simulation = tumbled(0.02);
     for (start, end) in [(0.01, 0.01), (0.015, 0.005), (5.0, 6.0), (0.0101, 0.0102), (f64::NAN, 0.01)] {
-        let error = summarize(&simulation.state().series, 1.0, start, end).unwrap_err().to_string();
+        let error = summarize(simulation.series(), 1.0, start, end).unwrap_err().to_string();
         let expected = format!(
             "run.window is [{start}, {end}], but must be a window that holds at least two samples of the run"
         );

@@ -13,7 +13,7 @@ _VERSION = b"1"
 _DIGEST_SIZE = hashlib.sha256().digest_size
 
 
-def write_checkpoint(path: str | Path, config: Config, core: bytes) -> None:
+def write_checkpoint(path: str | Path, config: Config, core: bytes | memoryview) -> None:
     """Write a checkpoint that is whole or not there.
 
     Parameters
@@ -26,8 +26,11 @@ def write_checkpoint(path: str | Path, config: Config, core: bytes) -> None:
         What the core's `checkpoint` returned.
     """
     head = json.dumps(config.model_dump(mode="json", exclude_none=True)).encode()
-    body = _NAME + _VERSION + b"\n" + head + b"\n" + core
-    write_whole(path, body + hashlib.sha256(body).digest())
+    before = _NAME + _VERSION + b"\n" + head + b"\n"
+    digest = hashlib.sha256(before)
+    digest.update(core)
+    # The core's bytes may be large: they are not copied together with the rest.
+    write_whole(path, before, core, digest.digest())
 
 
 def read_checkpoint(path: str | Path) -> tuple[Config, bytes]:

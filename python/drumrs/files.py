@@ -4,6 +4,8 @@ import errno
 import json
 import os
 import secrets
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -19,13 +21,18 @@ def read_plain(path: Path) -> bytes:
     OSError
         Where there is no such file, it is none, or it cannot be read or held.
     """
-    if path.exists() and not path.is_file():
-        kind = errno.EISDIR if path.is_dir() else errno.EINVAL
-        raise OSError(kind, "it is a folder" if path.is_dir() else "it is no file", str(path))
+    require_plain(path)
     try:
         return path.read_bytes()
     except MemoryError:
         raise OSError(errno.EFBIG, "it is too large", str(path)) from None
+
+
+def require_plain(path: Path) -> None:
+    """Refuse a folder, a pipe or a device in the place of a file."""
+    if path.exists() and not path.is_file():
+        kind = errno.EISDIR if path.is_dir() else errno.EINVAL
+        raise OSError(kind, "it is a folder" if path.is_dir() else "it is no file", str(path))
 
 
 def read_object(path: Path) -> dict[str, Any] | None:
@@ -37,8 +44,22 @@ def read_object(path: Path) -> dict[str, Any] | None:
     return content if isinstance(content, dict) else None
 
 
-def write_whole(path: str | Path, data: bytes) -> None:
-    """Write `data` so that `path` never holds half of it, not even after a power cut.
+def write_whole(path: str | Path, *data: bytes | memoryview) -> None:
+    """Write `data`, piece after piece, so that `path` never holds half of it, not even after a power cut.
+
+    Raises
+    ------
+    OSError
+        Where the folder cannot be written; the temporary file is removed.
+    """
+    with replacing(path) as temporary, temporary.open("wb") as file:
+        for piece in data:
+            file.write(piece)
+
+
+@contextmanager
+def replacing(path: str | Path) -> Iterator[Path]:
+    """Give a temporary file to write, which takes the place of `path` once it is whole and on the disk.
 
     Raises
     ------
@@ -49,9 +70,8 @@ def write_whole(path: str | Path, data: bytes) -> None:
     # Two writers of one file, on threads of a process or on two machines, must not share a temporary.
     temporary = path.with_name(f".{path.name}.{secrets.token_hex(4)}.tmp")
     try:
-        with temporary.open("wb") as file:
-            file.write(data)
-            file.flush()
+        yield temporary
+        with temporary.open("rb+") as file:
             os.fsync(file.fileno())
         temporary.replace(path)
     except BaseException:

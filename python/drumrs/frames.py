@@ -2,17 +2,20 @@
 
 import io
 import json
-from collections.abc import Mapping
-from dataclasses import dataclass
+import math
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from drumrs.files import write_whole
+from drumrs.files import replacing
+from drumrs.tables import ROW_GROUP_SIZE, Compression, sink_table
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     import polars as pl
 
 _UNITS = {
@@ -82,13 +85,30 @@ class Frames:
         near = self.drum_angles[max(index - 1, 0) : index + 2]
         return int(np.sign(near[-1] - near[0]))
 
-    def table(self) -> "pl.DataFrame":
-        """Return a polars table with one row for each frame and bundle; `units` of the columns as in the docs."""
+    def picked(self, indices: NDArray[np.intp] | slice) -> "Frames":
+        """Return the frames with these indices only; those of a slice share their memory."""
+        return replace(
+            self,
+            times=self.times[indices],
+            drum_angles=self.drum_angles[indices],
+            positions=self.positions[indices],
+            angles=self.angles[indices],
+            speeds=self.speeds[indices],
+        )
+
+    def table(self, first: int = 0) -> "pl.DataFrame":
+        """Return a polars table with one row for each frame and bundle; `units` of the columns as in the docs.
+
+        Parameters
+        ----------
+        first
+            Number of the first frame.
+        """
         import polars as pl
 
         frames, count = self.speeds.shape
         columns = {
-            "frame": np.repeat(np.arange(frames, dtype=np.uint32), count),
+            "frame": np.repeat(np.arange(first, first + frames, dtype=np.uint32), count),
             "time": np.repeat(self.times, count),
             "drum_angle": np.repeat(self.drum_angles, count),
             "bundle": np.tile(np.arange(count, dtype=np.uint32), frames),
@@ -102,41 +122,166 @@ class Frames:
 
     def metadata(self) -> dict[str, str]:
         """Return what a file of the table has to carry beside it: units and the drum's outline, as JSON."""
-        scene = {
+        return {"units": json.dumps(_UNITS), "scene": json.dumps(self.scene())}
+
+    def scene(self) -> dict[str, Any]:
+        """Return the drum's outline in plain numbers."""
+        return {
             "drum_radius": self.drum_radius,
             "baffles": [line.tolist() for line in self.baffles],
             "walls": [line.tolist() for line in self.walls],
         }
-        return {"units": json.dumps(_UNITS), "scene": json.dumps(scene)}
 
-    def save(self, path: str | Path) -> None:
-        """Write the table as parquet, with `metadata` on the file."""
-        write_table(path, self.table(), self.metadata())
+    def lazy_table(self, first: int = 0) -> "pl.LazyFrame":
+        """Return the table, made batch by batch while it is written: whole, it takes three times the frames' memory."""
+        from polars.io.plugins import register_io_source
+
+        def tables(*_: object) -> "Iterator[pl.DataFrame]":
+            group = frames_per_row_group(self.count)
+            for start in range(0, len(self), group):
+                yield self.picked(slice(start, start + group)).table(first + start)
+
+        return register_io_source(tables, schema=self.picked(slice(0)).table().schema)
+
+    def save(self, path: str | Path, first: int = 0) -> None:
+        """Write the table as parquet, with `metadata` on the file.
+
+        Parameters
+        ----------
+        path
+            File to write, whole or not at all.
+        first
+            Number of the first frame.
+        """
+        with replacing(path) as temporary:
+            sink_frames(temporary, self.lazy_table(first), self.count, self.metadata())
 
     @classmethod
-    def load(cls, source: str | Path | io.BytesIO) -> "Frames":
-        """Read what `save` wrote, from the file or from its bytes."""
+    def load(cls, source: str | Path | io.BytesIO, most: int | None = None) -> "Frames":
+        """Read what `save` wrote, from the file or from its bytes.
+
+        Parameters
+        ----------
+        source
+            The file, or its bytes.
+        most
+            Bundles times frames at which to leave out frames, evenly; the last one stays. All are read unless given.
+        """
+        file = FramesFile.of(source)
+        return file.read(None if most is None else thinned(len(file), file.count, most))
+
+
+class FramesFile:
+    """A table of frames, read batch by batch.
+
+    Parameters
+    ----------
+    table
+        The table, wherever it is.
+    scene
+        Radius of the rim, baffles and walls, as `Frames.metadata` tells them.
+
+    Attributes
+    ----------
+    count
+        Number of bundles n.
+    """
+
+    def __init__(self, table: "pl.LazyFrame", scene: dict[str, Any]) -> None:
         import polars as pl
 
-        table = pl.read_parquet(source)
-        scene = json.loads(pl.read_parquet_metadata(source)["scene"])
-        count = table["bundle"].n_unique()
-        columns: dict[str, Any] = {name: table[name].to_numpy().reshape(-1, count) for name in table.columns}
-        return cls(
-            times=columns["time"][:, 0].copy(),
-            drum_angles=columns["drum_angle"][:, 0].copy(),
-            positions=np.stack([columns["x"], columns["y"]], axis=-1),
-            angles=columns["angle"],
-            speeds=columns["speed"],
-            radii=columns["radius"][0].copy(),
+        self._table, self._scene = table, scene
+        greatest, rows = (
+            self._table.select(pl.col("bundle").max(), pl.len()).collect(engine="streaming").row(0)
+        )
+        self.count = 0 if greatest is None else int(greatest) + 1
+        self._length: int = rows // max(self.count, 1)
+
+    @classmethod
+    def of(cls, source: str | Path | io.BytesIO) -> "FramesFile":
+        """Open what `Frames.save` wrote, the file or its bytes."""
+        import polars as pl
+
+        return cls(pl.scan_parquet(source), json.loads(pl.read_parquet_metadata(source)["scene"]))
+
+    def __len__(self) -> int:
+        """Return the number of frames."""
+        return self._length
+
+    def times(self) -> NDArray[np.float64]:
+        """Return the time of each frame [s]."""
+        times = [batch["time"].to_numpy()[:: self.count] for _, batch in self._batches(["time"])]
+        return np.concatenate([np.empty(0), *times])
+
+    def read(self, indices: NDArray[np.intp] | None = None) -> Frames:
+        """Read the frames with these indices, in their order; all unless given."""
+        kept = np.arange(len(self)) if indices is None else np.unique(indices)
+        frames = self._empty(len(kept))
+        for start, batch in self._batches(None, kept):
+            length = len(batch) // self.count
+            columns: dict[str, Any] = {
+                name: batch[name].to_numpy().reshape(-1, self.count) for name in batch.columns
+            }
+            here = slice(*np.searchsorted(kept, [start, start + length]))
+            rows = kept[here] - start
+            frames.times[here] = columns["time"][rows, 0]
+            frames.drum_angles[here] = columns["drum_angle"][rows, 0]
+            frames.positions[here, :, 0] = columns["x"][rows]
+            frames.positions[here, :, 1] = columns["y"][rows]
+            frames.angles[here] = columns["angle"][rows]
+            frames.speeds[here] = columns["speed"][rows]
+            frames.radii[:] = columns["radius"][0]
+        return frames
+
+    def _empty(self, frames: int) -> Frames:
+        shape, scene = (frames, self.count), self._scene
+        # As they were written: in single precision where a simulation recorded them.
+        row = self._table.select("x", "angle", "speed").head(1).collect()
+        place, angle, speed = (row[name].to_numpy().dtype for name in row.columns)
+        return Frames(
+            times=np.empty(frames),
+            drum_angles=np.empty(frames),
+            positions=np.empty((*shape, 2), place),
+            angles=np.empty(shape, angle),
+            speeds=np.empty(shape, speed),
+            radii=np.empty(self.count),
             drum_radius=scene["drum_radius"],
             baffles=tuple(np.array(line) for line in scene["baffles"]),
             walls=tuple(np.array(line) for line in scene["walls"]),
         )
 
+    def _batches(
+        self, columns: list[str] | None = None, wanted: NDArray[np.intp] | None = None
+    ) -> "Iterator[tuple[int, pl.DataFrame]]":
+        """Read groups of frames with the number of their first; those that hold none of the wanted are passed over."""
+        group = frames_per_row_group(self.count)
+        table = self._table if columns is None else self._table.select(columns)
+        for start in range(0, len(self), group):
+            inside = True if wanted is None else np.diff(np.searchsorted(wanted, [start, start + group]))[0]
+            if inside:
+                yield start, table.slice(start * self.count, group * self.count).collect()
 
-def write_table(path: str | Path, table: "pl.DataFrame", metadata: Mapping[str, str]) -> None:
-    """Write a table as parquet, whole or not at all, with `metadata` on the file."""
-    buffer = io.BytesIO()
-    table.write_parquet(buffer, metadata=dict(metadata))
-    write_whole(path, buffer.getvalue())
+
+def sink_frames(
+    path: Path,
+    table: "pl.LazyFrame",
+    count: int,
+    metadata: dict[str, str],
+    compression: Compression = "zstd",
+) -> None:
+    """Write a table of frames of `count` bundles: the same bytes for the same frames, however they come."""
+    rows = frames_per_row_group(count) * max(count, 1)
+    sink_table(path, table, metadata, row_group_size=rows, compression=compression)
+
+
+def frames_per_row_group(count: int) -> int:
+    """Return how many frames of `count` bundles are written and read together."""
+    return max(1, ROW_GROUP_SIZE // max(count, 1))
+
+
+def thinned(frames: int, count: int, most: int) -> NDArray[np.intp]:
+    """Return the indices of the frames, evenly and with the last, that make up some `most` bundles times frames."""
+    if frames <= math.ceil(most / max(count, 1)) + 1:
+        return np.arange(frames)
+    every = math.ceil(frames * count / most)
+    return np.unique([*range(0, frames, every), frames - 1])

@@ -1,7 +1,10 @@
 """What a simulation may be asked for: threads, steps, samples, memory; each refusal is one sentence."""
 
 import math
+import os
 import re
+import shutil
+from pathlib import Path
 
 from drumrs.config import Config
 from drumrs.errors import ConfigError
@@ -9,10 +12,13 @@ from drumrs.errors import ConfigError
 _MOST_THREADS = 1024
 # Beyond this, step × time step is no longer exact to a step.
 _MOST_STEPS = 2**53
-# What samples and frames may each take in memory [bytes].
+# What is recorded may take so much memory [bytes].
 _MOST_MEMORY = 8 * 2**30
-# A sample has some thirty columns, and three for each baffle and wall; a frame has four single numbers a bundle.
-_SAMPLE, _SURFACE, _BUNDLE = 30 * 8, 3 * 8, 4 * 4
+# Records in memory are there twice when they are read: in the simulation, and with whoever reads them. On disk as well,
+# when the parts of a run are put together.
+_COPIES = 2
+# A sample has some thirty columns, and four for each baffle and wall; a frame has four single numbers a bundle.
+_SAMPLE, _SURFACE, _BUNDLE, _FRAME = 30 * 8, 4 * 8, 4 * 4, 2 * 8
 
 
 def check_threads(threads: int) -> None:
@@ -50,21 +56,90 @@ def require_samples(config: Config, time_step: float) -> None:
     )
 
 
-def require_memory(config: Config, count: int, time_step: float) -> None:
-    """Refuse samples or frames that come so often that they would flood the memory in the end."""
+def require_memory(config: Config, count: int, time_step: float, *, with_frames: bool) -> None:
+    """Refuse samples or frames that come so often that they would flood the memory in the end.
+
+    Parameters
+    ----------
+    config
+        What is to be simulated.
+    count
+        Number of bundles.
+    time_step
+        Time step [s].
+    with_frames
+        Whether frames stay in memory.
+    """
+    sizes = _sizes(config, count)
+    if not with_frames:
+        del sizes["run.frame_every"]
+    way_out = "shorten run.duration" + (
+        ", or let drumrs run --out OUT write frames to disk as they come" if with_frames else ""
+    )
+    _require_room(config, time_step, sizes, _memory(), "of memory", way_out)
+
+
+def require_disk(config: Config, count: int, time_step: float, folder: Path) -> None:
+    """Refuse samples and frames that the disk of a folder has no room for."""
+    existing = next(path for path in (folder.absolute(), *folder.absolute().parents) if path.exists())
+    disk = shutil.disk_usage(existing)
+    # File systems without a size, such as /proc and some of a network, do not tell what they hold.
+    if disk.total:
+        where = f"on the disk of {str(folder)!r}"
+        _require_room(
+            config,
+            time_step,
+            _sizes(config, count),
+            disk.free,
+            where,
+            "shorten run.duration, or free the disk",
+        )
+
+
+def _sizes(config: Config, count: int) -> dict[str, tuple[float, int]]:
+    """Return how often samples and frames come [s], and how much room one of them takes [bytes]."""
     run, drum = config.run, config.drum
     sample = _SAMPLE + _SURFACE * (1 + drum.baffles.count + len(drum.walls))
-    for key, interval, size in (
-        ("run.sample_every", run.sample_every, sample),
-        ("run.frame_every", run.frame_every, _BUNDLE * count),
-    ):
-        needed = run.duration / max(interval, time_step) * size
-        if needed > _MOST_MEMORY:
-            raise ConfigError(
-                f"{key} is {interval}, but must be at least {run.duration * size / _MOST_MEMORY:.4g}: "
-                f"what is recorded over run.duration = {run.duration} would take {needed / 2**30:.4g} GiB of memory, "
-                f"and {_MOST_MEMORY / 2**30:g} are allowed"
-            )
+    return {
+        "run.sample_every": (run.sample_every, _COPIES * sample),
+        "run.frame_every": (run.frame_every, _COPIES * (_FRAME + _BUNDLE * count)),
+    }
+
+
+def _require_room(
+    config: Config,
+    time_step: float,
+    sizes: dict[str, tuple[float, int]],
+    most: float,
+    where: str,
+    way_out: str,
+) -> None:
+    duration = config.run.duration
+    needed = {key: duration / max(interval, time_step) * size for key, (interval, size) in sizes.items()}
+    total = sum(needed.values())
+    if total <= most:
+        return
+    key = max(needed, key=lambda key: needed[key])
+    interval, size = sizes[key]
+    # The rest is the smaller part; half of the room is enough for it. A full disk has room for nothing.
+    left = max(most - (total - needed[key]), most / 2.0, 1.0)
+    raise ConfigError(
+        f"{key} is {interval}, but must be at least {duration * size / left:.4g}: "
+        f"what is recorded over run.duration = {duration} would take {total / 2**30:.4g} GiB {where}, "
+        f"and {most / 2**30:.4g} are there for it; {way_out}"
+    )
+
+
+def _memory() -> float:
+    """Return the memory that records may take [bytes]: no more than there is, or than this process may have."""
+    try:
+        import resource
+
+        granted, _ = resource.getrlimit(resource.RLIMIT_AS)
+        there = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
+    except (ImportError, AttributeError, ValueError, OSError):
+        return _MOST_MEMORY
+    return min(_MOST_MEMORY, there, granted if granted != resource.RLIM_INFINITY else math.inf)
 
 
 def in_terms_of_fill(config: Config, error: ConfigError) -> ConfigError:

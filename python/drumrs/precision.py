@@ -2,11 +2,11 @@
 
 import math
 from dataclasses import dataclass
-from pathlib import Path
 
 from drumrs.errors import ConfigError
 from drumrs.progress import Board
 from drumrs.protocol import announce, finish
+from drumrs.run_folder import RunFolder
 from drumrs.simulation import Simulation
 
 # A longer window is asked for by the error found, and a little more; never more than twice the window at once, since
@@ -51,7 +51,7 @@ class Goal:
         return cls(precision, limit)
 
 
-def pursue(simulation: Simulation, goal: Goal, shown: Board, checkpoint: Path | None = None) -> str:
+def pursue(simulation: Simulation, goal: Goal, shown: Board, folder: RunFolder | None = None) -> str:
     """Run to the end of the duration, and on until the goal or its limit; return what was reached, in a sentence.
 
     When to look is decided by the results alone: a run that was interrupted ends like one that was not.
@@ -64,13 +64,13 @@ def pursue(simulation: Simulation, goal: Goal, shown: Board, checkpoint: Path | 
         What to reach.
     shown
         Where to show progress.
-    checkpoint
-        File of the checkpoints.
+    folder
+        Where to keep records and checkpoints.
     """
-    finish(simulation, announce(shown, simulation), checkpoint)
+    finish(simulation, announce(shown, simulation), folder)
     while (end := _next_end(simulation, goal)) is not None:
         simulation.prolong(end)
-        finish(simulation, announce(shown, simulation, f"to {end:.4g} s"), checkpoint)
+        finish(simulation, announce(shown, simulation, f"to {end:.4g} s"), folder)
     reached = _precision(simulation)
     found = f"{100.0 * reached:.2g} %" if math.isfinite(reached) else "not known"
     asked, time = f"{100.0 * goal.precision:.3g} %", f"t = {simulation.time:.4g} s"

@@ -2,11 +2,11 @@
 
 from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
-from pathlib import Path
 
 from drumrs.config import Config
 from drumrs.progress import Board, Journey, board
 from drumrs.result import Result
+from drumrs.run_folder import RunFolder
 from drumrs.simulation import Simulation
 
 
@@ -47,7 +47,7 @@ def run(config: Config, seed: int | None = None, *, threads: int = 1, progress: 
     simulation = Simulation(config, seed, threads)
     with board(show=progress) as shown:
         finish(simulation, announce(shown, simulation))
-    return simulation.result()
+    return simulation.result(keep=False)
 
 
 def announce(shown: Board, simulation: Simulation, label: str = "") -> Callable[[int], None]:
@@ -57,9 +57,9 @@ def announce(shown: Board, simulation: Simulation, label: str = "") -> Callable[
 
 
 def finish(
-    simulation: Simulation, report: Callable[[int], None] | None = None, checkpoint: Path | None = None
+    simulation: Simulation, report: Callable[[int], None] | None = None, folder: RunFolder | None = None
 ) -> bool:
-    """Run to the end of the duration, writing a checkpoint at once, every so often, and last.
+    """Run to the end of the duration, writing records as they come, and a checkpoint at once, every so often, and last.
 
     Parameters
     ----------
@@ -67,32 +67,40 @@ def finish(
         What to run.
     report
         Called with the step number.
-    checkpoint
-        File of the checkpoints. An unstable run leaves the last good one, Ctrl-C one of that moment.
+    folder
+        Where to keep records and checkpoints. An unstable run leaves the last good one, Ctrl-C one of that moment,
+        and so does a run that finds no memory.
 
     Returns
     -------
     bool
         False where `Simulation.stop` ended the run.
     """
-    pause = simulation.config.run.checkpoint_every if checkpoint is not None else float("inf")
-    _save(simulation, checkpoint)
+    pause = simulation.config.run.checkpoint_every if folder is not None else float("inf")
+
+    def after_slice(step: int) -> None:
+        if folder is not None:
+            folder.flush(simulation)
+        if report is not None:
+            report(step)
+
+    _save(simulation, folder)
     going = True
     while going and simulation.step < simulation.last_step:
         try:
-            going = simulation.run_until(simulation.last_step, wall_limit=pause, progress=report)
-        except KeyboardInterrupt:
-            _save(simulation, checkpoint)
+            going = simulation.run_until(simulation.last_step, wall_limit=pause, progress=after_slice)
+        except (KeyboardInterrupt, MemoryError):
+            _save(simulation, folder)
             raise
-        _save(simulation, checkpoint)
+        _save(simulation, folder)
     if report is not None:
         report(simulation.step)
     return going
 
 
-def _save(simulation: Simulation, checkpoint: Path | None) -> None:
-    if checkpoint is not None:
-        simulation.save(checkpoint)
+def _save(simulation: Simulation, folder: RunFolder | None) -> None:
+    if folder is not None:
+        folder.save(simulation)
 
 
 def run_side_by_side(cases: Mapping[str, Config], *, progress: bool = True) -> dict[str, Result]:
@@ -124,4 +132,4 @@ def run_side_by_side(cases: Mapping[str, Config], *, progress: bool = True) -> d
             for simulation in simulations.values():
                 simulation.stop()
             raise
-    return {label: simulation.result() for label, simulation in simulations.items()}
+    return {label: simulation.result(keep=False) for label, simulation in simulations.items()}

@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 from drumrs.config import Config
 from drumrs.errors import ConfigError
-from drumrs.files import read_object, read_plain, write_whole
-from drumrs.frames import Frames, write_table
+from drumrs.files import read_object, read_plain, require_plain, write_whole
+from drumrs.frames import Frames
+from drumrs.tables import write_table
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -191,41 +192,66 @@ class Result:
         """
         folder = Path(folder)
         folder.mkdir(parents=True, exist_ok=True)
-        written = write_tables(folder, self.config, self.series, self.frames, self.units)
-        drawn = self._draw(folder) if pictures else []
+        written = write_tables(folder, self.config, self.series, self.units)
+        self.frames.save(folder / "frames.parquet")
+        written.append(folder / "frames.parquet")
+        drawn = (
+            draw(folder, self.config, self.summary, self.series, self.frames, self.frames) if pictures else []
+        )
         # The summary comes last: a folder that has one is complete.
         write_whole(folder / "summary.json", f"{self.summary.to_json()}\n".encode())
         (folder / UNSTABLE).unlink(missing_ok=True)
         return [*written, folder / "summary.json", *drawn]
 
-    def _draw(self, folder: Path) -> list[Path]:
-        from drumrs import figures
 
-        start, end = self.config.run.averaging_window
-        indices = (
-            sorted({self.frames.nearest(time) for time in (0.0, start, end)}) if len(self.frames) else []
+def draw(
+    folder: Path, config: Config, summary: Summary, series: "pl.DataFrame", shown: Frames, pictured: Frames
+) -> list[Path]:
+    """Write snapshots.png, time_series.png and player.html.
+
+    Parameters
+    ----------
+    folder
+        Where to write them.
+    config, summary, series
+        The run.
+    shown
+        Frames of the player.
+    pictured
+        Frames of the snapshots: at the start and at both ends of the window, with those beside them.
+
+    Returns
+    -------
+    list of Path
+        The files written.
+    """
+    from drumrs import figures
+    from drumrs.viewer import Player
+
+    start, end = window = config.run.averaging_window
+    drawings = {"time_series.png": figures.time_series(series, window=window)}
+    if len(pictured):
+        indices = sorted({pictured.nearest(time) for time in (0.0, start, end)})
+        fill = f"fill {100.0 * summary.fill:.0f} %"
+        drawings["snapshots.png"] = figures.snapshots(
+            [figures.View(pictured, index, fill) for index in indices]
         )
-        drawings = {"time_series.png": figures.time_series(self.series, window=(start, end))}
-        if indices:
-            views = [
-                figures.View(self.frames, index, f"fill {100.0 * self.summary.fill:.0f} %")
-                for index in indices
-            ]
-            drawings["snapshots.png"] = figures.snapshots(views)
-        for name, figure in drawings.items():
-            figures.write(figure, folder / name)
-        players = [self.player().save(folder / "player.html")] if indices else []
-        return [folder / name for name in drawings] + players
+    for name, figure in drawings.items():
+        figures.write(figure, folder / name)
+    written = [folder / name for name in drawings]
+    if len(shown):
+        player = Player(shown, series, title=config.title, window=window)
+        written.append(player.save(folder / "player.html"))
+    return written
 
 
 def write_tables(
-    folder: Path, config: Config, series: "pl.DataFrame", frames: Frames, units: "Mapping[str, str]"
+    folder: Path, config: Config, series: "pl.DataFrame", units: "Mapping[str, str]"
 ) -> list[Path]:
-    """Write config.toml, series.parquet and frames.parquet; return their paths."""
+    """Write config.toml and series.parquet; return their paths."""
     write_whole(folder / "config.toml", config.to_toml().encode())
     write_table(folder / "series.parquet", series, {"units": json.dumps(dict(units))})
-    frames.save(folder / "frames.parquet")
-    return [folder / name for name in ("config.toml", "series.parquet", "frames.parquet")]
+    return [folder / name for name in ("config.toml", "series.parquet")]
 
 
 def load(folder: str | Path) -> Result:
@@ -249,11 +275,12 @@ def load(folder: str | Path) -> Result:
         raise ConfigError(f"{str(folder)!r} holds no summary.json, but must be the folder of a finished run")
     try:
         series = io.BytesIO(read_plain(folder / "series.parquet"))
+        require_plain(folder / "frames.parquet")
         return Result(
             config=Config.read(folder / "config.toml"),
             summary=Summary.from_mapping(read_object(folder / "summary.json") or {}),
             series=pl.read_parquet(series),
-            frames=Frames.load(io.BytesIO(read_plain(folder / "frames.parquet"))),
+            frames=Frames.load(folder / "frames.parquet"),
             units=json.loads(pl.read_parquet_metadata(series)["units"]),
         )
     except ConfigError:

@@ -9,7 +9,7 @@ import warnings
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,7 +18,6 @@ from drumrs import _core
 from drumrs.checkpoint import read_checkpoint, write_checkpoint
 from drumrs.config import Config
 from drumrs.errors import CheckpointError, ConfigError, DrumrsError, DrumrsWarning
-from drumrs.frames import Frames
 from drumrs.limits import (
     check_steps,
     check_threads,
@@ -27,16 +26,15 @@ from drumrs.limits import (
     require_samples,
     step_count,
 )
+from drumrs.parts import Parts
+from drumrs.records import HasRecords, Records
 from drumrs.result import Result, Summary
 from drumrs.state import State
-
-if TYPE_CHECKING:
-    import polars as pl
 
 Array = NDArray[np.float64]
 
 
-class Simulation:
+class Simulation(HasRecords):
     """A load in a turning drum, stepped at will.
 
     Parameters
@@ -49,6 +47,8 @@ class Simulation:
         Threads that share a step; the trajectory is the same for any number.
     state
         Where to start, instead of a random packing.
+    in_memory
+        Whether frames stay in memory to the end; False where they are taken as they come, with `records`.
 
     Raises
     ------
@@ -70,7 +70,13 @@ class Simulation:
     """
 
     def __init__(
-        self, config: Config, seed: int | None = None, threads: int = 1, state: State | None = None
+        self,
+        config: Config,
+        seed: int | None = None,
+        threads: int = 1,
+        state: State | None = None,
+        *,
+        in_memory: bool = True,
     ) -> None:
         check_threads(threads)
         config = config if seed is None else config.replace({"run.seed": seed})
@@ -83,13 +89,15 @@ class Simulation:
             raise in_terms_of_fill(config, error) from None
         self._start(config, core)
         require_samples(config, self.time_step)
-        require_memory(config, self.count, self.time_step)
+        require_memory(config, self.count, self.time_step, with_frames=in_memory)
         for sentence in self.warnings:
             warnings.warn(sentence, DrumrsWarning, stacklevel=2)
 
     def _start(self, config: Config, core: _core.Simulation) -> None:
         self._config = config
         self._core = core
+        drum = config.drum
+        self._records = Records(core, config, list(quantities(drum.baffles.count, len(drum.walls))))
         self._stop = threading.Event()
         self._running = threading.Lock()
         self._wall_time = 0.0
@@ -295,30 +303,6 @@ class Simulation:
         """What this simulation does that one may not expect, a sentence each; they are warned of at the start."""
         return self._core.warnings
 
-    @property
-    def series(self) -> "pl.DataFrame":
-        """Polars table of the recorded quantities, one row a sample; `drumrs.units` has the units."""
-        import polars as pl
-
-        return pl.DataFrame(self._core.series())
-
-    @property
-    def frames(self) -> Frames:
-        """Positions, angles and speeds of the bundles at the frames' times."""
-        recorded = self._core.frames()
-        drum, outlines = self._config.drum, self._core.outlines()
-        return Frames(
-            times=recorded["time"],
-            drum_angles=recorded["drum_angle"],
-            positions=recorded["positions"],
-            angles=recorded["angles"],
-            speeds=recorded["speeds"],
-            radii=self.radii,
-            drum_radius=drum.diameter / 2.0 if drum.rim else None,
-            baffles=tuple(outlines[: drum.baffles.count]),
-            walls=tuple(outlines[drum.baffles.count :]),
-        )
-
     def summary(self, window: tuple[float, float] | None = None) -> Summary:
         """Return averages over an interval.
 
@@ -337,42 +321,52 @@ class Simulation:
             raise ConfigError(
                 f"the window is [{start}, {end}], but must lie within the {self.time} s simulated so far"
             )
+        if not self._records.has_whole_series:
+            raise ConfigError(
+                f"the window is [{start}, {end}], but its samples were taken and must be in memory: "
+                "load the checkpoint where its run wrote it, beside its records"
+            )
         means = self._core.summary(start, end)
         # The window as the samples allow it.
         first, last = (means[name] or 0.0 for name in ("window_start", "window_end"))
         filled = math.fsum((2.0 * self.radii) ** 2) / self._config.drum.diameter**2
         known = {"bundle_count": self.count, "steps": self.step, "fill": filled, "time_step": self.time_step}
-        return Summary.from_mapping({**known, **self._timing(), **self._mean_force(first, last), **means})
-
-    def _mean_force(self, start: float, end: float) -> dict[str, float]:
-        """Return the force of the load on all parts of the drum, a mean over the interval between two samples."""
-        series = self._core.series()
-        times = series["time"]
-        # A row holds the mean over the interval that it closes; all intervals are equally long.
-        inside = (times > start) & (times <= end)
-        forces = {name: float(series[name][inside].mean()) for name in series if name.startswith("force_")}
-        return {
-            f"force_{axis}": sum(force for name, force in forces.items() if name.endswith(f"_{axis}"))
-            for axis in "xy"
-        }
+        return Summary.from_mapping(
+            {**known, **self._timing(), **self._records.mean_force(first, last), **means}
+        )
 
     def _timing(self) -> dict[str, float | None]:
         rate = self.count * self._steps_timed / self._wall_time if self._wall_time else None
         return {"wall_time": self._wall_time, "particle_steps_per_second": rate}
 
-    def result(self) -> Result:
-        """Return the run so far as a `Result`."""
+    def result(self, *, keep: bool = True) -> Result:
+        """Return the run so far as a `Result`.
+
+        Parameters
+        ----------
+        keep
+            Whether the simulation keeps its frames, too, in as much memory again.
+        """
         series = self.series
         known = {column: units(column) for column in series.columns}
-        return Result(self._config, self.summary(), series, self.frames, known)
+        return Result(self._config, self.summary(), series, self._records.frames(keep=keep), known)
 
     def save(self, path: str | Path) -> None:
         """Write a checkpoint: `load` goes on from it, bit for bit as if there had been no break."""
-        write_checkpoint(path, self._config, self._core.checkpoint())
+        write_checkpoint(path, self._config, self._core.checkpoint().data)
 
     @classmethod
-    def load(cls, path: str | Path, threads: int = 1) -> "Simulation":
+    def load(cls, path: str | Path, threads: int = 1, *, with_records: bool = True) -> "Simulation":
         """Read a checkpoint.
+
+        Parameters
+        ----------
+        path
+            File that `save` or `drumrs run` wrote.
+        threads
+            Threads that share a step.
+        with_records
+            Whether to read what `drumrs run` recorded before, too, if it lies beside.
 
         Raises
         ------
@@ -387,7 +381,10 @@ class Simulation:
             raise CheckpointError(f"{path}: {error}") from None
         if json.loads(core.config) != json.loads(config.to_core_json()) or core.seed != config.run.seed:
             raise CheckpointError(f"{path}: its configuration is not that of its state")
-        return cls._around(config, core)
+        simulation = cls._around(config, core)
+        if with_records and not simulation.records.are_whole:
+            Parts(Path(path).parent).reload(simulation.records)
+        return simulation
 
     @classmethod
     def _around(cls, config: Config, core: _core.Simulation) -> "Simulation":
@@ -397,7 +394,7 @@ class Simulation:
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Pickle and copy by a checkpoint: what comes of it goes on bit for bit, on its own."""
-        return _restored, (self._config, self._core.checkpoint(), self.threads)
+        return _restored, (self._config, self._core.checkpoint().tobytes(), self.threads)
 
 
 def _restored(config: Config, data: bytes, threads: int) -> Simulation:

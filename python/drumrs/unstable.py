@@ -9,8 +9,8 @@ from drumrs.config import Config
 from drumrs.errors import ConfigError, UnstableError
 from drumrs.files import read_object, write_whole
 from drumrs.frames import Frames
-from drumrs.result import UNSTABLE, Summary, write_tables
-from drumrs.simulation import Simulation, units
+from drumrs.result import UNSTABLE, Summary
+from drumrs.simulation import Simulation
 
 if TYPE_CHECKING:
     import polars as pl
@@ -35,8 +35,10 @@ class UnstableRun:
         When it ended [1, s].
     summary
         Averages over the part of the window that was simulated; `None` where there is none.
-    series, frames
-        What was recorded; the last frame shows the end.
+    series
+        What was recorded.
+    frames
+        Frames to be shown; the last is the end.
     """
 
     config: Config
@@ -48,16 +50,18 @@ class UnstableRun:
     frames: Frames
 
     @classmethod
-    def of(cls, simulation: Simulation, error: UnstableError) -> "UnstableRun":
-        """Take what a simulation has recorded until it raised `error`."""
+    def of(
+        cls, simulation: Simulation, error: UnstableError, series: "pl.DataFrame", frames: Frames
+    ) -> "UnstableRun":
+        """Take what a simulation has recorded until it raised `error`; of the frames, those to be shown."""
         return cls(
             config=simulation.config,
             error=str(error),
             step=simulation.step,
             time=simulation.time,
             summary=_summary(simulation),
-            series=simulation.series,
-            frames=simulation.frames,
+            series=series,
+            frames=frames,
         )
 
     def player(self) -> "Player":
@@ -67,21 +71,13 @@ class UnstableRun:
         title = f"{self.config.title}: ended unstable at t = {self.time:.4g} s"
         return Player(self.frames, self.series, title=title, window=self.config.run.averaging_window)
 
-    def save(self, folder: Path) -> list[Path]:
-        """Write config.toml, series.parquet, frames.parquet, player.html and, last, unstable.json.
-
-        Returns
-        -------
-        list of Path
-            The files written.
-        """
-        known = {column: units(column) for column in self.series.columns}
-        written = write_tables(folder, self.config, self.series, self.frames, known)
-        written.append(self.player().save(folder / "player.html"))
+    def save_end(self, folder: Path) -> list[Path]:
+        """Write player.html and, last, unstable.json, beside the tables; return their paths."""
+        page = self.player().save(folder / "player.html")
         summary = asdict(self.summary) if self.summary is not None else None
         told = {"error": self.error, "step": self.step, "time": self.time, "summary": summary}
         write_whole(folder / UNSTABLE, f"{json.dumps(told, indent=2)}\n".encode())
-        return [*written, folder / UNSTABLE]
+        return [page, folder / UNSTABLE]
 
 
 def _summary(simulation: Simulation) -> Summary | None:

@@ -1,4 +1,5 @@
-//! Checkpoints: a versioned, digested snapshot of configuration and state, from which a run goes on bit for bit.
+//! Checkpoints: a versioned, digested snapshot of configuration and state, from which a run goes on bit for bit, with the
+//! records that nobody has taken yet.
 //!
 //! Layout: magic (8 bytes), version (u32, little endian), SHA-256 of the rest (32 bytes), the rest in postcard.
 
@@ -14,25 +15,41 @@ use crate::engine::contacts::ContactRecord;
 use crate::engine::parallel::chunk_count;
 use crate::error::Error;
 use crate::io::config::SimulationConfig;
-use crate::observe::recorder::columns;
+use crate::observe::frames::Frames;
+use crate::observe::memory;
 use crate::physics::drum::Drum;
-use crate::simulation::Simulation;
 use crate::simulation::state::{EngineState, State};
+use crate::simulation::{Records, Simulation};
 
 const MAGIC: &[u8; 8] = b"DRUMRS\r\n";
 /// Version of the layout below; a checkpoint of another one is refused.
-pub const FORMAT_VERSION: u32 = 4;
+pub const FORMAT_VERSION: u32 = 5;
 /// Beyond this, step × time step is no longer exact to a step.
 const MOST_STEPS: u64 = 1 << 53;
 const HEADER: usize = MAGIC.len() + 4 + 32;
 
-#[derive(Serialize, Deserialize)]
+/// What is written: borrowed, since the records may be larger than all the rest.
+#[derive(Serialize)]
+struct SnapshotRef<'a> {
+    physics_version: u32,
+    config: String,
+    seed: u64,
+    state: &'a State,
+    engine: EngineState,
+    rows: &'a [f64],
+    frames: &'a Frames,
+}
+
+/// What is read: the same fields.
+#[derive(Deserialize)]
 struct Snapshot {
     physics_version: u32,
     config: String,
     seed: u64,
     state: State,
     engine: EngineState,
+    rows: Vec<f64>,
+    frames: Frames,
 }
 
 fn refuse(reason: impl Into<String>) -> Error {
@@ -43,24 +60,33 @@ impl Simulation {
     /// This simulation as bytes.
     ///
     /// # Errors
-    /// The error that stopped the simulation, if one did: there is nothing good to keep.
+    /// The error that stopped the simulation, if one did: there is nothing good to keep. `Error::Memory` where there is no
+    /// room for the bytes.
     pub fn to_checkpoint(&self) -> Result<Vec<u8>, Error> {
         if let Some(failure) = self.failure() {
             return Err(failure.clone());
         }
-        let snapshot = Snapshot {
+        let snapshot = SnapshotRef {
             physics_version: PHYSICS_VERSION,
             config: self.config().to_json(),
             seed: self.seed(),
-            state: self.state().clone(),
+            state: self.state(),
             engine: self.engine_state(),
+            rows: self.records().untaken_rows(),
+            frames: self.frames(),
         };
-        let body = postcard::to_stdvec(&snapshot).map_err(|error| refuse(error.to_string()))?;
-        let mut bytes = Vec::with_capacity(HEADER + body.len());
-        bytes.extend_from_slice(MAGIC);
-        bytes.extend_from_slice(&FORMAT_VERSION.to_le_bytes());
-        bytes.extend_from_slice(&Sha256::digest(&body));
-        bytes.extend_from_slice(&body);
+        let refused = |error: postcard::Error| refuse(error.to_string());
+        let size = HEADER + postcard::experimental::serialized_size(&snapshot).map_err(refused)?;
+        let mut bytes = Vec::new();
+        memory::reserve(&mut bytes, size, "writing a checkpoint")?;
+        bytes.resize(size, 0);
+        let (header, body) = bytes.split_at_mut(HEADER);
+        postcard::to_slice(&snapshot, body).map_err(refused)?;
+        let (magic, rest) = header.split_at_mut(MAGIC.len());
+        let (version, digest) = rest.split_at_mut(4);
+        magic.copy_from_slice(MAGIC);
+        version.copy_from_slice(&FORMAT_VERSION.to_le_bytes());
+        digest.copy_from_slice(&Sha256::digest(&*body));
         Ok(bytes)
     }
 
@@ -69,11 +95,17 @@ impl Simulation {
     /// # Errors
     /// `Error::Checkpoint` saying why they cannot be used.
     pub fn from_checkpoint(bytes: &[u8], threads: usize) -> Result<Self, Error> {
+        // What is read takes up to twice as much while its lists grow.
+        memory::reserve(&mut Vec::<u8>::new(), bytes.len().saturating_mul(2), "reading a checkpoint")?;
         let snapshot = read(bytes)?;
         let config =
             SimulationConfig::from_json(&snapshot.config).map_err(|error| refuse(error.to_string()))?;
-        check(&snapshot.state, &snapshot.engine, &config)?;
-        Self::resume(config, snapshot.seed, threads, snapshot.state, &snapshot.engine)
+        let drum = check(&snapshot.state, &snapshot.engine, &config)?;
+        let mut records = Records::new(&drum);
+        records.series.prepend(&snapshot.rows)?;
+        records.frames = snapshot.frames;
+        check_records(&snapshot.state, &records, snapshot.rows.len())?;
+        Self::resume(config, snapshot.seed, threads, snapshot.state, &snapshot.engine, records)
     }
 
     /// Writes a checkpoint under a temporary name and renames it, so that `path` always holds a whole one.
@@ -143,8 +175,21 @@ fn read(bytes: &[u8]) -> Result<Snapshot, Error> {
     Ok(snapshot)
 }
 
-/// Refuses a state whose parts do not belong together, which a matching digest alone does not rule out.
-fn check(state: &State, engine: &EngineState, config: &SimulationConfig) -> Result<(), Error> {
+/// Refuses records that are not those of a state.
+fn check_records(state: &State, records: &Records, values: usize) -> Result<(), Error> {
+    let (samples, frames) = (records.series.len(), records.frames.len());
+    let recorded = &state.recorded;
+    let whole = values == samples * records.series.width() && records.frames.are_of(state.particles.len());
+    let counted = samples as u64 <= recorded.samples && frames as u64 <= recorded.frames;
+    // At most one of each in a step, and one of each at the start.
+    if whole && counted && recorded.samples.max(recorded.frames) <= state.step + 1 {
+        return Ok(());
+    }
+    Err(refuse("its series or frames are not those of its bundles"))
+}
+
+/// Refuses a state whose parts do not belong together, which a matching digest alone does not rule out; returns its drum.
+fn check(state: &State, engine: &EngineState, config: &SimulationConfig) -> Result<Drum, Error> {
     let refused = |error: Error| refuse(error.to_string());
     let drum = Drum::new(&config.drum).map_err(refused)?;
     let table = config.contact.table().map_err(refused)?;
@@ -159,12 +204,11 @@ fn check(state: &State, engine: &EngineState, config: &SimulationConfig) -> Resu
         return Err(refuse("a bundle is larger than its drum"));
     }
     let count = state.particles.len();
-    let width = columns(drum.baffle_count(), drum.wall_count()).len();
-    if state.ledger.surfaces.len() != drum.surface_count() || !state.series.has_width(width) {
+    if state.ledger.surfaces.len() != drum.surface_count() {
         return Err(refuse("its accounts are not those of its drum"));
     }
-    if !state.frames.are_of(count) || engine.totals.len() != chunk_count(count) {
-        return Err(refuse("its frames or sums are not those of its bundles"));
+    if engine.totals.len() != chunk_count(count) {
+        return Err(refuse("its sums are not those of its bundles"));
     }
     let EngineState { contacts, .. } = engine;
     let ordered = contacts.pairs.iter().all(|contact| contact.particle < contact.other);
@@ -176,7 +220,7 @@ fn check(state: &State, engine: &EngineState, config: &SimulationConfig) -> Resu
             && contacts.iter().all(|contact| contact.overlap > 0.0)
     };
     if ordered && known(&contacts.pairs, count as u32) && known(&contacts.walls, drum.feature_count()) {
-        Ok(())
+        Ok(drum)
     } else {
         Err(refuse("its contacts are not those of its bundles"))
     }

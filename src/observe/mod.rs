@@ -1,4 +1,6 @@
 //! What is recorded of a simulation, and the statistics of it.
 
+pub mod frames;
+pub mod memory;
 pub mod recorder;
 pub mod summary;

@@ -4,6 +4,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::memory;
+use crate::error::Error;
 use crate::physics::columns::Columns;
 use crate::physics::contact::{Flows, Stored};
 use crate::physics::energy::{EnergyLedger, StoredEnergy, SurfaceAccount};
@@ -29,15 +31,15 @@ pub struct Snapshot<'a> {
     pub contacts: (usize, usize),
     /// Number of bundles.
     pub count: usize,
-    /// Time since the last sample [s]; 0 at the first.
-    pub interval: f64,
     /// What the last sample had seen.
     pub earlier: &'a Earlier,
 }
 
-/// Integrals at the last sample, from which means over the interval follow.
+/// What the next sample needs of the last: its time, and integrals from which means over the interval follow.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Earlier {
+    /// Time of the last sample [s]; none before the first.
+    pub time: Option<f64>,
     drum_work: f64,
     mass_moment: [f64; 2],
     impulses: Vec<[f64; 3]>,
@@ -147,8 +149,24 @@ impl Snapshot<'_> {
             + stored.map(|(part, _)| Stored::field(&held, part)).sum::<f64>()
     }
 
+    /// What the next sample needs of this one.
+    pub fn for_next(&self) -> Earlier {
+        Earlier {
+            time: Some(self.time),
+            drum_work: self.ledger.drum_work(),
+            mass_moment: self.ledger.moments.mass_moment_integral(),
+            impulses: self.ledger.surfaces.iter().map(impulses).collect(),
+        }
+    }
+
+    /// Time since the last sample [s]; 0 at the first.
+    fn interval(&self) -> f64 {
+        self.time - self.earlier.time.unwrap_or(self.time)
+    }
+
     fn over_interval(&self, change: f64) -> f64 {
-        if self.interval > 0.0 { change / self.interval } else { 0.0 }
+        let interval = self.interval();
+        if interval > 0.0 { change / interval } else { 0.0 }
     }
 
     fn drum_power(&self) -> f64 {
@@ -157,8 +175,9 @@ impl Snapshot<'_> {
 
     fn mean_center(&self, axis: usize) -> f64 {
         let moment = self.ledger.moments.mass_moment_integral()[axis] - self.earlier.mass_moment[axis];
-        if self.interval > 0.0 {
-            moment / self.interval / self.mass
+        let interval = self.interval();
+        if interval > 0.0 {
+            moment / interval / self.mass
         } else {
             self.ledger.moments.mass_moment()[axis] / self.mass
         }
@@ -224,18 +243,17 @@ fn surface_names(baffles: usize, walls: usize) -> Vec<String> {
         .collect()
 }
 
-/// Samples, one row each, and what the next row needs of the last.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+/// Samples, one row each.
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Series {
     width: usize,
     values: Vec<f64>,
-    earlier: Earlier,
 }
 
 impl Series {
     /// An empty series of `width` columns.
     pub fn new(width: usize) -> Self {
-        Self { width, ..Self::default() }
+        Self { width, values: Vec::new() }
     }
 
     /// Number of rows.
@@ -248,19 +266,30 @@ impl Series {
         self.values.is_empty()
     }
 
-    /// Whether this series holds whole rows of `width` columns.
-    pub fn has_width(&self, width: usize) -> bool {
-        self.width == width && self.values.len().is_multiple_of(width)
+    /// Number of columns.
+    pub fn width(&self) -> usize {
+        self.width
     }
 
-    /// What the last sample had seen.
-    pub fn earlier(&self) -> &Earlier {
-        &self.earlier
+    /// The values from a row on, row after row.
+    pub fn rows_from(&self, row: usize) -> &[f64] {
+        &self.values[row * self.width..]
     }
 
-    /// Time of the last sample [s].
-    pub fn last_time(&self) -> Option<f64> {
-        self.len().checked_sub(1).map(|row| self.values[row * self.width])
+    /// Puts whole rows before those that are there.
+    ///
+    /// # Errors
+    /// `Error::Memory` where there is no room for them; nothing has changed then.
+    pub fn prepend(&mut self, rows: &[f64]) -> Result<(), Error> {
+        memory::prepend(&mut self.values, rows, "putting samples back")
+    }
+
+    /// Reserves memory for a row, so that `push` cannot fail.
+    ///
+    /// # Errors
+    /// `Error::Memory` where there is none.
+    pub fn reserve(&mut self) -> Result<(), Error> {
+        memory::reserve(&mut self.values, self.width, "recording a sample")
     }
 
     /// Appends a row.
@@ -271,71 +300,22 @@ impl Series {
             let [x, y, torque] = snapshot.mean_load(surface);
             self.values.extend([account.work(), torque, 0.0 - x, 0.0 - y]);
         }
-        self.earlier = Earlier {
-            drum_work: snapshot.ledger.drum_work(),
-            mass_moment: snapshot.ledger.moments.mass_moment_integral(),
-            impulses: snapshot.ledger.surfaces.iter().map(impulses).collect(),
-        };
     }
 
     /// One column, a value for each row.
     pub fn column(&self, index: usize) -> Vec<f64> {
         self.values.iter().skip(index).step_by(self.width.max(1)).copied().collect()
     }
-}
 
-/// Pictures of the load: single precision is plenty for them (15 nm in a drum of half a metre).
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub struct Frames {
-    /// Times [s].
-    pub times: Vec<f64>,
-    /// Angles of the drum [rad].
-    pub drum_angles: Vec<f64>,
-    /// Centers [m]: x, y of each particle in id order, frame after frame.
-    pub positions: Vec<f32>,
-    /// Angles of the particles [rad], within ±π.
-    pub angles: Vec<f32>,
-    /// Speeds [m/s].
-    pub speeds: Vec<f32>,
-}
-
-impl Frames {
-    /// Appends a frame.
-    pub fn push(&mut self, time: f64, drum_angle: f64, particles: &crate::physics::particles::Particles) {
-        self.times.push(time);
-        self.drum_angles.push(drum_angle);
-        let (start, end) = (self.angles.len(), self.angles.len() + particles.len());
-        self.positions.resize(2 * end, 0.0);
-        self.angles.resize(end, 0.0);
-        self.speeds.resize(end, 0.0);
-        for (i, &id) in particles.ids.iter().enumerate() {
-            let place = start + id as usize;
-            let (position, angle) = (particles.positions[i], particles.angles[i]);
-            let turns = (angle / std::f64::consts::TAU).round();
-            self.positions[2 * place] = position.x as f32;
-            self.positions[2 * place + 1] = position.y as f32;
-            self.angles[place] = (angle - turns * std::f64::consts::TAU) as f32;
-            self.speeds[place] = particles.velocities[i].norm() as f32;
-        }
-    }
-
-    /// Whether these are whole frames of `count` particles.
-    pub fn are_of(&self, count: usize) -> bool {
-        let values = self.len() * count;
-        self.drum_angles.len() == self.len()
-            && self.positions.len() == 2 * values
-            && self.angles.len() == values
-            && self.speeds.len() == values
-    }
-
-    /// Number of frames.
-    pub fn len(&self) -> usize {
-        self.times.len()
-    }
-
-    /// Whether there are none.
-    pub fn is_empty(&self) -> bool {
-        self.times.is_empty()
+    /// One column, where there may be no memory for it.
+    ///
+    /// # Errors
+    /// `Error::Memory` where there is none.
+    pub fn try_column(&self, index: usize) -> Result<Vec<f64>, Error> {
+        let mut column = Vec::new();
+        memory::reserve(&mut column, self.len(), "reading the series")?;
+        column.extend(self.values.iter().skip(index).step_by(self.width.max(1)));
+        Ok(column)
     }
 }
 

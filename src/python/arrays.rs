@@ -1,13 +1,17 @@
 //! Between numpy arrays and the core's vectors. What leaves is handed over, not copied again.
 
 use numpy::ndarray::{Array2, Array3};
-use numpy::{Element, IntoPyArray, PyArray2, PyArray3, PyReadonlyArray1, PyReadonlyArray2};
+use numpy::{
+    Element, IntoPyArray, PyArray2, PyArray3, PyReadonlyArray1, PyReadonlyArray2, PyReadonlyArrayDyn,
+};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::engine::contacts::ContactRecord;
 use crate::engine::forces::Lists;
 use crate::error::Error;
+use crate::observe::frames::Frames;
+use crate::observe::memory;
 use crate::physics::vector::Vec2;
 use crate::simulation::initial_state::InitialState;
 
@@ -18,14 +22,59 @@ pub fn vectors<'py>(py: Python<'py>, vectors: &[Vec2]) -> Bound<'py, PyArray2<f6
     array.expect("two numbers a vector").into_pyarray(py)
 }
 
+/// Rows of `width` values as an array of shape (rows, width).
+pub fn table_of_rows(py: Python<'_>, values: Vec<f64>, width: usize) -> Bound<'_, PyArray2<f64>> {
+    let rows = values.len().checked_div(width).unwrap_or(0);
+    Array2::from_shape_vec((rows, width), values).expect("whole rows").into_pyarray(py)
+}
+
+/// Frames as a dict of arrays.
+///
+/// # Errors
+/// What Python answers.
+pub fn frames(py: Python<'_>, frames: Frames, count: usize) -> PyResult<Bound<'_, PyDict>> {
+    let table = PyDict::new(py);
+    table.set_item("time", frames.times.into_pyarray(py))?;
+    table.set_item("drum_angle", frames.drum_angles.into_pyarray(py))?;
+    table.set_item("positions", frame_positions(py, frames.positions, count))?;
+    table.set_item("angles", frame_values(py, frames.angles, count))?;
+    table.set_item("speeds", frame_values(py, frames.speeds, count))?;
+    Ok(table)
+}
+
+/// The frames in what `frames` gave.
+///
+/// # Errors
+/// `Error::Config` naming the array that is none of the kind, `Error::Memory` where there is no room for a copy.
+pub fn given_frames(table: &Bound<'_, PyDict>) -> Result<Frames, Error> {
+    Ok(Frames {
+        times: copied(table, "time")?,
+        drum_angles: copied(table, "drum_angle")?,
+        positions: copied(table, "positions")?,
+        angles: copied(table, "angles")?,
+        speeds: copied(table, "speeds")?,
+    })
+}
+
+fn copied<T: Element + Copy>(table: &Bound<'_, PyDict>, key: &str) -> Result<Vec<T>, Error> {
+    let wrong = || Error::config(format!("frames.{key}"), "something else", "an array of numbers in a row");
+    let item = table.get_item(key).ok().flatten().ok_or_else(wrong)?;
+    let array: PyReadonlyArrayDyn<T> = item.extract().map_err(|_| wrong())?;
+    let values = array.as_slice().map_err(|_| wrong())?;
+    let mut copy = Vec::new();
+    memory::reserve(&mut copy, values.len(), "putting frames back")?;
+    copy.extend_from_slice(values);
+    Ok(copy)
+}
+
 /// Values as an array of shape (frames, particles).
-pub fn frames(py: Python<'_>, values: Vec<f32>, count: usize) -> Bound<'_, PyArray2<f32>> {
+fn frame_values(py: Python<'_>, values: Vec<f32>, count: usize) -> Bound<'_, PyArray2<f32>> {
     let rows = values.len().checked_div(count).unwrap_or(0);
     Array2::from_shape_vec((rows, count), values).expect("whole frames").into_pyarray(py)
 }
 
 /// Positions as an array of shape (frames, particles, 2).
-pub fn frame_positions(py: Python<'_>, values: Vec<f32>, count: usize) -> Bound<'_, PyArray3<f32>> {
+fn frame_positions(py: Python<'_>, values: Vec<f32>, count: usize) -> Bound<'_, PyArray3<f32>> {
     let rows = values.len().checked_div(2 * count).unwrap_or(0);
     Array3::from_shape_vec((rows, count, 2), values).expect("whole frames").into_pyarray(py)
 }

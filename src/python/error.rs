@@ -1,6 +1,6 @@
 //! From core errors to the exceptions of `drumrs.errors`.
 
-use pyo3::exceptions::PyOSError;
+use pyo3::exceptions::{PyMemoryError, PyOSError};
 use pyo3::prelude::*;
 
 use crate::error::Error;
@@ -13,6 +13,7 @@ pub fn to_python(py: Python<'_>, error: &Error) -> PyErr {
             "UnstableError"
         }
         Error::Checkpoint { .. } => "CheckpointError",
+        Error::Memory { .. } => return PyMemoryError::new_err(error.to_string()),
         Error::System { .. } => return PyOSError::new_err(error.to_string()),
     };
     let instance = py

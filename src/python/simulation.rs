@@ -9,9 +9,9 @@ use std::sync::mpsc;
 use std::thread;
 use std::time::{Duration, Instant};
 
-use numpy::{IntoPyArray, PyArray1, PyArray2};
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
-use pyo3::types::{PyBytes, PyDict};
+use pyo3::types::PyDict;
 
 use super::arrays;
 use super::error::to_python;
@@ -158,9 +158,10 @@ impl Simulation {
         on_a_thread(py, "reading a checkpoint", read).map(Self::around)
     }
 
-    fn checkpoint<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+    /// The bytes of a checkpoint, in an array: as large as the records, they are not copied.
+    fn checkpoint<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<u8>>> {
         let bytes = self.with(py, |core| core.to_checkpoint()).map_err(|error| to_python(py, &error))?;
-        Ok(PyBytes::new(py, &bytes))
+        Ok(bytes.into_pyarray(py))
     }
 
     #[pyo3(signature = (steps, progress = None))]
@@ -279,16 +280,6 @@ impl Simulation {
     }
 
     #[getter]
-    fn sample_count(&self, py: Python<'_>) -> usize {
-        self.with(py, |core| core.state().series.len())
-    }
-
-    #[getter]
-    fn frame_count(&self, py: Python<'_>) -> usize {
-        self.with(py, |core| core.state().frames.len())
-    }
-
-    #[getter]
     fn collision_times<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let (bundle, drum) = self.with(py, |core| core.collision_times());
         let times = PyDict::new(py);
@@ -305,31 +296,80 @@ impl Simulation {
     fn series<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let table = self.with(py, |core| {
             let names = columns(core.drum().baffle_count(), core.drum().wall_count());
-            let column = |(index, (name, ..)): (usize, Column)| (name, core.state().series.column(index));
-            names.into_iter().enumerate().map(column).collect::<Vec<_>>()
+            let column = |(index, (name, ..)): (usize, Column)| Ok((name, core.series().try_column(index)?));
+            names.into_iter().enumerate().map(column).collect::<Result<Vec<_>, Error>>()
         });
         let series = PyDict::new(py);
-        for (name, values) in table {
+        for (name, values) in table.map_err(|error| to_python(py, &error))? {
             series.set_item(name, values.into_pyarray(py))?;
         }
         Ok(series)
     }
 
     fn frames<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let (frames, count) =
-            self.with(py, |core| (core.state().frames.clone(), core.state().particles.len()));
-        let table = PyDict::new(py);
-        table.set_item("time", frames.times.into_pyarray(py))?;
-        table.set_item("drum_angle", frames.drum_angles.into_pyarray(py))?;
-        table.set_item("positions", arrays::frame_positions(py, frames.positions, count))?;
-        table.set_item("angles", arrays::frames(py, frames.angles, count))?;
-        table.set_item("speeds", arrays::frames(py, frames.speeds, count))?;
-        Ok(table)
+        let (frames, count) = self.with(py, |core| {
+            let count = core.state().particles.len();
+            (core.frames().try_clone(count), count)
+        });
+        arrays::frames(py, frames.map_err(|error| to_python(py, &error))?, count)
+    }
+
+    /// The frames in memory, which then are no longer there; no copy is made.
+    fn take_frames<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let (frames, count) = self.with(py, |core| (core.take_frames(), core.state().particles.len()));
+        arrays::frames(py, frames, count)
+    }
+
+    /// Puts the frames in memory, which then are no longer there, and the samples that were not taken yet, which stay, into a
+    /// dict: one that is there before, so that no interrupt can come between them and whoever keeps them.
+    fn take_records(&self, py: Python<'_>, into: &Bound<'_, PyDict>) -> PyResult<()> {
+        let taken = self.with(py, |core| {
+            let (first_sample, first_frame) = (core.first_untaken_sample(), core.first_frame());
+            Ok((first_sample, first_frame, core.take_rows()?, core.take_frames()))
+        });
+        let (first_sample, first_frame, rows, frames) = taken.map_err(|error| to_python(py, &error))?;
+        let (width, count) = self.with(py, |core| (core.series().width(), core.state().particles.len()));
+        into.set_item("first_sample", first_sample)?;
+        into.set_item("rows", arrays::table_of_rows(py, rows, width))?;
+        into.set_item("first_frame", first_frame)?;
+        into.set_item("frames", arrays::frames(py, frames, count)?)
+    }
+
+    fn put_back_rows(&self, py: Python<'_>, rows: &Bound<'_, PyArray2<f64>>, taken: bool) -> PyResult<()> {
+        let rows = rows.try_readonly()?;
+        let values = rows.as_slice()?;
+        self.with(py, |core| core.put_back_rows(values, taken)).map_err(|error| to_python(py, &error))
+    }
+
+    fn put_back_frames(&self, py: Python<'_>, frames: &Bound<'_, PyDict>) -> PyResult<()> {
+        let frames = arrays::given_frames(frames).map_err(|error| to_python(py, &error))?;
+        self.with(py, |core| core.put_back_frames(frames)).map_err(|error| to_python(py, &error))
+    }
+
+    #[getter]
+    fn first_sample(&self, py: Python<'_>) -> u64 {
+        self.with(py, |core| core.first_sample())
+    }
+
+    #[getter]
+    fn first_untaken_sample(&self, py: Python<'_>) -> u64 {
+        self.with(py, |core| core.first_untaken_sample())
+    }
+
+    #[getter]
+    fn first_frame(&self, py: Python<'_>) -> u64 {
+        self.with(py, |core| core.first_frame())
+    }
+
+    /// Memory that records take which were not taken yet [bytes].
+    #[getter]
+    fn untaken_size(&self, py: Python<'_>) -> usize {
+        self.with(py, |core| core.untaken_size())
     }
 
     fn summary<'py>(&self, py: Python<'py>, start: f64, end: f64) -> PyResult<Bound<'py, PyDict>> {
         let statistics = self
-            .with(py, |core| summarize(&core.state().series, core.mass(), start, end))
+            .with(py, |core| summarize(core.series(), core.mass(), start, end))
             .map_err(|error| to_python(py, &error))?;
         let summary = PyDict::new(py);
         for (name, value) in statistics {

@@ -1,6 +1,7 @@
 //! What a simulation charges to its ledger after each step, and what it records now and then.
 
 use super::Simulation;
+use crate::error::Error;
 use crate::observe::recorder::Snapshot;
 use crate::physics::energy::StoredEnergy;
 use crate::physics::vector::{Vec2, dot};
@@ -62,14 +63,23 @@ impl Simulation {
         self.state.ledger.moments.charge_angular_momentum(now, angular_velocity);
     }
 
-    /// Records a sample or a frame where one is due.
-    pub(super) fn record(&mut self) {
+    /// Records a sample or a frame where one is due; both or nothing.
+    pub(super) fn record(&mut self) -> Result<(), Error> {
+        self.state.recorded.is_pending = true;
+        if self.is_sample_due() {
+            self.records.series.reserve()?;
+        }
+        if self.is_frame_due() {
+            self.records.frames.reserve(1, self.state.particles.len(), "recording a frame")?;
+        }
+        self.state.recorded.is_pending = false;
         if self.is_sample_due() {
             self.sample();
         }
         if self.is_frame_due() {
             self.push_frame();
         }
+        Ok(())
     }
 
     /// Records the frame at which a run has stopped on an error, so that what went wrong can be looked at. The step that fails
@@ -78,14 +88,17 @@ impl Simulation {
         let particles = &self.state.particles;
         let is_shown = |v: &Vec2| (v.x as f32).is_finite() && (v.y as f32).is_finite();
         let shown = particles.positions.iter().chain(&particles.velocities).all(is_shown);
-        if shown && particles.first_non_finite().is_none() {
+        let is_whole = shown && particles.first_non_finite().is_none();
+        // Where there is no memory for it, that is not what the run ended on.
+        if is_whole && self.records.frames.reserve(1, particles.len(), "recording a frame").is_ok() {
             self.push_frame();
         }
     }
 
     fn push_frame(&mut self) {
         let (time, angle) = (self.time(), self.drum_angle());
-        self.state.frames.push(time, angle, &self.state.particles);
+        self.records.frames.push(time, angle, &self.state.particles);
+        self.state.recorded.frames += 1;
     }
 
     /// Brings the sums of the engine to the ledger.
@@ -116,10 +129,11 @@ impl Simulation {
             mass: self.derived.mass,
             contacts: self.engine.pass().counts(),
             count: state.particles.len(),
-            interval: time - state.series.last_time().unwrap_or(time),
-            earlier: &state.series.earlier().clone(),
+            earlier: &state.recorded.earlier,
         };
-        state.series.push(&snapshot);
+        self.records.series.push(&snapshot);
+        state.recorded.earlier = snapshot.for_next();
+        state.recorded.samples += 1;
         state.ledger.overlap_ratio = 0.0;
     }
 

@@ -4,6 +4,7 @@ mod accounts;
 mod derived;
 mod guards;
 pub mod initial_state;
+mod records;
 mod run;
 pub mod state;
 mod views;
@@ -11,14 +12,14 @@ pub mod warnings;
 
 use derived::Derived;
 use initial_state::InitialState;
-use state::{EngineState, State};
+pub use records::Records;
+use state::{EngineState, Recorded, State};
 
 use crate::engine::forces::Lists;
 use crate::engine::parallel::Threads;
 use crate::engine::{DrumMotion, Engine, memory_order, relabel};
 use crate::error::Error;
 use crate::io::config::SimulationConfig;
-use crate::observe::recorder::{Frames, Series, columns};
 use crate::physics::drum::Drum;
 use crate::physics::energy::{EnergyLedger, MomentBalance, StoredEnergy};
 use crate::physics::load::packing::pack;
@@ -34,6 +35,8 @@ pub struct Simulation {
     /// Follows from the configuration.
     derived: Derived,
     engine: Engine,
+    /// What was recorded and has not been taken yet.
+    records: Records,
     /// The step at which the load is looked at, recorded or sorted next.
     next_event: u64,
     failure: Option<Error>,
@@ -96,12 +99,10 @@ impl Simulation {
             contacts.pairs.extend(fresh.pairs);
             contacts.walls.extend(fresh.walls);
         }
-        let surfaces = columns(derived.drum.baffle_count(), derived.drum.wall_count()).len();
         let state = State {
             step: 0,
             initial_angle: initial.drum_angle,
-            series: Series::new(surfaces),
-            frames: Frames::default(),
+            recorded: Recorded::default(),
             ledger: EnergyLedger::open(
                 StoredEnergy::default(),
                 MomentBalance::open(Vec2::zeros(), 0.0, 0.0),
@@ -110,14 +111,15 @@ impl Simulation {
             particles,
         };
         let engine_state = EngineState { contacts, totals: Vec::new() };
-        let mut simulation = Self::assemble(config, seed, threads, state, &engine_state, derived);
+        let records = Records::new(&derived.drum);
+        let mut simulation = Self::assemble(config, seed, threads, state, &engine_state, records, derived);
         simulation.open(&engine_state);
         if engine_state.contacts == Lists::default() {
             let found = simulation.contacts();
             initial_state::require_apart(&found, &simulation.state.particles, simulation.drum())?;
         }
         simulation.guard(simulation.state.particles.mass_moment())?;
-        simulation.record();
+        simulation.record()?;
         Ok(simulation)
     }
 
@@ -141,25 +143,28 @@ impl Simulation {
         threads: usize,
         state: State,
         engine_state: &EngineState,
+        records: Records,
     ) -> Result<Self, Error> {
         config.validate()?;
         let derived = Derived::new(&config, &state.particles)?;
-        Ok(Self::assemble(config, seed, Threads::new(threads)?, state, engine_state, derived))
+        Ok(Self::assemble(config, seed, Threads::new(threads)?, state, engine_state, records, derived))
     }
 
+    #[allow(clippy::too_many_arguments)] // All its parts.
     fn assemble(
         config: SimulationConfig,
         seed: u64,
         threads: Threads,
         state: State,
         engine_state: &EngineState,
+        records: Records,
         derived: Derived,
     ) -> Self {
         let skin = skin(&config, &state.particles);
         let mut engine = Engine::new(&state.particles, derived.world(), skin, threads);
         engine.insert(&engine_state.contacts, &state.particles, derived.world());
         engine.pass_mut().set_totals(&engine_state.totals);
-        Self { config, seed, state, derived, engine, next_event: 0, failure: None }
+        Self { config, seed, state, derived, engine, records, next_event: 0, failure: None }
     }
 
     /// First forces, opened accounts.

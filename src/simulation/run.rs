@@ -14,6 +14,7 @@ impl Simulation {
     ///
     /// # Errors
     /// One of the errors of instability; the simulation then stays as it is and answers every further run with the same.
+    /// `Error::Memory` where a sample or frame has no room: the next run records it first and goes on, once records are taken.
     pub fn run(&mut self, steps: u64) -> Result<(), Error> {
         if let Some(failure) = &self.failure {
             return Err(failure.clone());
@@ -23,15 +24,22 @@ impl Simulation {
         }
         let threads = self.engine.threads().clone();
         let outcome = threads.enter(self.state.particles.len(), || self.run_steps(steps));
-        self.failure = outcome.clone().err();
+        self.failure = outcome.clone().err().filter(|error| !matches!(error, Error::Memory { .. }));
         outcome
     }
 
     fn run_steps(&mut self, steps: u64) -> Result<(), Error> {
+        if self.state.recorded.is_pending {
+            self.record()?;
+        }
         self.next_event = self.event_after(self.state.step);
         self.begin();
         for left in (0..steps).rev() {
             if let Err(error) = self.step(left == 0) {
+                if matches!(error, Error::Memory { .. }) {
+                    // The step is done and up to date; only its records are pending.
+                    return Err(error);
+                }
                 self.engine.finish();
                 self.engine.show(&mut self.state.particles);
                 self.record_end();
@@ -92,7 +100,7 @@ impl Simulation {
         }
         self.engine.finish();
         self.engine.show(&mut self.state.particles);
-        self.record();
+        self.record()?;
         if self.is_sort_due() && !is_last {
             self.begin();
         } else if !is_last {

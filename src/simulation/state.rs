@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::engine::forces::{Lists, Totals};
-use crate::observe::recorder::{Frames, Series};
+use crate::observe::recorder::Earlier;
 use crate::physics::energy::EnergyLedger;
 use crate::physics::particles::Particles;
 
@@ -18,10 +18,21 @@ pub struct State {
     pub particles: Particles,
     /// The accounts.
     pub ledger: EnergyLedger,
-    /// The samples.
-    pub series: Series,
-    /// The frames.
-    pub frames: Frames,
+    /// How much has been recorded.
+    pub recorded: Recorded,
+}
+
+/// How much has been recorded since the start, wherever it is kept, and what the next sample needs of the last.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct Recorded {
+    /// Number of samples.
+    pub samples: u64,
+    /// Number of frames.
+    pub frames: u64,
+    /// What the last sample had seen.
+    pub earlier: Earlier,
+    /// Whether what is due at this step is still to be recorded, since there was no memory for it.
+    pub is_pending: bool,
 }
 
 /// What the engine holds of the state.

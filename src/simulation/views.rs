@@ -41,7 +41,7 @@ impl Simulation {
         self.engine.threads().count()
     }
 
-    /// State: step, particles, ledger, series, frames.
+    /// State: step, particles, ledger.
     pub fn state(&self) -> &State {
         &self.state
     }

@@ -192,14 +192,14 @@ pub fn bits(simulation: &Simulation) -> Vec<u64> {
     let columns =
         drumrs::observe::recorder::columns(simulation.drum().baffle_count(), simulation.drum().wall_count());
     for index in 0..columns.len() {
-        all.extend(numbers(&simulation.state().series.column(index)));
+        all.extend(numbers(&simulation.series().column(index)));
     }
     all
 }
 
 /// A statistic over the samples from `start` to `end` [s].
 pub fn statistic(simulation: &Simulation, name: &str, start: f64, end: f64) -> f64 {
-    let statistics = summarize(&simulation.state().series, simulation.mass(), start, end);
+    let statistics = summarize(simulation.series(), simulation.mass(), start, end);
     let statistics = statistics.expect("a window of samples");
     statistics.iter().find(|entry| entry.0 == name).expect("a known statistic").1.expect("a defined value")
 }
@@ -214,5 +214,5 @@ pub fn column(simulation: &Simulation, name: &str) -> Vec<f64> {
     let columns =
         drumrs::observe::recorder::columns(simulation.drum().baffle_count(), simulation.drum().wall_count());
     let index = columns.iter().position(|column| column.0 == name).expect("a recorded quantity");
-    simulation.state().series.column(index)
+    simulation.series().column(index)
 }

@@ -22,6 +22,7 @@ load.fill = [0.05, 0.1]
 drum.baffles.count = [0, 3]
 """
 RUN = ["--set", "run.duration=3.0", "--set", "load.fill=0.1", "--set", "run.checkpoint_every=0.05"]
+RUN += ["--set", "run.frame_every=0.001"]
 # What differs from run to run, and what is drawn from it.
 TIMED = ("facts.json", "summary.json", "checkpoint.bin")
 

@@ -62,7 +62,7 @@ def test_the_picture_holds_everything(scene, reach):
 
 
 def test_too_many_frames_are_thinned_evenly_and_the_end_stays(monkeypatch):
-    monkeypatch.setattr("drumrs.viewer.recording._MOST_PLACES", 10)
+    monkeypatch.setattr("drumrs.viewer.recording.MOST_PLACES", 10)
     frames = frames_of(count=5, frames=7, drum_radius=0.3)
     data = recording(frames, None, "", None)
     assert read_back(data["times"], "<f8").tolist() == frames.times[[0, 4, 6]].tolist()

@@ -66,9 +66,8 @@ def run_command(arguments: Sequence[str] | None = None) -> int:
         return _complain(" ".join(str(error).split()), _BAD_INPUT)
     except UnstableError as error:
         return _complain(str(error), _FAILED)
-    except OSError as error:
-        full = error.errno in NO_ROOM and error.strerror
-        return _complain(f"cannot write: {error.strerror}" if full else str(error), _FAILED)
+    except (OSError, MemoryError) as error:
+        return _complain(_of_the_system(error), _FAILED)
     except (KeyboardInterrupt, ImportError) as error:
         # Where Ctrl-C falls into the import of a module in C++, it is the cause of an ImportError.
         interrupt = error if isinstance(error, KeyboardInterrupt) else error.__cause__
@@ -76,6 +75,13 @@ def run_command(arguments: Sequence[str] | None = None) -> int:
             raise
         return _complain(str(interrupt) or "interrupted", _INTERRUPTED)
     return status if isinstance(status, int) else 0
+
+
+def _of_the_system(error: OSError | MemoryError) -> str:
+    """Say what the system had no room for, or refused."""
+    if isinstance(error, OSError) and error.errno in NO_ROOM and error.strerror:
+        return f"cannot write: {error.strerror}"
+    return str(error) or "out of memory"
 
 
 @contextmanager

@@ -12,14 +12,13 @@ from drumrs.cli.tables import print_paths, print_table
 from drumrs.config import Config
 from drumrs.config.softening import softening
 from drumrs.errors import ConfigError, UnstableError
+from drumrs.limits import require_disk
 from drumrs.precision import Goal, pursue
 from drumrs.progress import board
 from drumrs.protocol import announce, finish
-from drumrs.result import UNSTABLE
+from drumrs.run_folder import RunFolder
 from drumrs.simulation import Simulation
-from drumrs.unstable import UnstableRun, refuse_to_repeat
-
-_CHECKPOINT = "checkpoint.bin"
+from drumrs.unstable import refuse_to_repeat
 
 
 def run(
@@ -48,7 +47,8 @@ def run(
         TOML file with some keys of `drumrs config`.
     out
         Folder for summary.json, series.parquet, frames.parquet, config.toml, pictures, player.html and checkpoints. A
-        run that ends unstable leaves unstable.json instead of summary.json and pictures; the rest shows its end.
+        run that ends unstable leaves unstable.json instead of summary.json and pictures; the rest shows its end. While
+        it runs, series and frames go to its folder "records" as they come.
     json
         Print the summary as one JSON object, and nothing else, on standard output.
     resume
@@ -68,28 +68,30 @@ def run(
                 "--resume takes the case from its folder, so CASE, --set, --seed, --softer and --out must not be given"
             )
         out = resume
-        simulation = Simulation.load(out / _CHECKPOINT, threads)
+        begun = RunFolder(out)
+        simulation = begun.load(threads)
         refuse_to_repeat(out, simulation)
         goal = _goal(until, limit, _first_duration(out, simulation.config))
         check_folder(out, "--resume")
+        begun.restore(simulation)
+        folder: RunFolder | None = begun
     else:
         config = _soften(layered(case, set_, seed), softer)
         goal = _goal(until, limit, config.run.duration)
         if out is not None:
             check_folder(out)
-        simulation = Simulation(config, threads=threads)
-        _open_folder(out, simulation.config)
+        simulation = Simulation(config, threads=threads, in_memory=out is None)
+        folder = _open_folder(out, simulation)
     try:
-        reached = _finish(simulation, out, goal)
+        reached = _finish(simulation, folder, goal)
     except UnstableError as error:
-        _keep_unstable(simulation, out, error)
+        _keep_unstable(simulation, folder, error)
         raise
-    result = simulation.result()
-    written = result.save(out) if out is not None else []
+    summary, written = folder.conclude(simulation) if folder is not None else (simulation.summary(), [])
     if json:
-        sys.stdout.write(f"{result.summary.to_json()}\n")
+        sys.stdout.write(f"{summary.to_json()}\n")
     else:
-        print_table({"": result})
+        print_table({"": summary})
         print_paths(written)
     if reached:
         sys.stderr.write(f"drumrs: {reached}\n")
@@ -117,41 +119,44 @@ def _first_duration(folder: Path, config: Config) -> float:
     return min(Config.read(begun).run.duration if begun.exists() else math.inf, config.run.duration)
 
 
-def _open_folder(folder: Path | None, config: Config) -> None:
+def _open_folder(path: Path | None, simulation: Simulation) -> RunFolder | None:
     """Create the folder and mark it as that of a run not finished yet."""
-    if folder is None:
-        return
+    if path is None:
+        return None
+    require_disk(simulation.config, simulation.count, simulation.time_step, path)
+    folder = RunFolder(path)
     try:
-        folder.mkdir(parents=True, exist_ok=True)
-        for name in ("summary.json", UNSTABLE):
-            (folder / name).unlink(missing_ok=True)
-        (folder / "config.toml").write_text(config.to_toml(), encoding="utf-8")
+        folder.clear()
+        (path / "config.toml").write_text(simulation.config.to_toml(), encoding="utf-8")
     except OSError as error:
         raise ConfigError(
-            f"--out is {str(folder)!r}, but must be a folder that can be written: {error.strerror}"
+            f"--out is {str(path)!r}, but must be a folder that can be written: {error.strerror}"
         ) from None
+    return folder
 
 
-def _keep_unstable(simulation: Simulation, out: Path | None, error: UnstableError) -> None:
+def _keep_unstable(simulation: Simulation, folder: RunFolder | None, error: UnstableError) -> None:
     """Save what was recorded until a run ended unstable, and say where."""
-    if out is None:
+    if folder is None:
         sys.stderr.write("drumrs: nothing is kept of this run without --out\n")
         return
-    UnstableRun.of(simulation, error).save(out)
+    folder.conclude_unstable(simulation, error)
+    out = folder.path
     sys.stderr.write(f"drumrs: what was recorded is in {out}; look at its end with: drumrs view {out}\n")
 
 
-def _finish(simulation: Simulation, out: Path | None, goal: Goal | None) -> str:
+def _finish(simulation: Simulation, folder: RunFolder | None, goal: Goal | None) -> str:
     """Run to the end, or on to the goal; return what of that was reached."""
-    checkpoint = out / _CHECKPOINT if out is not None else None
+    words = f"--until {goal.precision:g} --limit {goal.limit:g}" if goal is not None else ""
+    hint = f"go on with: drumrs run --resume {folder.path} {words}".rstrip() if folder is not None else ""
+    hint = hint or "nothing is kept without --out"
     try:
         with board(show=True) as shown:
             if goal is not None:
-                return pursue(simulation, goal, shown, checkpoint)
-            finish(simulation, announce(shown, simulation), checkpoint)
+                return pursue(simulation, goal, shown, folder)
+            finish(simulation, announce(shown, simulation), folder)
             return ""
+    except MemoryError as error:
+        raise MemoryError(f"out of memory at t = {simulation.time:.3f} s: {error}; {hint}") from None
     except KeyboardInterrupt:
-        words = f"--until {goal.precision:g} --limit {goal.limit:g}" if goal is not None else ""
-        hint = f"go on with: drumrs run --resume {out} {words}".rstrip()
-        hint = hint if out is not None else "nothing is kept without --out"
         raise KeyboardInterrupt(f"interrupted at t = {simulation.time:.3f} s; {hint}") from None

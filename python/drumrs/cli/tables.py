@@ -5,19 +5,19 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from drumrs.result import Result, Summary
+from drumrs.result import Summary
 
 
-def print_table(results: dict[str, Result]) -> None:
-    """Print the summaries of results, a column each."""
+def print_table(summaries: dict[str, Summary]) -> None:
+    """Print summaries, a column each."""
     from rich.console import Console
     from rich.markup import escape
     from rich.table import Table
 
-    columns = [_rows(result.summary) for result in results.values()]
-    table = Table(box=None, show_header=len(results) > 1, highlight=False)
+    columns = [_rows(summary) for summary in summaries.values()]
+    table = Table(box=None, show_header=len(summaries) > 1, highlight=False)
     table.add_column("")
-    for name in results:
+    for name in summaries:
         table.add_column(name, justify="right", no_wrap=True)
     for label in columns[0]:
         table.add_row(escape(label), *(column[label] for column in columns))

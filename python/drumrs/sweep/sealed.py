@@ -12,7 +12,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO
 
 from drumrs.errors import ConfigError
-from drumrs.files import read_plain, write_whole
+from drumrs.files import read_plain, replacing, write_whole
+from drumrs.frames import Frames, sink_frames
 from drumrs.sweep.case import Case, physics_version
 
 if TYPE_CHECKING:
@@ -51,7 +52,22 @@ def write_sealed(
     table.write_parquet(buffer, compression="uncompressed", metadata={**(metadata or {}), _KEY: seal})
     data = buffer.getvalue()
     head, _, tail = data.rpartition(_BLANK.encode())
-    write_whole(path, head + hashlib.sha256(data).hexdigest().encode() + tail)
+    write_whole(path, head, hashlib.sha256(data).hexdigest().encode(), tail)
+
+
+def write_sealed_frames(path: Path, case: Case, frames: Frames) -> None:
+    """Write the frames of a case, whole or not at all, and batch by batch: the table takes three times their memory."""
+    seal = json.dumps({**_claims(case, "frames"), "sha256": _BLANK})
+    with replacing(path) as temporary:
+        words = {**frames.metadata(), _KEY: seal}
+        sink_frames(temporary, frames.lazy_table(), frames.count, words, "uncompressed")
+        with temporary.open("rb+") as file:
+            digest = hashlib.file_digest(file, "sha256").hexdigest()
+            # The seal stands in the footer, whose length the file's last words tell.
+            file.seek(-8, io.SEEK_END)
+            start = file.seek(-8 - int.from_bytes(file.read(4), "little"), io.SEEK_END)
+            file.seek(start + file.read().rindex(_BLANK.encode()))
+            file.write(digest.encode())
 
 
 def read_sealed(path: Path, case: Case, content: str) -> io.BytesIO:

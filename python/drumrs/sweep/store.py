@@ -25,7 +25,7 @@ from drumrs.frames import Frames
 from drumrs.result import Result, Summary
 from drumrs.sweep.case import Case
 from drumrs.sweep.columns import TIMINGS, row, schema
-from drumrs.sweep.sealed import FORMAT, read_sealed, write_sealed
+from drumrs.sweep.sealed import FORMAT, read_sealed, write_sealed, write_sealed_frames
 
 if TYPE_CHECKING:
     import io
@@ -137,8 +137,7 @@ class Store:
         units = {"units": json.dumps(dict(result.units))}
         write_sealed(self._parquet(case, "series"), case, "series", result.series, units)
         if case.wants_frames:
-            frames = result.frames
-            write_sealed(self._parquet(case, "frames"), case, "frames", frames.table(), frames.metadata())
+            write_sealed_frames(self._parquet(case, "frames"), case, result.frames)
         timings = {name: getattr(result.summary, name) for name in TIMINGS}
         self._write_json(case, "facts", {"case": case.id, **timings, **facts})
         self._write_row(case, result.summary, result.series)

@@ -130,7 +130,7 @@ def _simulate(case: Case, store: Store, running: Running) -> bool:
     try:
         if not finish(simulation, report):
             return False
-        store.write(case, simulation.result(), _facts())
+        store.write(case, simulation.result(keep=False), _facts())
     finally:
         running.end(simulation)
     return True

@@ -139,7 +139,7 @@ def adhesive_impact() -> Evidence:
         time = 2.5 * turn / WALL_FREQUENCY
         run = _impacts(
             pull,
-            {"contact.drum.restitution": 1.0, "run.time_step": step, "run.duration": 0.1},
+            {"contact.drum.restitution": 1.0, "run.time_step": step},
             time,
             onsets,
             math.ceil(time / step),

@@ -44,7 +44,7 @@ class Panel:
 
 def panels_of_series(series: "pl.DataFrame") -> list[Panel]:
     """Return the power of the drum with its losses, and the energies stored, from a run's series."""
-    columns = {name: series[name].to_numpy().astype(float) for name in series.columns}
+    columns = {name: series[name].to_numpy().astype(float, copy=False) for name in series.columns}
     if len(columns["time"]) < _FEWEST:
         return []
     return [_power(columns), _energies(columns)]

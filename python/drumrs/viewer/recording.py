@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from drumrs.frames import Frames
+from drumrs.frames import Frames, thinned
 from drumrs.viewer.curves import Panel, panels_of_frames, panels_of_series
 
 if TYPE_CHECKING:
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 _FULL = 65535
 _TURN = 65536
 # Bundles times frames in one page, at 8 bytes each before base64: beyond this, frames are left out.
-_MOST_PLACES = 2_000_000
+MOST_PLACES = 2_000_000
 # Speeds beyond this share of all are shown in the last color, so that the first fall does not use up the scale.
 _TYPICAL = 0.998
 
@@ -88,21 +88,8 @@ def _panel(panel: Panel) -> Mapping[str, Any]:
 
 def _thinned(frames: Frames) -> Frames:
     """Leave out frames, evenly, where there are more than a page can hold; the last one stays."""
-    every = math.ceil(len(frames) * frames.count / _MOST_PLACES)
-    if every <= 1:
-        return frames
-    kept = np.unique([*range(0, len(frames), every), len(frames) - 1])
-    return Frames(
-        times=frames.times[kept],
-        drum_angles=frames.drum_angles[kept],
-        positions=frames.positions[kept],
-        angles=frames.angles[kept],
-        speeds=frames.speeds[kept],
-        radii=frames.radii,
-        drum_radius=frames.drum_radius,
-        baffles=frames.baffles,
-        walls=frames.walls,
-    )
+    kept = thinned(len(frames), frames.count, MOST_PLACES)
+    return frames if len(kept) == len(frames) else frames.picked(kept)
 
 
 def _reach(frames: Frames) -> float:

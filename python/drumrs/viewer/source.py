@@ -7,6 +7,7 @@ from drumrs.config import Config
 from drumrs.errors import ConfigError
 from drumrs.frames import Frames
 from drumrs.viewer.page import Player
+from drumrs.viewer.recording import MOST_PLACES
 
 if TYPE_CHECKING:
     import polars as pl
@@ -63,7 +64,7 @@ def _read_frames(path: Path) -> Frames:
             f"{str(path)!r} is not there, but must be the frames.parquet of a run, or its folder"
         )
     try:
-        return Frames.load(path)
+        return Frames.load(path, MOST_PLACES)
     except (PolarsError, PanicException, KeyError, ValueError, TypeError, OSError):
         raise ConfigError(f"{str(path)!r} holds no frames, but must be a file that drumrs wrote") from None
 

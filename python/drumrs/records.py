@@ -1,0 +1,225 @@
+"""`Records`: what a simulation has recorded and still holds; handed to whoever keeps it on disk, and taken back."""
+
+from typing import TYPE_CHECKING, Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drumrs.config import Config
+from drumrs.frames import Frames
+
+if TYPE_CHECKING:
+    import polars as pl
+
+Array = NDArray[np.float64]
+
+
+class Core(Protocol):
+    """What `Records` asks of the compiled core."""
+
+    @property
+    def count(self) -> int:
+        """Number of bundles."""
+
+    @property
+    def radii(self) -> Array:
+        """Radii of the bundles [m]."""
+
+    @property
+    def first_sample(self) -> int:
+        """Samples recorded before the first in memory."""
+
+    @property
+    def first_untaken_sample(self) -> int:
+        """Samples recorded before the first that was not taken."""
+
+    @property
+    def first_frame(self) -> int:
+        """Frames recorded before the first in memory."""
+
+    @property
+    def untaken_size(self) -> int:
+        """Memory of what was not taken yet [bytes]."""
+
+    def outlines(self) -> list[Array]:
+        """Baffles, then walls [m]."""
+
+    def series(self) -> dict[str, Array]:
+        """Columns of the samples in memory."""
+
+    def frames(self) -> dict[str, NDArray[Any]]:
+        """Return a copy of the frames in memory."""
+
+    def take_frames(self) -> dict[str, NDArray[Any]]:
+        """Return the frames in memory, which are then no longer there."""
+
+    def take_records(self, into: dict[str, Any]) -> None:
+        """Put frames and samples that were not taken yet into a dict."""
+
+    def put_back_rows(self, rows: Array, taken: bool) -> None:
+        """Put samples before those in memory."""
+
+    def put_back_frames(self, frames: dict[str, NDArray[Any]]) -> None:
+        """Put frames before those in memory."""
+
+
+class Records:
+    """What a simulation has recorded and still holds in memory.
+
+    Parameters
+    ----------
+    core
+        The compiled core.
+    config
+        The simulation's configuration.
+    columns
+        Names of the columns of the series.
+
+    Attributes
+    ----------
+    columns
+        Names of the columns of the series.
+    """
+
+    def __init__(self, core: Core, config: Config, columns: list[str]) -> None:
+        self.columns = columns
+        self._core = core
+        self._drum = config.drum
+
+    @property
+    def count(self) -> int:
+        """Number of bundles n."""
+        return self._core.count
+
+    @property
+    def size(self) -> int:
+        """Memory of what was not taken yet [bytes]."""
+        return self._core.untaken_size
+
+    @property
+    def taken_samples(self) -> int:
+        """Samples taken so far, the first ones recorded."""
+        return self._core.first_untaken_sample
+
+    @property
+    def taken_frames(self) -> int:
+        """Frames taken so far, the first ones recorded."""
+        return self._core.first_frame
+
+    @property
+    def are_whole(self) -> bool:
+        """Whether everything recorded is in memory."""
+        return self._core.first_sample == self._core.first_frame == 0
+
+    @property
+    def has_whole_series(self) -> bool:
+        """Whether all samples are in memory."""
+        return self._core.first_sample == 0
+
+    def series(self) -> "pl.DataFrame":
+        """Return the samples in memory, one row each."""
+        import polars as pl
+
+        columns = self._core.series()
+        # polars copies: a column at a time, or there would be two tables for a moment.
+        return pl.DataFrame([pl.Series(name, columns.pop(name)) for name in list(columns)])
+
+    def frames(self, *, keep: bool = True) -> Frames:
+        """Return the frames in memory.
+
+        Parameters
+        ----------
+        keep
+            Whether they stay there, too; without it nothing is copied.
+        """
+        return self.as_frames(self._core.frames() if keep else self._core.take_frames())
+
+    def take(self, into: dict[str, Any]) -> None:
+        """Hand over what was not taken yet: frames leave the memory, samples stay and are noted as taken.
+
+        Parameters
+        ----------
+        into
+            Gets "first_sample", "rows", "first_frame" and "frames". It is filled at once: an interrupt loses nothing.
+        """
+        self._core.take_records(into)
+
+    def put_back(self, series: "pl.DataFrame", frames: Frames | None) -> None:
+        """Take back what was recorded before the first in memory.
+
+        Parameters
+        ----------
+        series
+            The samples that were taken.
+        frames
+            The frames that were taken. Without them, all stay where they are, and samples are noted as taken.
+        """
+        rows = series.to_numpy(order="c")
+        self._core.put_back_rows(rows, frames is None)
+        if frames is not None:
+            arrays: dict[str, NDArray[Any]] = {
+                "time": frames.times,
+                "drum_angle": frames.drum_angles,
+                "positions": frames.positions,
+            }
+            self._core.put_back_frames({**arrays, "angles": frames.angles, "speeds": frames.speeds})
+
+    def mean_force(self, start: float, end: float) -> dict[str, float]:
+        """Return the force of the load on all parts of the drum, a mean over the interval between two samples."""
+        series = self._core.series()
+        times = series["time"]
+        # A row holds the mean over the interval that it closes; all intervals are equally long.
+        inside = (times > start) & (times <= end)
+        forces = {name: float(series[name][inside].mean()) for name in series if name.startswith("force_")}
+        return {
+            f"force_{axis}": sum(force for name, force in forces.items() if name.endswith(f"_{axis}"))
+            for axis in "xy"
+        }
+
+    def none(self) -> Frames:
+        """Return no frames of this load in this drum."""
+        shape = (0, self.count)
+        single = np.empty(shape, np.float32)
+        empty: dict[str, NDArray[Any]] = {
+            "time": np.empty(0),
+            "drum_angle": np.empty(0),
+            "angles": single,
+            "speeds": single,
+        }
+        return self.as_frames({**empty, "positions": np.empty((*shape, 2), np.float32)})
+
+    def as_frames(self, arrays: dict[str, NDArray[Any]]) -> Frames:
+        """Return the core's arrays as frames of this load in this drum."""
+        drum, outlines = self._drum, self._core.outlines()
+        return Frames(
+            times=arrays["time"],
+            drum_angles=arrays["drum_angle"],
+            positions=arrays["positions"],
+            angles=arrays["angles"],
+            speeds=arrays["speeds"],
+            radii=self._core.radii,
+            drum_radius=drum.diameter / 2.0 if drum.rim else None,
+            baffles=tuple(outlines[: drum.baffles.count]),
+            walls=tuple(outlines[drum.baffles.count :]),
+        )
+
+
+class HasRecords:
+    """The part of a simulation that shows what it has recorded."""
+
+    _records: Records
+
+    @property
+    def series(self) -> "pl.DataFrame":
+        """Polars table of the recorded quantities, one row a sample; `drumrs.units` has the units."""
+        return self._records.series()
+
+    @property
+    def frames(self) -> Frames:
+        """Positions, angles and speeds of the bundles at the frames' times."""
+        return self._records.frames()
+
+    @property
+    def records(self) -> Records:
+        """What is behind `series` and `frames`, for whoever takes it as it comes."""
+        return self._records

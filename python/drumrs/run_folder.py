@@ -1,0 +1,111 @@
+"""`RunFolder`: the folder of a run: records and checkpoints while it is under way, its results at the end."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from drumrs.errors import UnstableError
+from drumrs.files import write_whole
+from drumrs.frames import Frames, FramesFile, thinned
+from drumrs.parts import PART_SIZE, Parts
+from drumrs.result import UNSTABLE, Summary, draw, write_tables
+from drumrs.simulation import Simulation, units
+from drumrs.unstable import UnstableRun
+
+if TYPE_CHECKING:
+    import polars as pl
+
+_CHECKPOINT = "checkpoint.bin"
+
+
+class RunFolder:
+    """The folder of a run.
+
+    Parameters
+    ----------
+    path
+        The folder, which exists by the time that something is written.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self._parts = Parts(path)
+
+    def clear(self) -> None:
+        """Make the folder where there is none, and remove what an earlier run recorded there or goes on from."""
+        self.path.mkdir(parents=True, exist_ok=True)
+        # Tables of another run must not pass for the beginning of this one.
+        for name in ("summary.json", UNSTABLE, _CHECKPOINT, "series.parquet", "frames.parquet"):
+            (self.path / name).unlink(missing_ok=True)
+        self._parts.remove()
+
+    def load(self, threads: int) -> Simulation:
+        """Return the simulation of the last checkpoint; its frames stay in the folder.
+
+        Raises
+        ------
+        CheckpointError
+            Where there is none, or it cannot be used.
+        """
+        return Simulation.load(self.path / _CHECKPOINT, threads, with_records=False)
+
+    def restore(self, simulation: Simulation) -> None:
+        """Give a simulation of `load` its series, and drop what was recorded after its checkpoint."""
+        self._parts.restore(simulation.records)
+
+    def flush(self, simulation: Simulation) -> None:
+        """Write what was recorded since, where that has grown to a part."""
+        if simulation.records.size >= PART_SIZE:
+            self._parts.append(simulation.records)
+
+    def save(self, simulation: Simulation) -> None:
+        """Write what was recorded since, then a checkpoint."""
+        self._parts.append(simulation.records)
+        simulation.save(self.path / _CHECKPOINT)
+
+    def conclude(self, simulation: Simulation) -> tuple[Summary, list[Path]]:
+        """Write what `Result.save` writes; return the summary and the files written."""
+        summary, series = simulation.summary(), simulation.series
+        written = self._write_tables(simulation, series)
+        file = FramesFile.of(self.path / "frames.parquet")
+        drawn = draw(self.path, simulation.config, summary, series, *_pictured(file, simulation))
+        # The summary comes last: a folder that has one is complete.
+        write_whole(self.path / "summary.json", f"{summary.to_json()}\n".encode())
+        (self.path / UNSTABLE).unlink(missing_ok=True)
+        self._parts.remove()
+        return summary, [*written, self.path / "summary.json", *drawn]
+
+    def conclude_unstable(self, simulation: Simulation, error: UnstableError) -> None:
+        """Write what `UnstableRun.save` writes."""
+        series = simulation.series
+        self._write_tables(simulation, series)
+        frames = _shown(FramesFile.of(self.path / "frames.parquet"))
+        UnstableRun.of(simulation, error, series, frames).save_end(self.path)
+        self._parts.remove()
+
+    def _write_tables(self, simulation: Simulation, series: "pl.DataFrame") -> list[Path]:
+        self._parts.append(simulation.records)
+        path = self.path / "frames.parquet"
+        known = {column: units(column) for column in series.columns}
+        written = write_tables(self.path, simulation.config, series, known)
+        self._parts.merge_frames(path, simulation.records)
+        return [*written, path]
+
+
+def _shown(file: FramesFile) -> Frames:
+    """Read as many frames as a player shows."""
+    from drumrs.viewer.recording import MOST_PLACES
+
+    return file.read(thinned(len(file), file.count, MOST_PLACES))
+
+
+def _pictured(file: FramesFile, simulation: Simulation) -> tuple[Frames, Frames]:
+    """Read the frames that a player shows, and those of the snapshots with the ones beside them."""
+    start, end = simulation.config.run.averaging_window
+    times = file.times()
+    nearest = np.array(
+        [int(np.abs(times - time).argmin()) for time in (0.0, start, end)] if len(times) else []
+    )
+    beside = np.unique([nearest - 1, nearest, nearest + 1]).astype(int)
+    return _shown(file), file.read(beside[(beside >= 0) & (beside < len(times))])
