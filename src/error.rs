@@ -80,14 +80,14 @@ pub enum Error {
 
     /// A particle moved so far in a step that it could pass through others unseen.
     #[error(
-        "bundle {} moved {way:.3e} m in one step at {incident}, as seen from the drum, more than half of the smallest radius, {limit:.3e} m; shorten run.time_step, or start slower",
+        "bundle {} moved {displacement:.3e} m in one step at {incident}, as seen from the drum, more than half of the smallest radius, {limit:.3e} m; shorten run.time_step, or start slower",
         .incident.particle
     )]
     TooFast {
         /// Which particle, when and where.
         incident: Incident,
         /// How far it moved [m].
-        way: f64,
+        displacement: f64,
         /// The limit [m].
         limit: f64,
     },

@@ -24,8 +24,8 @@
 //!
 //! 1. `turn_of`: the angle by which the drum has turned, in closed form
 //!    ([`angle_increment`](physics::rotation::RotationSchedule::angle_increment)).
-//! 2. [`Engine::follow`](engine::Engine::follow): what the drift did is charged to the lists of pairs; a bound on the longest way.
-//! 3. `guard_ways`: no particle has moved by half the smallest radius.
+//! 2. [`Engine::follow`](engine::Engine::follow): what the drift did is charged to the lists of pairs; a bound on the longest displacement.
+//! 3. `guard_displacements`: no particle has moved by half the smallest radius.
 //! 4. [`Engine::update_list`](engine::Engine::update_list): a new list of pairs, if the slack is used up.
 //! 5. [`Engine::evaluate_and_advance`](engine::Engine::evaluate_and_advance), chunk by chunk: contacts open, are evaluated by
 //!    their law ([`ContactLaw::respond`](physics::contact::law::ContactLaw::respond)), end; reactions from other chunks; kick and
@@ -38,7 +38,7 @@
 //! 5. [`Engine::evaluate`](engine::Engine::evaluate): the forces alone; then `charge`.
 //! 6. `guard`, every 32 steps and at samples: all is finite, no overlap too deep, no center inside a solid.
 //! 7. [`Engine::finish`](engine::Engine::finish): the first half of the kick, after which velocities are those at the time of
-//!    the positions; [`Engine::show`](engine::Engine::show) brings both to the particles.
+//!    the positions; [`Engine::write_back`](engine::Engine::write_back) brings both to the particles.
 //! 8. `record`: a sample, which folds the sums over contacts into the ledger, or a frame.
 //! 9. [`Engine::start`](engine::Engine::start): the second half of the kick and the drift into the next step; after a sort of the
 //!    memory where that is due ([`engine::memory_order`]).

@@ -210,6 +210,7 @@ const FORMER_FUNCTIONS: &[&str] = &[
     "seen",
     "settle",
     "share_since_touch",
+    "show",
     "spin_rate",
     "twist",
 ];

@@ -41,7 +41,7 @@ fn every_variant_has_its_message() {
         "bundle 812 passed through the rim by step 40210 (t = 0.148777 s) near [0.2000, -0.1000] m at 1.250 m/s; \
          shorten run.time_step or raise the stiffness"
     );
-    let too_fast = Error::TooFast { incident, way: 0.0123, limit: 0.0059 };
+    let too_fast = Error::TooFast { incident, displacement: 0.0123, limit: 0.0059 };
     assert_eq!(
         too_fast.to_string(),
         "bundle 812 moved 1.230e-2 m in one step at step 40210 (t = 0.148777 s) near [0.2000, -0.1000] m at \
@@ -85,9 +85,12 @@ fn failures_carry_step_and_bundle() {
         "{through}"
     );
     let fast = at_speed(1700.0);
-    let Error::TooFast { incident, way, limit } = fast else { panic!("{fast}") };
+    let Error::TooFast { incident, displacement, limit } = fast else { panic!("{fast}") };
     assert_eq!((incident.step, limit), (1, 0.5 * RADIUS));
-    assert!((way - 1700.0 * TIME_STEP).abs() < 1e-3 * way && incident.speed > 1699.0, "{way} {incident}");
+    assert!(
+        (displacement - 1700.0 * TIME_STEP).abs() < 1e-3 * displacement && incident.speed > 1699.0,
+        "{displacement} {incident}"
+    );
 }
 
 #[test]

@@ -135,12 +135,12 @@ impl Engine {
     }
 
     /// Brings the particles up to date.
-    pub fn show(&mut self, particles: &mut Particles) {
+    pub fn write_back(&mut self, particles: &mut Particles) {
         with_arrays!(&mut self.arrays, arrays => arrays.store(particles));
     }
 
     /// Brings their positions up to date.
-    pub fn show_positions(&mut self, particles: &mut Particles) {
+    pub fn write_back_positions(&mut self, particles: &mut Particles) {
         with_arrays!(&mut self.arrays, arrays => arrays.store_positions(particles));
     }
 
@@ -176,7 +176,7 @@ impl Engine {
         self.sums.iter().fold(Vec2::zeros(), |sum, part| sum + Vec2::from(part.mass_moment))
     }
 
-    /// Takes note of the last drift, in which the drum turned by `turn` [rad]. Returns a way that no particle has exceeded as
+    /// Takes note of the last drift, in which the drum turned by `turn` [rad]. Returns a displacement that no particle has exceeded as
     /// seen from the drum [m].
     pub fn follow(&mut self, turn: f64) -> f64 {
         self.list.advance(&self.sums, turn)
@@ -187,10 +187,10 @@ impl Engine {
         world.drum.surface_count() > 1 || self.list.is_due()
     }
 
-    /// The longest way of a particle in the last drift, as seen from the drum [m].
-    pub fn measure_ways(&mut self, particles: &Particles, world: World, drum: DrumMotion) -> f64 {
+    /// The longest displacement of a particle in the last drift, as seen from the drum [m].
+    pub fn measure_displacements(&mut self, particles: &Particles, world: World, drum: DrumMotion) -> f64 {
         let inputs = self.inputs(particles, world, drum);
-        with_arrays!(&mut self.arrays, arrays => self.list.measure_ways(arrays.lend().0, &inputs))
+        with_arrays!(&mut self.arrays, arrays => self.list.measure_displacements(arrays.lend().0, &inputs))
     }
 
     /// Brings the pair list up to date with the positions.
@@ -198,7 +198,7 @@ impl Engine {
         if !self.list.is_due() {
             return;
         }
-        self.show_positions(particles);
+        self.write_back_positions(particles);
         if self.list.still_holds(&particles.positions, drum.rotation, &self.threads) {
             return;
         }
@@ -227,7 +227,7 @@ impl Engine {
         self.evaluate(particles, world, drum);
         // What the near lists know of displacements does not hold once the particles move.
         self.list.end_near_lists();
-        self.show(particles);
+        self.write_back(particles);
     }
 
     fn inputs<'a>(&self, particles: &'a Particles, world: World<'a>, drum: DrumMotion) -> StepInputs<'a> {

@@ -7,18 +7,23 @@ use crate::physics::vector::{Rotation, Vec2, perpendicular};
 
 impl Simulation {
     /// In every step: no particle has moved farther than half the smallest radius as seen from the drum, so that none can
-    /// pass through another or through a wall between two looks. `longest_way` is a bound; only beyond it ways are measured.
-    pub(super) fn guard_ways(&mut self, longest_way: f64, drum: DrumMotion) -> Result<(), Error> {
+    /// pass through another or through a wall between two checks. `longest_displacement` is a bound; only beyond it displacements are measured.
+    pub(super) fn guard_displacements(
+        &mut self,
+        longest_displacement: f64,
+        drum: DrumMotion,
+    ) -> Result<(), Error> {
         let limit = 0.5 * self.derived.least_radius;
         // What is not a number is looked at, too.
-        if longest_way < limit {
+        if longest_displacement < limit {
             return Ok(());
         }
-        self.engine.show(&mut self.state.particles);
-        // Measuring would pass over ways that are no numbers.
+        self.engine.write_back(&mut self.state.particles);
+        // Measuring would pass over what is no number.
         self.guard_finite()?;
-        let way = self.engine.measure_ways(&self.state.particles, self.derived.world(), drum);
-        if way < limit {
+        let displacement =
+            self.engine.measure_displacements(&self.state.particles, self.derived.world(), drum);
+        if displacement < limit {
             return Ok(());
         }
         let fastest = |speed: &dyn Fn(usize) -> f64| {
@@ -31,7 +36,7 @@ impl Simulation {
             (particles.velocities[i] - surface).norm()
         };
         let place = fastest(&speed_over_surface);
-        Err(Error::TooFast { incident: self.incident(place), way, limit })
+        Err(Error::TooFast { incident: self.incident(place), displacement, limit })
     }
 
     /// At fixed steps: everything is finite, no overlap is too deep, no center is inside a solid.

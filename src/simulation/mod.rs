@@ -37,7 +37,7 @@ pub struct Simulation {
     engine: Engine,
     /// What was recorded and has not been taken yet.
     records: Records,
-    /// The step at which the load is looked at, recorded or sorted next.
+    /// The step at which the load is checked, recorded or sorted next.
     next_event: u64,
     failure: Option<Error>,
 }

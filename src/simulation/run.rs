@@ -6,8 +6,8 @@ use crate::engine::{DrumMotion, memory_order};
 use crate::error::Error;
 use crate::physics::vector::Rotation;
 
-/// Steps from one look at the whole load to the next: whether all is finite, no overlap too deep, no center inside a solid.
-const LOOK_STEPS: u64 = 32;
+/// Steps from one check of the whole load to the next: whether all is finite, no overlap too deep, no center inside a solid.
+const CHECK_STEPS: u64 = 32;
 
 impl Simulation {
     /// Does `steps` steps. Everything is up to date after the last.
@@ -41,7 +41,7 @@ impl Simulation {
                     return Err(error);
                 }
                 self.engine.finish();
-                self.engine.show(&mut self.state.particles);
+                self.engine.write_back(&mut self.state.particles);
                 self.record_end();
                 return Err(error);
             }
@@ -62,9 +62,9 @@ impl Simulation {
     fn step(&mut self, is_last: bool) -> Result<(), Error> {
         self.state.step += 1;
         let turn = self.turn_of(self.state.step);
-        let longest_way = self.engine.follow(turn);
+        let longest_displacement = self.engine.follow(turn);
         let drum = self.drum_motion(turn);
-        self.guard_ways(longest_way, drum)?;
+        self.guard_displacements(longest_displacement, drum)?;
         self.engine.update_list(&mut self.state.particles, self.derived.world(), drum);
         if is_last || self.state.step >= self.next_event || self.needs_moments() {
             return self.step_with_events(is_last, turn, drum);
@@ -75,21 +75,21 @@ impl Simulation {
         Ok(())
     }
 
-    /// The rest of a step after which the load may be looked at, recorded or sorted.
+    /// The rest of a step after which the load may be checked, recorded or sorted.
     fn step_with_events(&mut self, is_last: bool, turn: f64, drum: DrumMotion) -> Result<(), Error> {
         let mass_moment = self.engine.mass_moment();
         self.engine.evaluate(&self.state.particles, self.derived.world(), drum);
         if self.needs_moments() {
-            self.engine.show(&mut self.state.particles);
+            self.engine.write_back(&mut self.state.particles);
         } else {
-            self.engine.show_positions(&mut self.state.particles);
+            self.engine.write_back_positions(&mut self.state.particles);
         }
         self.charge(mass_moment, turn);
         self.charge_moments();
-        if self.is_look_due() {
+        if self.is_check_due() {
             self.guard(mass_moment).or_else(|_| {
                 // Now that it is told, velocities are, too.
-                self.engine.show(&mut self.state.particles);
+                self.engine.write_back(&mut self.state.particles);
                 self.guard(mass_moment)
             })?;
         }
@@ -99,7 +99,7 @@ impl Simulation {
             return Ok(());
         }
         self.engine.finish();
-        self.engine.show(&mut self.state.particles);
+        self.engine.write_back(&mut self.state.particles);
         self.record()?;
         if self.is_sort_due() && !is_last {
             self.begin();
@@ -112,7 +112,7 @@ impl Simulation {
     /// The next step at which something is due. Known in advance, since to ask in every step takes some divisions.
     fn event_after(&self, step: u64) -> u64 {
         let Derived { sample_steps, frame_steps, .. } = self.derived;
-        let intervals = [LOOK_STEPS, sample_steps, frame_steps, memory_order::INTERVAL];
+        let intervals = [CHECK_STEPS, sample_steps, frame_steps, memory_order::INTERVAL];
         intervals.into_iter().map(|interval| (step / interval + 1) * interval).min().unwrap_or(step + 1)
     }
 
@@ -149,9 +149,9 @@ impl Simulation {
         self.is_sample_due() || self.is_frame_due()
     }
 
-    /// Whether the whole load is looked at: at fixed steps, so that neither lists nor slices of a run show in an error.
-    fn is_look_due(&self) -> bool {
-        self.state.step.is_multiple_of(LOOK_STEPS) || self.is_sample_due()
+    /// Whether the whole load is checked: at fixed steps, so that neither lists nor slices of a run show in an error.
+    fn is_check_due(&self) -> bool {
+        self.state.step.is_multiple_of(CHECK_STEPS) || self.is_sample_due()
     }
 
     fn is_sort_due(&self) -> bool {

@@ -164,27 +164,6 @@ impl<L: ContactLaw> Pass<L> {
             }
         });
     }
-
-    /// Evaluates chunk after chunk, and moves each on while it is in the cache.
-    fn evaluate_and_advance_in_turn(
-        &mut self,
-        list: &mut PairList,
-        arrays: &mut impl MovingArrays,
-        inputs: &StepInputs,
-        verlet: &Verlet,
-        sums: &mut [DriftSums],
-    ) {
-        let limits = list.limits();
-        for (index, sums) in sums.iter_mut().enumerate() {
-            let (motion, forces) = arrays.lend();
-            let own = (&mut forces.force[index], &mut forces.torque[index]);
-            self.chunks[index].evaluate(&mut list.chunks[index], limits, motion, inputs, own);
-            let first = index * CHUNK;
-            let mut own = arrays.part(first..self.count.min(first + CHUNK));
-            self.gather(&mut own);
-            *sums = verlet.advance::<WHOLE>(own);
-        }
-    }
 }
 
 impl<L: ContactLaw> ForcePass for Pass<L> {
@@ -206,16 +185,24 @@ impl<L: ContactLaw> ForcePass for Pass<L> {
         sums: &mut [DriftSums],
         threads: &Threads,
     ) {
-        with_arrays!(arrays, arrays => {
-            if threads.serve(self.count) {
-                self.evaluate_chunks(list, arrays, inputs, threads);
-                let work = (arrays.part(0..self.count), PerChunk(&mut *sums));
-                threads.for_each_chunk(self.count, work, &|(mut own, sums): (MotionArrays, PerChunk<_>)| {
-                    self.gather(&mut own);
-                    sums.set(verlet.advance::<WHOLE>(own));
-                });
-            } else {
-                self.evaluate_and_advance_in_turn(list, arrays, inputs, verlet, sums);
+        with_arrays!(arrays, arrays => if threads.serve(self.count) {
+            self.evaluate_chunks(list, arrays, inputs, threads);
+            let work = (arrays.part(0..self.count), PerChunk(&mut *sums));
+            threads.for_each_chunk(self.count, work, &|(mut own, sums): (MotionArrays, PerChunk<_>)| {
+                self.gather(&mut own);
+                sums.set(verlet.advance::<WHOLE>(own));
+            });
+        } else {
+            // Chunk after chunk, and each is moved on while it is in the cache.
+            let limits = list.limits();
+            for (index, sums) in sums.iter_mut().enumerate() {
+                let (motion, forces) = arrays.lend();
+                let own = (&mut forces.force[index], &mut forces.torque[index]);
+                self.chunks[index].evaluate(&mut list.chunks[index], limits, motion, inputs, own);
+                let first = index * CHUNK;
+                let mut own = arrays.part(first..self.count.min(first + CHUNK));
+                self.gather(&mut own);
+                *sums = verlet.advance::<WHOLE>(own);
             }
         });
         self.add_up();

@@ -30,7 +30,7 @@ pub struct ChunkNeighbors {
     /// For how long the near lists hold.
     pub horizon: Horizon,
     /// No particle of the chunk moves farther in a step, as seen from the drum [m].
-    pub longest_way: f64,
+    pub longest_displacement: f64,
 }
 
 /// What the near lists are made from, apart from the step's inputs.
@@ -51,7 +51,7 @@ impl ChunkNeighbors {
             features: Neighbors::new(ListKind::Walls, (far(count), RIM)),
             watched: Vec::new(),
             horizon: Horizon::of(STEPS),
-            longest_way: f64::INFINITY,
+            longest_displacement: f64::INFINITY,
             particles,
         }
     }
@@ -69,7 +69,7 @@ impl ChunkNeighbors {
             budget: F64x4::splat(self.horizon.budget()),
         };
         self.pairs.find_near_pairs(motion, &reach);
-        self.longest_way = self.measure_way(motion, inputs);
+        self.longest_displacement = self.measure_displacement(motion, inputs);
         self.fill_near_rim(motion, inputs, time);
         self.fill_near_features(motion, inputs, time);
     }
@@ -85,9 +85,9 @@ impl ChunkNeighbors {
         for first in (0..self.rim.len()).step_by(LANES) {
             let particle = |lane: usize| self.rim.pairs()[(first + lane).min(last)].0;
             let (position, velocity) = gather(motion, particle);
-            let way = velocity.scaled(time);
-            let outwards = position.dot(way).larger(F64x4::ZERO);
-            let farthest = position.dot(position) + (outwards + outwards) + way.dot(way);
+            let displacement = velocity.scaled(time);
+            let outwards = position.dot(displacement).larger(F64x4::ZERO);
+            let farthest = position.dot(position) + (outwards + outwards) + displacement.dot(displacement);
             let free = (rim - lanes(|lane| inputs.bodies.radius_of(particle(lane)))).larger(F64x4::ZERO);
             let near = !(free * free).exceeds(farthest).to_bitmask() & ALL_LANES;
             if near != 0 {
@@ -107,16 +107,16 @@ impl ChunkNeighbors {
             let ([x, y], [u, v]) = (motion.position(offset(particle)), motion.velocity(offset(particle)));
             let (position, velocity) = (Vec2::new(x, y), Vec2::new(u, v));
             let seen = velocity - crate::physics::vector::perpendicular(position) * inputs.angular_velocity;
-            let way = seen.norm() * time + 0.5 * self.horizon.budget();
+            let displacement = seen.norm() * time + 0.5 * self.horizon.budget();
             let distance = inputs.drum.distance_to(feature, inputs.rotation.apply_inverse(position));
-            if distance * ROUND_OFF <= inputs.bodies.radius_of(particle) + way {
+            if distance * ROUND_OFF <= inputs.bodies.radius_of(particle) + displacement {
                 self.features.near.push((particle, feature), place as u32);
             }
         }
     }
 
     /// How far the particle that moves fastest, as seen from the drum, moves in a step [m].
-    pub fn measure_way(&self, motion: impl MotionView, inputs: &StepInputs) -> f64 {
+    pub fn measure_displacement(&self, motion: impl MotionView, inputs: &StepInputs) -> f64 {
         let speed = F64x4::splat(inputs.angular_velocity);
         let last = self.particles.end - 1;
         let mut most = F64x4::ZERO;

@@ -65,7 +65,7 @@ impl PairList {
     }
 
     /// Takes note of a drift, of which `sums` tells what each chunk's particles did, while the drum turned by `turn` [rad].
-    /// Returns a way that no particle has exceeded as seen from the drum [m].
+    /// Returns a displacement that no particle has exceeded as seen from the drum [m].
     pub fn advance(&mut self, sums: &[DriftSums], turn: f64) -> f64 {
         let farthest = self.farthest + self.skin;
         // More than round-off of positions changes a displacement by from one step to the next.
@@ -75,16 +75,16 @@ impl PairList {
         for (chunk, sums_of_chunk) in self.chunks.iter_mut().zip(sums) {
             let most = chunk.watched.iter().map(|&other| sums[other as usize].change);
             // As seen from the drum a displacement also changes as it is turned, and with the drum's speed.
-            let turned = turn.abs() * (chunk.longest_way + last_turn.abs() * farthest)
+            let turned = turn.abs() * (chunk.longest_displacement + last_turn.abs() * farthest)
                 + (turn - last_turn).abs() * farthest;
             let change = most.fold(sums_of_chunk.change, f64::max) + round_off;
             chunk.horizon.advance(change + turned);
-            let way = chunk.longest_way + sums_of_chunk.change + round_off + turned;
-            // A way that is not known must not be lost in a comparison: ∞ times a turn of 0 is not a number.
-            chunk.longest_way = if way.is_nan() { f64::INFINITY } else { way };
-            longest = longest.max(chunk.longest_way);
+            let displacement = chunk.longest_displacement + sums_of_chunk.change + round_off + turned;
+            // A displacement that is not known must not be lost in a comparison: ∞ times a turn of 0 is not a number.
+            chunk.longest_displacement = if displacement.is_nan() { f64::INFINITY } else { displacement };
+            longest = longest.max(chunk.longest_displacement);
         }
-        // A way is measured along the tangent; the rest of the arc is |x| turn² / 2.
+        // A displacement is measured along the tangent; the rest of the arc is |x| turn² / 2.
         self.slack -= longest + 0.5 * turn * turn * farthest;
         longest
     }
@@ -108,12 +108,12 @@ impl PairList {
         self.slack > 0.1 * half
     }
 
-    /// Measures how far particles move in a step as seen from the drum; returns the longest way [m].
-    pub fn measure_ways(&mut self, motion: impl MotionView, inputs: &StepInputs) -> f64 {
+    /// Measures how far particles move in a step as seen from the drum; returns the longest displacement [m].
+    pub fn measure_displacements(&mut self, motion: impl MotionView, inputs: &StepInputs) -> f64 {
         for chunk in &mut self.chunks {
-            chunk.longest_way = chunk.measure_way(motion, inputs);
+            chunk.longest_displacement = chunk.measure_displacement(motion, inputs);
         }
-        self.chunks.iter().fold(0.0, |most, chunk| most.max(chunk.longest_way))
+        self.chunks.iter().fold(0.0, |most, chunk| most.max(chunk.longest_displacement))
     }
 
     /// Asks to be built anew at the next step, as the particles are in other places.
@@ -126,7 +126,7 @@ impl PairList {
     pub fn end_near_lists(&mut self) {
         for chunk in &mut self.chunks {
             chunk.horizon.end();
-            chunk.longest_way = f64::INFINITY;
+            chunk.longest_displacement = f64::INFINITY;
         }
     }
 
