@@ -14,8 +14,6 @@ mod outline;
 mod parameters;
 mod polygon;
 mod segment;
-#[cfg(test)]
-mod tests;
 mod union_find;
 mod validate;
 mod visibility;

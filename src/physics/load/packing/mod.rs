@@ -11,8 +11,6 @@ mod cells;
 mod disorder;
 mod draws;
 mod pattern;
-#[cfg(test)]
-mod tests;
 
 use rand::SeedableRng;
 use rand_pcg::Pcg64;

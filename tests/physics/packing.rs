@@ -2,8 +2,9 @@
 
 use std::f64::consts::PI;
 
-use super::*;
-use crate::physics::vector::{Rotation, cross};
+use drumrs::error::Error;
+use drumrs::physics::load::packing::{FreeSpace, pack};
+use drumrs::physics::vector::{Rotation, Vec2, cross, dot};
 
 /// Radius of the bundles of the paper [m]: a drum twenty times as wide.
 const RADIUS: f64 = 0.011_875;
