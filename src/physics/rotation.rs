@@ -2,8 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::error::{Error, require_finite};
-use crate::physics::vector::Rotation;
+use crate::error::{Error, require, require_finite};
 
 /// The drum's angular velocity over time: linear between knots, constant before the first and after the last.
 ///
@@ -17,17 +16,6 @@ pub struct RotationSchedule {
     pub knots: Vec<[f64; 2]>,
 }
 
-/// The drum at one instant.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Pose {
-    /// Angle θ turned since t = 0 [rad].
-    pub angle: f64,
-    /// Angular velocity Ω [rad/s].
-    pub angular_velocity: f64,
-    /// The rotation by θ, from the drum's frame to the fixed one.
-    pub rotation: Rotation,
-}
-
 /// Beyond this a sum of two speeds or times may be infinite.
 const GREATEST: f64 = 1e300;
 
@@ -39,30 +27,26 @@ impl RotationSchedule {
 
     /// Checks that there are knots, finite, in strict order of time from t = 0 on.
     pub fn validate(&self) -> Result<(), Error> {
-        let refuse = |value: String, limit: &str| Err(Error::config("rotation.program", value, limit));
+        let key = "rotation.program";
         for value in self.knots.iter().flatten() {
-            require_finite("rotation.program", *value)?;
-            if value.abs() > GREATEST {
-                return refuse(format!("{value:e}"), "a list of numbers within ±1e300");
-            }
+            require_finite(key, *value)?;
+            require(
+                value.abs() <= GREATEST,
+                key,
+                format_args!("{value:e}"),
+                "a list of numbers within ±1e300",
+            )?;
         }
-        match self.knots.first() {
-            None => return refuse("empty".into(), "a list of at least one time and speed"),
-            Some(&[time, _]) if time < 0.0 => {
-                return refuse(
-                    format!("a list that starts at {time} s"),
-                    "a list that starts at 0 s or later",
-                );
-            }
-            Some(_) => {}
-        }
-        match self.knots.windows(2).find(|pair| pair[1][0] <= pair[0][0]) {
-            None => Ok(()),
-            Some(pair) => refuse(
-                format!("a list with {} s after {} s", pair[1][0], pair[0][0]),
-                "a list of strictly increasing times",
-            ),
-        }
+        let Some(&[start, _]) = self.knots.first() else {
+            return Err(Error::config(key, "empty", "a list of at least one time and speed"));
+        };
+        let found = format!("a list that starts at {start} s");
+        require(start >= 0.0, key, found, "a list that starts at 0 s or later")?;
+        self.knots.windows(2).try_for_each(|pair| {
+            let [before, after] = [pair[0][0], pair[1][0]];
+            let found = format_args!("a list with {after} s after {before} s");
+            require(after > before, key, found, "a list of strictly increasing times")
+        })
     }
 
     /// Whether the drum turns at one angular velocity at all times.
@@ -102,12 +86,6 @@ impl RotationSchedule {
             (time, rate) = (next_time, next_rate);
         }
         angle + trapezoid(to - time, rate, self.angular_velocity(to))
-    }
-
-    /// The drum at `time` [s].
-    pub fn pose(&self, time: f64) -> Pose {
-        let angle = self.angle(time);
-        Pose { angle, angular_velocity: self.angular_velocity(time), rotation: Rotation::new(angle) }
     }
 
     /// Index of the first knot later than `time`.

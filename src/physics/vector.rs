@@ -21,13 +21,6 @@ pub fn dot(a: Vec2, b: Vec2) -> f64 {
     a.x * b.x + a.y * b.y
 }
 
-/// The larger of two numbers; `b` where either is not a number. One machine instruction, unlike `f64::max`, which has
-/// to look for NaN.
-#[inline]
-pub fn larger(a: f64, b: f64) -> f64 {
-    if a > b { a } else { b }
-}
-
 /// The corners (left and low, right and high) of the box round `points`; none without points.
 pub fn bounds(points: &[Vec2]) -> Option<(Vec2, Vec2)> {
     let first = *points.first()?;

@@ -16,4 +16,6 @@ fn bad_states_are_named() {
     assert!(particles.validate().unwrap_err().to_string().starts_with("state.radii[1] is -0.1"));
     particles.radii.pop();
     assert!(particles.validate().unwrap_err().to_string().starts_with("state.radii is of length 1"));
+    particles.positions.pop();
+    assert!(particles.validate().unwrap_err().to_string().starts_with("state.positions is of length 1"));
 }

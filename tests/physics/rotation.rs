@@ -1,7 +1,6 @@
 //! Schedules of rotation: velocities, angles as their integrals, what is refused.
 
 use drumrs::physics::rotation::RotationSchedule;
-use drumrs::physics::vector::Rotation;
 
 fn program() -> RotationSchedule {
     RotationSchedule { knots: vec![[0.5, 2.0], [1.5, -1.0], [1.75, -1.0], [4.0, 6.0]] }
@@ -78,13 +77,6 @@ fn scaled_time_gives_the_same_angle_bit_for_bit() {
             (slow.angle_increment(0.6, 2.0 * time), program().angle_increment(0.3, time));
         assert_eq!(increment.to_bits(), expected.to_bits());
     }
-}
-
-#[test]
-fn pose_gathers_angle_velocity_and_rotation() {
-    let pose = program().pose(1.0);
-    assert_eq!((pose.angle, pose.angular_velocity), (program().angle(1.0), 0.5));
-    assert_eq!(pose.rotation, Rotation::new(pose.angle));
 }
 
 #[test]

@@ -6,7 +6,7 @@ use super::friction::TruncatedSpring;
 use super::law::{BodyPair, ContactLaw};
 use super::parameters::{ContactParameters, Tension};
 use super::{Flows, Kinematics, Response, Stored};
-use crate::physics::columns::{Columns, columns, columns_of};
+use crate::physics::columns::{Columns, columns};
 use crate::physics::scalar::Scalar;
 
 columns! {
@@ -43,11 +43,10 @@ columns! {
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Linear<const CLIPS: bool>;
 
-columns_of!([const CLIPS: bool] Linear<CLIPS> => LinearLaw);
-
 impl<const CLIPS: bool> ContactLaw for Linear<CLIPS> {
+    type Parameters = LinearLaw;
     type History = LinearHistory;
-    const FLOWS: u32 = Flows::set(&["dissipated_normal", "dissipated_sliding"]);
+    const FLOWS: Flows<bool> = Flows { dissipated_normal: true, dissipated_sliding: true, ..Flows::NONE };
     const ROLLS: bool = false;
 
     fn between(parameters: &ContactParameters, bodies: BodyPair) -> LinearLaw<f64> {
@@ -57,10 +56,7 @@ impl<const CLIPS: bool> ContactLaw for Linear<CLIPS> {
             tangential_stiffness,
             damping: damping(parameters, bodies.effective_mass),
             slip_compliance: parameters.friction / tangential_stiffness,
-            least_normal_force: match parameters.tension {
-                Tension::Allowed => f64::NEG_INFINITY,
-                Tension::Clipped => 0.0,
-            },
+            least_normal_force: parameters.tension.least_normal_force(),
         }
     }
 

@@ -86,12 +86,6 @@ impl Outline {
         &self.segments
     }
 
-    /// The number of vertices and edges together.
-    #[cfg(test)]
-    pub(super) fn feature_count(&self) -> usize {
-        self.feature_count
-    }
-
     /// Distance [m] from `point` to the outline, negative inside a solid.
     pub(super) fn signed_distance(&self, point: Vec2) -> f64 {
         let squares = self.segments.iter().map(|segment| segment.distance_squared(point));

@@ -3,7 +3,7 @@
 use super::baffle::{BaffleParameters, BaffleShape, half_chord};
 use super::polygon::{contains, empty_segment, first_crossing, length, segments};
 use super::segment::Segment;
-use crate::error::{Error, require_finite, require_non_negative, require_positive};
+use crate::error::{Error, require, require_finite, require_non_negative, require_positive};
 use crate::physics::vector::Vec2;
 
 /// The most baffles a drum may have; each has columns of its own in the recorded series.
@@ -14,15 +14,13 @@ impl BaffleParameters {
     /// radius [m], itself validated.
     pub(super) fn validate(&self, radius: Option<f64>) -> Result<(), Error> {
         self.validate_numbers()?;
+        let Some(radius) = radius else {
+            return require(self.count == 0, "drum.baffles.count", self.count, "0 where the drum has no rim");
+        };
         if self.count == 0 {
             return Ok(());
         }
-        let Some(radius) = radius else {
-            return Err(Error::config("drum.baffles.count", self.count, "0 where the drum has no rim"));
-        };
-        if self.count > MOST {
-            return Err(Error::config("drum.baffles.count", self.count, format!("at most {MOST}")));
-        }
+        require(self.count <= MOST, "drum.baffles.count", self.count, format!("at most {MOST}"))?;
         match self.shape {
             BaffleShape::Triangle => self.validate_base(radius)?,
             BaffleShape::Trapezoid => self.validate_base(radius).and_then(|()| self.validate_tip(radius))?,
@@ -43,54 +41,40 @@ impl BaffleParameters {
     }
 
     fn validate_base(&self, radius: f64) -> Result<(), Error> {
-        if self.base >= 2.0 * radius {
-            let limit = format!("smaller than the drum's diameter {}", 2.0 * radius);
-            return Err(Error::config("drum.baffles.base", self.base, limit));
-        }
-        if self.height >= radius {
-            let limit = format!("smaller than the drum's radius {radius}, so that it ends before the axis");
-            return Err(Error::config("drum.baffles.height", self.height, limit));
-        }
+        let diameter = 2.0 * radius;
+        let limit = format!("smaller than the drum's diameter {diameter}");
+        require(self.base < diameter, "drum.baffles.base", self.base, limit)?;
+        let limit = format!("smaller than the drum's radius {radius}, so that it ends before the axis");
+        require(self.height < radius, "drum.baffles.height", self.height, limit)?;
         let foot = half_chord(radius, 0.5 * self.base);
-        if radius - self.height >= foot {
-            let limit = format!("greater than {}, the depth of the rim behind the base", radius - foot);
-            return Err(Error::config("drum.baffles.height", self.height, limit));
-        }
-        Ok(())
+        let limit = format!("greater than {}, the depth of the rim behind the base", radius - foot);
+        require(radius - self.height < foot, "drum.baffles.height", self.height, limit)
     }
 
     fn validate_tip(&self, radius: f64) -> Result<(), Error> {
         require_positive("drum.baffles.tip", self.tip)?;
         let widest = 2.0 * half_chord(radius, radius - self.height);
-        if self.tip < widest {
-            Ok(())
-        } else {
-            let limit = format!("smaller than {widest}, the width of the drum at that height");
-            Err(Error::config("drum.baffles.tip", self.tip, limit))
-        }
+        let limit = format!("smaller than {widest}, the width of the drum at that height");
+        require(self.tip < widest, "drum.baffles.tip", self.tip, limit)
     }
 
     fn validate_points(&self, radius: f64) -> Result<(), Error> {
         let Some(points) = &self.points else {
-            return refuse_points("missing", "given for the shape 'polygon'");
+            return Err(Error::config("drum.baffles.points", "missing", "given for the shape 'polygon'"));
         };
-        if points.len() < 3 {
-            return refuse_points(
-                format!("a list of length {}", points.len()),
-                "a list of at least 3 points",
-            );
-        }
+        let found = format!("a list of length {}", points.len());
+        require(points.len() >= 3, "drum.baffles.points", found, "a list of at least 3 points")?;
         // In the user's order, which `profile` may reverse: the messages count segments.
         let corners: Vec<Vec2> =
             points.iter().map(|&[inwards, across]| [radius - inwards, across].into()).collect();
         let segments = segments(&corners, true);
         if let Some(index) = empty_segment(&segments) {
-            let value = format!("a polygon whose side {} has no length", index + 1);
-            return refuse_points(value, "a polygon of distinct corners");
+            let found = format!("a polygon whose side {} has no length", index + 1);
+            return Err(Error::config("drum.baffles.points", found, "a polygon of distinct corners"));
         }
         if let Some((a, b)) = first_crossing(&segments) {
-            let value = format!("a polygon whose sides {} and {} cross or touch", a + 1, b + 1);
-            return refuse_points(value, "a polygon that never meets itself");
+            let found = format!("a polygon whose sides {} and {} cross or touch", a + 1, b + 1);
+            return Err(Error::config("drum.baffles.points", found, "a polygon that never meets itself"));
         }
         validate_position(&segments, radius)
     }
@@ -104,26 +88,18 @@ impl BaffleParameters {
         }
         let profile = self.profile(radius);
         let [first, second] = [0, 1].map(|index| segments(&self.copy(&profile, index), true));
-        if first.iter().any(|segment| second.iter().any(|other| segment.meets(other))) {
-            let limit = "so small that neighboring baffles of this size neither touch nor overlap";
-            return Err(Error::config("drum.baffles.count", self.count, limit));
-        }
-        Ok(())
+        let are_clear = !first.iter().any(|segment| second.iter().any(|other| segment.meets(other)));
+        let limit = "so small that neighboring baffles of this size neither touch nor overlap";
+        require(are_clear, "drum.baffles.count", self.count, limit)
     }
 }
 
 /// Refuses a polygon on the axis or wholly outside the rim.
 fn validate_position(segments: &[Segment], radius: f64) -> Result<(), Error> {
-    let axis = Vec2::zeros();
-    if contains(segments, axis) || segments.iter().any(|segment| segment.holds(axis)) {
-        return refuse_points("a polygon that covers the drum's axis", "a polygon beside the axis");
-    }
-    if segments.iter().all(|segment| length(segment.project(axis).point) >= radius) {
-        return refuse_points("a polygon outside the rim", "a polygon that reaches into the drum");
-    }
-    Ok(())
-}
-
-fn refuse_points(value: impl ToString, limit: &str) -> Result<(), Error> {
-    Err(Error::config("drum.baffles.points", value, limit))
+    let (key, axis) = ("drum.baffles.points", Vec2::zeros());
+    let covers = contains(segments, axis) || segments.iter().any(|segment| segment.holds(axis));
+    require(!covers, key, "a polygon that covers the drum's axis", "a polygon beside the axis")?;
+    let is_inside = |segment: &Segment| length(segment.project(axis).point) < radius;
+    let reaches = segments.iter().any(is_inside);
+    require(reaches, key, "a polygon outside the rim", "a polygon that reaches into the drum")
 }
