@@ -20,9 +20,9 @@ mod visibility;
 
 use crate::error::Error;
 use crate::physics::vector::Vec2;
-use feature::Feature;
+use feature::{Feature, FeatureShape};
 use graph::Graph;
-use outline::{Kind, Outline, Parts};
+use outline::{Kind, Outline};
 pub use parameters::DrumParameters;
 use polygon::length;
 use segment::Segment;
@@ -54,10 +54,6 @@ pub struct Drum {
     outlines: Vec<Outline>,
     /// All features by id.
     features: Vec<Feature>,
-    /// The surface of each feature.
-    surfaces: Vec<u32>,
-    /// For each feature those that it ends at or that end at it.
-    links: Vec<Box<[FeatureId]>>,
     /// The edges of all outlines.
     segments: Vec<Segment>,
     /// Every baffle lies at least this far [m] from the axis.
@@ -75,9 +71,7 @@ impl Drum {
             baffle_count: baffles.len(),
             shapes: baffles.iter().cloned().chain(walls).collect(),
             outlines: Vec::new(),
-            features: vec![Feature::Rim],
-            surfaces: vec![0],
-            links: vec![[].into()],
+            features: vec![Feature { shape: FeatureShape::Rim, surface: 0, links: [].into() }],
             segments: Vec::new(),
             free_radius: f64::INFINITY,
         };
@@ -92,11 +86,8 @@ impl Drum {
 
     /// Appends an outline.
     fn push(&mut self, graph: &Graph, kind: Kind) {
-        let (outline, parts) = Outline::new(graph, kind, self.feature_count(), self.segments.len() as u32);
-        let Parts { features, surfaces, links } = parts;
+        let (outline, features) = Outline::new(graph, kind, self.feature_count(), self.segments.len() as u32);
         self.features.extend(features);
-        self.surfaces.extend(surfaces);
-        self.links.extend(links);
         self.segments.extend_from_slice(outline.segments());
         self.outlines.push(outline);
     }
@@ -141,7 +132,7 @@ impl Drum {
     /// walls meet is part of the first of them.
     #[inline]
     pub fn surface_of(&self, feature: FeatureId) -> usize {
-        self.surfaces.get(feature as usize).map_or(0, |&surface| surface as usize)
+        self.features.get(feature as usize).map_or(0, |feature| feature.surface as usize)
     }
 
     /// What users call a surface: "rim", "baffle 1", "wall 2".
@@ -186,7 +177,7 @@ impl Drum {
     /// most two places apart along it, through whatever vertex. Two, because a disc may pass a blunt vertex
     /// within one step.
     pub fn adjacent(&self, a: FeatureId, b: FeatureId) -> bool {
-        let linked = |feature: FeatureId| self.links.get(feature as usize).map_or(&[][..], |links| links);
+        let linked = |id: FeatureId| self.features.get(id as usize).map_or(&[][..], |feature| &feature.links);
         a == b || linked(a).iter().any(|&between| between == b || linked(between).contains(&b))
     }
 

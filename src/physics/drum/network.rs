@@ -224,7 +224,7 @@ impl Drawing {
                 start = end;
             }
         }
-        Graph { vertices, edges }
+        Graph::new(vertices, edges)
     }
 }
 
