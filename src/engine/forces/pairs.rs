@@ -224,7 +224,7 @@ where
         let depth =
             if MIXED { overlap / geometry.radius.smaller(geometry.other_radius) } else { contact.overlap };
         totals.deepest = depth.larger(totals.deepest);
-        totals.add_flows(&L::FLOWS, &response.flows);
+        totals.add_flows(L::FLOWS, &response.flows);
         block.state = ContactState {
             overlap: contact.overlap.to_array(),
             separation_rate: contact.last_rate.to_array(),

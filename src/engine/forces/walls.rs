@@ -230,7 +230,7 @@ fn advance<L: ContactLaw, const MIXED: bool>(
     totals.power -= (moment + last.moment) * spin - both.dot(velocity);
     let depth = if MIXED { contact.overlap / geometry.radius } else { contact.overlap };
     totals.deepest = depth.larger(totals.deepest);
-    totals.add_flows(&L::FLOWS, &response.flows);
+    totals.add_flows(L::FLOWS, &response.flows);
     block.state = ContactState {
         overlap: contact.overlap.to_array(),
         separation_rate: contact.last_rate.to_array(),

@@ -42,6 +42,13 @@ pub(super) struct Incidence {
     pub(super) end: usize,
 }
 
+impl Incidence {
+    /// 1 where the edge runs away from the vertex, −1 where it runs towards it.
+    pub(super) fn sign(self) -> f64 {
+        if self.end == 0 { 1.0 } else { -1.0 }
+    }
+}
+
 impl Graph {
     pub(super) fn new(vertices: Vec<Vec2>, edges: Vec<GraphEdge>) -> Self {
         let segment = |edge: &GraphEdge| Segment::new(vertices[edge.ends[0]], vertices[edge.ends[1]]);
@@ -60,6 +67,11 @@ impl Graph {
         let count = vertices.len();
         let edge = |index: usize| GraphEdge { ends: [index, (index + 1) % count], surface };
         Self::new(vertices, (0..count).map(edge).collect())
+    }
+
+    /// The vector of an edge, from the end that is seen to the other one.
+    pub(super) fn away(&self, incidence: Incidence) -> Vec2 {
+        self.segments[incidence.edge].vector() * incidence.sign()
     }
 
     /// Vertices and edges in boundary order: every edge after the vertex it starts at, and before the vertex it

@@ -189,9 +189,6 @@ impl Drawing {
     fn merge_cuts(&mut self, piece: usize, tolerance: f64) {
         let Self { pieces, same, .. } = self;
         let Piece { cuts, ends, length, .. } = &mut pieces[piece];
-        if cuts.is_empty() {
-            return;
-        }
         cuts.sort_by(|a, b| a.fraction.total_cmp(&b.fraction));
         let close = (tolerance / *length).min(OF_SEGMENT);
         let mut previous = Cut { fraction: 0.0, point: ends[0] };

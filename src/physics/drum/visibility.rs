@@ -30,7 +30,7 @@ pub(super) fn neighbors(graph: &Graph, index: usize) -> (Vec<Neighbor>, [f64; 2]
                 precedes = false;
                 continue;
             }
-            let neighbor = neighbor(&graph.segments, own, other, precedes);
+            let neighbor = neighbor(graph, own, other, precedes);
             if neighbor.precedes || neighbor.overhang > 0.0 {
                 let zone = if precedes { TIE_ZONE } else { 0.0 };
                 contested[end] = contested[end].max(neighbor.overhang).max(zone);
@@ -42,18 +42,16 @@ pub(super) fn neighbors(graph: &Graph, index: usize) -> (Vec<Neighbor>, [f64; 2]
 }
 
 /// How the edge `other` lies to the edge `own`, both seen from their vertex.
-fn neighbor(segments: &[Segment], own: Incidence, other: Incidence, precedes: bool) -> Neighbor {
-    let sign = |incidence: Incidence| if incidence.end == 0 { 1.0 } else { -1.0 };
-    let away = |incidence: Incidence| segments[incidence.edge].vector() * sign(incidence);
-    let (along, beside) = (away(own), away(other));
+fn neighbor(graph: &Graph, own: Incidence, other: Incidence, precedes: bool) -> Neighbor {
+    let (along, beside) = (graph.away(own), graph.away(other));
     let (turn, straightness) = (cross(along, beside), -dot(along, beside));
     let is_flat = turn.abs() <= FLAT * straightness;
     let turn = if is_flat { 0.0 } else { f64::from(i8::from(turn > 0.0) - i8::from(turn < 0.0)) };
     Neighbor {
-        segment: segments[other.edge],
+        segment: graph.segments[other.edge],
         end: own.end,
-        edge_sign: turn * sign(own),
-        own_sign: -turn * sign(other),
+        edge_sign: turn * own.sign(),
+        own_sign: -turn * other.sign(),
         overhang: dot(along, beside) / dot(along, along),
         precedes,
     }
@@ -62,10 +60,7 @@ fn neighbor(segments: &[Segment], own: Incidence, other: Incidence, precedes: bo
 /// The edges that reach into the region of a vertex, its own apart, and so may hide it from a point there.
 pub(super) fn vertex_occluders(graph: &Graph, vertex: usize) -> Vec<usize> {
     let (origin, own) = (graph.vertices[vertex], &graph.incidences[vertex]);
-    let outwards = |&Incidence { edge, end }: &Incidence| {
-        let normal = graph.segments[edge].vector();
-        HalfPlane { normal: if end == 0 { -normal } else { normal }, origin }
-    };
+    let outwards = |&incidence: &Incidence| HalfPlane { normal: -graph.away(incidence), origin };
     let region: Vec<HalfPlane> = own.iter().map(outwards).collect();
     reaching(&graph.segments, &region, |edge| own.iter().any(|incidence| incidence.edge == edge))
 }
