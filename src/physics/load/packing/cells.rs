@@ -38,12 +38,14 @@ impl Cells {
 
     /// Whether a disc centered here, within reach, overlaps none of those placed, apart from disc `except`.
     pub(super) fn is_free(&self, center: Vec2, except: Option<usize>) -> bool {
-        let corner = self.cell(center) - self.across - 1;
-        let rows = (0..3).map(|row| corner + row * self.across);
-        let mut near = rows.flat_map(|start| self.discs[start..start + 3].iter().flatten());
-        near.all(|&disc| {
+        let is_far = |&disc: &u32| {
             let apart = self.centers[disc as usize] - center;
             except == Some(disc as usize) || dot(apart, apart) >= self.spacing * self.spacing
+        };
+        let corner = self.cell(center) - self.across - 1;
+        (0..3).all(|row| {
+            let start = corner + row * self.across;
+            self.discs[start..start + 3].iter().all(|discs| discs.iter().all(is_far))
         })
     }
 
