@@ -4,10 +4,10 @@
 //! adds to that answer. Each is one file: its parameters and its history as `columns!`, one pure function, the energy that
 //! it stores. A simulation has one base law, bare or with all terms.
 
-use super::parameters::ContactParameters;
-use super::{Flows, Kinematics, Response, Stored};
 use std::fmt::Debug;
 
+use super::parameters::ContactParameters;
+use super::{Flows, Kinematics, Response, Stored};
 use crate::physics::columns::{Columns, Of};
 use crate::physics::scalar::Scalar;
 
@@ -44,7 +44,7 @@ pub trait ContactLaw: Copy + Debug + Default + PartialEq + Send + Sync + 'static
     type Parameters: Columns;
     /// What must survive a step beyond `ContactState`.
     type History: Columns;
-    /// The energies that it takes, which are summed up.
+    /// The energies that it takes; others are not summed up.
     const FLOWS: Flows<bool>;
     /// Whether the moments on the two bodies can differ where their arms are equal.
     const ROLLS: bool;
