@@ -10,12 +10,10 @@ use super::segment::{Segment, SegmentRegion};
 use super::{FeatureId, Proximity};
 use crate::physics::vector::{Vec2, perpendicular};
 
-/// A feature and what it belongs to.
+/// A feature and its neighbors.
 #[derive(Debug, Clone)]
 pub(super) struct Feature {
     pub(super) shape: FeatureShape,
-    /// The surface that it is part of.
-    pub(super) surface: u32,
     /// The edges of a vertex, the vertices of an edge.
     pub(super) links: Box<[FeatureId]>,
 }

@@ -54,6 +54,8 @@ pub struct Drum {
     outlines: Vec<Outline>,
     /// All features by id.
     features: Vec<Feature>,
+    /// The surface of each.
+    surfaces: Vec<u32>,
     /// The edges of all outlines.
     segments: Vec<Segment>,
     /// Every baffle lies at least this far [m] from the axis.
@@ -71,7 +73,8 @@ impl Drum {
             baffle_count: baffles.len(),
             shapes: baffles.iter().cloned().chain(walls).collect(),
             outlines: Vec::new(),
-            features: vec![Feature { shape: FeatureShape::Rim, surface: 0, links: [].into() }],
+            features: vec![Feature { shape: FeatureShape::Rim, links: [].into() }],
+            surfaces: vec![0],
             segments: Vec::new(),
             free_radius: f64::INFINITY,
         };
@@ -86,8 +89,10 @@ impl Drum {
 
     /// Appends an outline.
     fn push(&mut self, graph: &Graph, kind: Kind) {
-        let (outline, features) = Outline::new(graph, kind, self.feature_count(), self.segments.len() as u32);
+        let (outline, features, surfaces) =
+            Outline::new(graph, kind, self.feature_count(), self.segments.len() as u32);
         self.features.extend(features);
+        self.surfaces.extend(surfaces);
         self.segments.extend_from_slice(outline.segments());
         self.outlines.push(outline);
     }
@@ -132,7 +137,7 @@ impl Drum {
     /// walls meet is part of the first of them.
     #[inline]
     pub fn surface_of(&self, feature: FeatureId) -> usize {
-        self.features.get(feature as usize).map_or(0, |feature| feature.surface as usize)
+        self.surfaces.get(feature as usize).map_or(0, |&surface| surface as usize)
     }
 
     /// What users call a surface: "rim", "baffle 1", "wall 2".

@@ -46,14 +46,14 @@ struct Bounds {
 }
 
 impl Outline {
-    /// The outline and its features, from a validated graph; a solid's runs counter-clockwise. Features are counted
-    /// from `first`, edges from `first_segment`.
+    /// The outline, its features and their surfaces, from a validated graph; a solid's runs counter-clockwise.
+    /// Features are counted from `first`, edges from `first_segment`.
     pub(super) fn new(
         graph: &Graph,
         kind: Kind,
         first: FeatureId,
         first_segment: u32,
-    ) -> (Self, Vec<Feature>) {
+    ) -> (Self, Vec<Feature>, Vec<u32>) {
         let elements = graph.elements();
         let outline = Self {
             kind,
@@ -63,7 +63,8 @@ impl Outline {
             groups: elements.chunks(GROUP).map(|group| Bounds::of_elements(graph, group)).collect(),
             feature_count: elements.len(),
         };
-        (outline, Builder { graph, kind, first_segment }.features(&elements, first))
+        let (features, surfaces) = Builder { graph, kind, first_segment }.features(&elements, first);
+        (outline, features, surfaces)
     }
 
     /// Its edges.
@@ -148,7 +149,7 @@ struct Builder<'a> {
 }
 
 impl Builder<'_> {
-    fn features(&self, elements: &[Element], first: FeatureId) -> Vec<Feature> {
+    fn features(&self, elements: &[Element], first: FeatureId) -> (Vec<Feature>, Vec<u32>) {
         let mut of_vertices = vec![0; self.graph.vertices.len()];
         let mut of_edges = vec![0; self.graph.edges.len()];
         for (id, element) in (first..).zip(elements) {
@@ -161,22 +162,18 @@ impl Builder<'_> {
             Element::Vertex(vertex) => {
                 let edges = self.graph.incidences[vertex].iter().map(|incidence| incidence.edge);
                 let surfaces = edges.clone().map(|edge| self.graph.edges[edge].surface as u32);
-                Feature {
-                    shape: FeatureShape::Vertex(self.vertex(vertex)),
-                    surface: surfaces.min().unwrap_or(0),
-                    links: edges.map(|edge| of_edges[edge]).collect(),
-                }
+                let links = edges.map(|edge| of_edges[edge]).collect();
+                let shape = FeatureShape::Vertex(self.vertex(vertex));
+                (Feature { shape, links }, surfaces.min().unwrap_or(0))
             }
             Element::Edge(index) => {
                 let edge = &self.graph.edges[index];
-                Feature {
-                    shape: FeatureShape::Edge(self.edge(index)),
-                    surface: edge.surface as u32,
-                    links: edge.ends.iter().map(|&vertex| of_vertices[vertex]).collect(),
-                }
+                let links = edge.ends.iter().map(|&vertex| of_vertices[vertex]).collect();
+                let shape = FeatureShape::Edge(self.edge(index));
+                (Feature { shape, links }, edge.surface as u32)
             }
         };
-        elements.iter().map(feature).collect()
+        elements.iter().map(feature).unzip()
     }
 
     fn vertex(&self, vertex: usize) -> Vertex {
