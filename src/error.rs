@@ -155,25 +155,28 @@ impl Error {
     }
 }
 
+/// An `Error::Config` unless the condition holds.
+#[allow(clippy::needless_pass_by_value)] // As in `Error::config`.
+pub fn require(
+    condition: bool,
+    key: impl Into<String>,
+    value: impl ToString,
+    limit: impl Into<String>,
+) -> Result<(), Error> {
+    if condition { Ok(()) } else { Err(Error::config(key, value, limit)) }
+}
+
 /// Accepts a finite number above zero.
 pub fn require_positive(key: &str, value: f64) -> Result<(), Error> {
-    if value.is_finite() && value > 0.0 {
-        Ok(())
-    } else {
-        Err(Error::config(key, value, "a positive finite number"))
-    }
+    require(value.is_finite() && value > 0.0, key, value, "a positive finite number")
 }
 
 /// Accepts a finite number of at least zero.
 pub fn require_non_negative(key: &str, value: f64) -> Result<(), Error> {
-    if value.is_finite() && value >= 0.0 {
-        Ok(())
-    } else {
-        Err(Error::config(key, value, "a finite number of at least 0"))
-    }
+    require(value.is_finite() && value >= 0.0, key, value, "a finite number of at least 0")
 }
 
 /// Accepts a finite number.
 pub fn require_finite(key: &str, value: f64) -> Result<(), Error> {
-    if value.is_finite() { Ok(()) } else { Err(Error::config(key, value, "a finite number")) }
+    require(value.is_finite(), key, value, "a finite number")
 }

@@ -97,10 +97,6 @@ fn modules_import_from_lower_levels_only() {
 #[test]
 fn physics_knows_no_engine() {
     for path in sources(Path::new("src/physics"), "rs") {
-        // Tests call widths wide.
-        if module_of(&path).split("::").any(|part| part == "tests") {
-            continue;
-        }
         let code = code_of(&path);
         let words: Vec<&str> = code.split(|c: char| !(c.is_alphanumeric() || c == '_')).collect();
         for word in ["engine", "wide", "rayon", "simd", "F64x4", "LANES", "CHUNK", "chunk_count", "Threads"] {

@@ -48,7 +48,7 @@ fn compare<L: ContactLaw>(parameters: &ContactParameters, told: &[Told; LANES]) 
     let law = L::between(parameters, BodyPair::of_discs((mass(), RADIUS), (0.4 * mass(), 0.5 * RADIUS)));
     let history = |lane: usize, column: usize| told[lane][(6 + column).min(11)];
     let (four, next) = L::respond(
-        &L::map(&law, F64x4::splat),
+        &L::Parameters::map(&law, F64x4::splat),
         &contact(|value| lanes(|lane| told[lane][value])),
         &L::History::build(|column| lanes(|lane| history(lane, column))),
     );

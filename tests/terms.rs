@@ -11,7 +11,7 @@ use common::*;
 use drumrs::io::config::SimulationConfig;
 use drumrs::observe::recorder::contact_energies;
 use drumrs::physics::contact::adhesion::Adhesion;
-use drumrs::physics::contact::law::{BodyPair, ContactLaw, WithTerms};
+use drumrs::physics::contact::law::{BodyPair, ContactLaw};
 use drumrs::physics::contact::linear::{Linear, LinearHistory};
 use drumrs::physics::contact::model::Model;
 use drumrs::physics::contact::parameters::{ContactParameters, Tension};
@@ -231,14 +231,14 @@ fn adhesion_gives_back_what_it_took() {
 #[test]
 fn where_tension_is_clipped_the_pull_stays() {
     let parameters = ContactParameters { tension: Tension::Clipped, adhesion: 7.0, ..law(WALL) };
-    let law = WithTerms::<Linear<true>, Adhesion>::between(&parameters, BodyPair::at_wall((mass(), RADIUS)));
+    let law = <(Linear<true>, Adhesion)>::between(&parameters, BodyPair::at_wall((mass(), RADIUS)));
     let respond = |overlap: f64| {
         let separation_rate = (1e-7 - overlap) / EXACT_STEP;
         let motion = RelativeMotion { overlap, separation_rate, slip_rate: 1.0, rolling_rate: 0.0 };
         let last = ContactState { overlap: 1e-7, separation_rate, force_x: 0.0, force_y: 0.0, moment: 0.0 };
         let contact = Kinematics::new(&motion, &last, [EXACT_STEP, 1.0 / EXACT_STEP]);
         let history = (LinearHistory { tangential_displacement: 0.0 }, ());
-        WithTerms::<Linear<true>, Adhesion>::respond(&law, &contact, &history).0
+        <(Linear<true>, Adhesion)>::respond(&law, &contact, &history).0
     };
     let parting = respond(1e-8);
     assert_eq!((parting.normal_force, parting.pressing_force, parting.tangential_force), (-7.0, 0.0, 0.0));

@@ -41,10 +41,18 @@ macro_rules! columns {
             pub const NAMES: &'static [&'static str] = &[$(stringify!($field)),*];
             /// What the fields mean.
             pub const MEANINGS: &'static [&'static str] = &[$(concat!($($meaning),*)),*];
+        }
 
-            /// Some of the fields, as bits in their order.
-            pub const fn set(names: &[&str]) -> u32 {
-                $crate::physics::columns::bits_of(names, Self::NAMES)
+        /// A set of fields: those that are true.
+        #[allow(dead_code)]
+        impl $name<bool> {
+            /// The empty set.
+            pub const NONE: Self = Self { $($field: false,)* };
+
+            /// The fields of either set.
+            #[must_use]
+            pub const fn union(self, other: Self) -> Self {
+                Self { $($field: self.$field || other.$field,)* }
             }
         }
 
@@ -81,65 +89,6 @@ macro_rules! columns {
     };
 }
 pub(crate) use columns;
-
-/// The places of `names` among `fields`, as bits; a name that is not there fails to compile where this is a constant.
-pub(crate) const fn bits_of(names: &[&str], fields: &[&str]) -> u32 {
-    let (mut bits, mut name) = (0, 0);
-    while name < names.len() {
-        let mut field = 0;
-        while !is_same(names[name].as_bytes(), fields[field].as_bytes()) {
-            field += 1;
-        }
-        bits |= 1 << field;
-        name += 1;
-    }
-    bits
-}
-
-const fn is_same(one: &[u8], other: &[u8]) -> bool {
-    if one.len() != other.len() {
-        return false;
-    }
-    let mut index = 0;
-    while index < one.len() {
-        if one[index] != other[index] {
-            return false;
-        }
-        index += 1;
-    }
-    true
-}
-
-/// Makes a type stand for the record of another one.
-macro_rules! columns_of {
-    ([$($generics:tt)*] $marker:ty => $record:ty) => {
-        impl<$($generics)*> $crate::physics::columns::Columns for $marker {
-            type Of<F: $crate::physics::columns::Field> = $crate::physics::columns::Of<$record, F>;
-            const COUNT: usize = <$record>::COUNT;
-
-            #[inline(always)]
-            fn build<F: $crate::physics::columns::Field>(field: impl FnMut(usize) -> F) -> Self::Of<F> {
-                <$record>::build(field)
-            }
-
-            #[inline(always)]
-            fn field<F: $crate::physics::columns::Field>(record: &Self::Of<F>, index: usize) -> F {
-                <$record>::field(record, index)
-            }
-
-            #[inline(always)]
-            fn field_mut<F: $crate::physics::columns::Field>(record: &mut Self::Of<F>, index: usize) -> &mut F {
-                <$record>::field_mut(record, index)
-            }
-
-            #[inline(always)]
-            fn map<F: $crate::physics::columns::Field, U: $crate::physics::columns::Field>(record: &Self::Of<F>, convert: impl FnMut(F) -> U) -> Self::Of<U> {
-                <$record>::map(record, convert)
-            }
-        }
-    };
-}
-pub(crate) use columns_of;
 
 impl Columns for () {
     type Of<T: Field> = ();
@@ -212,6 +161,7 @@ mod tests {
         *Both::field_mut(&mut record, 2) = 7.0;
         assert_eq!(Both::map(&record, |value: f64| value as u8).1.0, Two { one: 7, other: 3 });
         assert_eq!((Two::NAMES, Two::MEANINGS[1]), (&["one", "other"][..], " The second."));
-        assert_eq!([Two::set(&["one"]), Two::set(&["other", "one"])], [1, 3]);
+        let [one, other] = [Two { one: true, ..Two::NONE }, Two { other: true, ..Two::NONE }];
+        assert_eq!((one.union(other), one.union(one)), (Two { one: true, other: true }, one));
     }
 }

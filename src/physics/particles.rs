@@ -5,8 +5,8 @@ use std::f64::consts::PI;
 
 use serde::{Deserialize, Serialize};
 
-use crate::error::Error;
-use crate::physics::vector::Vec2;
+use crate::error::{Error, require};
+use crate::physics::vector::{Vec2, cross};
 
 /// Equal-length vectors of everything that a particle is.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -120,14 +120,13 @@ impl Particles {
         })
     }
 
-    /// The first particle whose forces, mass or moment of inertia none can have.
-    fn first_impossible(&self) -> Option<usize> {
-        (0..self.len()).find(|&i| {
-            let forces = [self.forces[i].x, self.forces[i].y, self.torques[i]];
-            let (mass, inertia) = (self.masses[i], self.inertias[i]);
-            forces.iter().any(|number| !number.is_finite())
-                || !(mass.is_finite() && mass > 0.0 && inertia.is_finite() && inertia >= 0.0)
-        })
+    /// Whether forces, mass and moment of inertia of a particle are such as one can have.
+    fn is_accelerable(&self, i: usize) -> bool {
+        let forces = [self.forces[i].x, self.forces[i].y, self.torques[i]];
+        let (mass, inertia) = (self.masses[i], self.inertias[i]);
+        forces.iter().all(|force| force.is_finite())
+            && (mass.is_finite() && mass > 0.0)
+            && (inertia.is_finite() && inertia >= 0.0)
     }
 
     /// Kinetic energies (of translation, of rotation) [J/m] in the form ½ m v₋·v₊ over the velocities half a step
@@ -162,7 +161,7 @@ impl Particles {
     pub fn angular_momentum_after(&self, half_step: f64, gravity: Vec2) -> f64 {
         (0..self.len()).fold(0.0, |sum, i| {
             let (kick, angular_kick) = self.kick(i, half_step, gravity);
-            let moment = crate::physics::vector::cross(self.positions[i], self.velocities[i] + kick);
+            let moment = cross(self.positions[i], self.velocities[i] + kick);
             sum + self.masses[i] * moment + self.inertias[i] * (self.angular_velocities[i] + angular_kick)
         })
     }
@@ -177,6 +176,7 @@ impl Particles {
     pub fn validate(&self) -> Result<(), Error> {
         let count = self.len();
         let lengths = [
+            ("positions", self.positions.len()),
             ("velocities", self.velocities.len()),
             ("angles", self.angles.len()),
             ("angular_velocities", self.angular_velocities.len()),
@@ -186,59 +186,26 @@ impl Particles {
             ("masses", self.masses.len()),
             ("inertias", self.inertias.len()),
             ("species", self.species.len()),
-            ("ids", self.ids.len()),
         ];
         for (name, length) in lengths {
-            if length != count {
-                let found = format!("of length {length}");
-                return Err(Error::config(format!("state.{name}"), found, format!("of length {count}")));
-            }
+            let limit = format!("of length {count}");
+            require(length == count, format!("state.{name}"), format!("of length {length}"), limit)?;
         }
         let mut ids = self.ids.clone();
         ids.sort_unstable();
-        if !ids.iter().copied().eq(0..count as u32) {
-            return Err(Error::config("state.ids", "not every number once", "a permutation"));
-        }
+        let is_permutation = ids.iter().copied().eq(0..count as u32);
+        require(is_permutation, "state.ids", "not every number once", "a permutation")?;
         if let Some(i) = self.first_non_finite() {
             return Err(Error::config(format!("state of bundle {i}"), "not finite", "finite"));
         }
         if let Some(i) = self.radii.iter().position(|&radius| !(radius.is_finite() && radius > 0.0)) {
-            return Err(Error::config(
-                format!("state.radii[{i}]"),
-                self.radii[i],
-                "a positive finite number",
-            ));
+            let limit = "a positive finite number";
+            return Err(Error::config(format!("state.radii[{i}]"), self.radii[i], limit));
         }
-        match self.first_impossible() {
-            Some(i) => {
-                let found = format!("{:e} kg/m", self.masses[i]);
-                Err(Error::config(
-                    format!("the mass of bundle {i}"),
-                    found,
-                    "positive, finite and accelerable",
-                ))
-            }
-            None => Ok(()),
+        if let Some(i) = (0..count).find(|&i| !self.is_accelerable(i)) {
+            let (key, found) = (format!("the mass of bundle {i}"), format!("{:e} kg/m", self.masses[i]));
+            return Err(Error::config(key, found, "positive, finite and accelerable"));
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_bundle_of_table_1_has_its_mass_and_the_inertia_of_a_disc() {
-        let particles = Particles::at_rest(vec![Vec2::zeros()], vec![0.011_875], 1000.0, false);
-        assert!((particles.masses[0] - 0.4430).abs() < 1e-4);
-        assert_eq!(particles.inertias[0], 0.5 * particles.masses[0] * 0.011_875 * 0.011_875);
-    }
-
-    #[test]
-    fn bad_states_are_named() {
-        let mut particles = Particles::at_rest(vec![Vec2::zeros(); 2], vec![0.1, -0.1], 1.0, false);
-        assert!(particles.validate().unwrap_err().to_string().starts_with("state.radii[1] is -0.1"));
-        particles.radii.pop();
-        assert!(particles.validate().unwrap_err().to_string().starts_with("state.radii is of length 1"));
+        Ok(())
     }
 }

@@ -21,13 +21,6 @@ pub fn dot(a: Vec2, b: Vec2) -> f64 {
     a.x * b.x + a.y * b.y
 }
 
-/// The larger of two numbers; `b` where either is not a number. One machine instruction, unlike `f64::max`, which has
-/// to look for NaN.
-#[inline]
-pub fn larger(a: f64, b: f64) -> f64 {
-    if a > b { a } else { b }
-}
-
 /// The corners (left and low, right and high) of the box round `points`; none without points.
 pub fn bounds(points: &[Vec2]) -> Option<(Vec2, Vec2)> {
     let first = *points.first()?;
@@ -63,24 +56,5 @@ impl Rotation {
     #[inline]
     pub fn apply_inverse(self, v: Vec2) -> Vec2 {
         Vec2::new(self.cos * v.x + self.sin * v.y, self.cos * v.y - self.sin * v.x)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn rotation_and_its_inverse_cancel() {
-        let rotation = Rotation::new(0.7);
-        let v = Vec2::new(1.0, 2.0);
-        assert!((rotation.apply_inverse(rotation.apply(v)) - v).norm() < 1e-15);
-        assert!((rotation.apply(Vec2::new(1.0, 0.0)).y - libm::sin(0.7)).abs() < 1e-16);
-    }
-
-    #[test]
-    fn perpendicular_turns_counter_clockwise() {
-        assert_eq!(perpendicular(Vec2::new(1.0, 0.0)), Vec2::new(0.0, 1.0));
-        assert_eq!(cross(Vec2::new(1.0, 0.0), Vec2::new(0.0, 2.0)), 2.0);
     }
 }

@@ -17,7 +17,7 @@ columns! {
 }
 
 /// What a contact follows from its bodies alone: the law between them, and their radii.
-pub type PairParameters<L> = (L, Geometry);
+pub type PairParameters<L> = (<L as ContactLaw>::Parameters, Geometry);
 
 /// One contact, as it leaves the engine and as a checkpoint keeps it.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]

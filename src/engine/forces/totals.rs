@@ -97,10 +97,10 @@ impl FoldedTotals {
 impl LaneTotals {
     /// Adds the flows of a set; the others are none.
     #[inline(always)]
-    pub fn add_flows(&mut self, set: u32, flows: &Flows<F64x4>) {
+    pub fn add_flows(&mut self, set: Flows<bool>, flows: &Flows<F64x4>) {
         self.flows = Flows::build(|flow| {
             let (sum, new) = (Flows::field(&self.flows, flow), Flows::field(flows, flow));
-            if set >> flow & 1 == 1 { sum + new } else { sum }
+            if Flows::field(&set, flow) { sum + new } else { sum }
         });
     }
 }

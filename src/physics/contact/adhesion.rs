@@ -2,7 +2,7 @@
 
 use super::law::{BodyPair, ContactTerm};
 use super::parameters::ContactParameters;
-use super::{Kinematics, Response, Stored};
+use super::{Flows, Kinematics, Response, Stored};
 use crate::physics::columns::columns;
 use crate::physics::scalar::Scalar;
 
@@ -20,7 +20,7 @@ columns! {
 
 impl ContactTerm for Adhesion {
     type History = ();
-    const FLOWS: u32 = 0;
+    const FLOWS: Flows<bool> = Flows::NONE;
 
     fn between(parameters: &ContactParameters, _bodies: BodyPair) -> Adhesion<f64> {
         Adhesion { pull: parameters.adhesion }

@@ -3,12 +3,14 @@
 use super::friction::TruncatedSpring;
 use super::law::{BodyPair, ContactLaw};
 use super::linear::damping_ratio_for;
-use super::parameters::{ContactParameters, Tension};
+use super::parameters::ContactParameters;
 use super::{Flows, Kinematics, Response, Stored};
-use crate::physics::columns::{Columns, columns, columns_of};
+use crate::physics::columns::{Columns, columns};
 use crate::physics::scalar::Scalar;
 
 columns! {
+    /// The Hertz–Mindlin law between two bodies.
+    ///
     /// Fₙ = k δ^{3/2} + c δ^{1/4} δ̇,   Fₜ = kₜ √δ ξ  with |Fₜ| ≤ μ |Fₙ|
     ///
     /// k = 4/3 E* √R* / h and kₜ = 8 G* √R* / h, with 1/E* = 2 (1 − ν²)/E and 1/G* = 4 (2 − ν)(1 + ν)/E for two bodies of one
@@ -22,7 +24,7 @@ columns! {
     /// The tangential stiffness changes with the overlap. Where it grows, the force stays (Mindlin); where it falls, the
     /// stretch does. Either way the spring loses energy, to slip at the edge of the contact (Thornton et al., Powder Technology
     /// 233 (2013) 30): it counts as sliding.
-    pub struct HertzLaw {
+    pub struct Hertz {
         /// Normal stiffness k [N/m^{5/2}].
         normal_stiffness,
         /// Tangential stiffness kₜ [N/m^{5/2}].
@@ -44,37 +46,29 @@ columns! {
     }
 }
 
-/// The Hertz–Mindlin law.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Hertz;
-
-columns_of!([] Hertz => HertzLaw);
-
 impl ContactLaw for Hertz {
+    type Parameters = Self;
     type History = HertzHistory;
-    const FLOWS: u32 = Flows::set(&["dissipated_normal", "dissipated_sliding"]);
+    const FLOWS: Flows<bool> = Flows { dissipated_normal: true, dissipated_sliding: true, ..Flows::NONE };
     const ROLLS: bool = false;
 
-    fn between(parameters: &ContactParameters, bodies: BodyPair) -> HertzLaw<f64> {
+    fn between(parameters: &ContactParameters, bodies: BodyPair) -> Hertz<f64> {
         let stiffness = normal_stiffness(parameters, bodies);
         let ratio = damping_ratio_for(parameters.restitution.unwrap_or(1.0), parameters.tension);
         let poisson = parameters.poisson_ratio;
-        HertzLaw {
+        Hertz {
             normal_stiffness: stiffness,
             // 8 G* over 4/3 E*.
             tangential_stiffness: 3.0 * (1.0 - poisson) / (2.0 - poisson) * stiffness,
             damping: 2.0 * ratio * (1.25 * stiffness * bodies.effective_mass).sqrt(),
             friction: parameters.friction,
-            least_normal_force: match parameters.tension {
-                Tension::Allowed => f64::NEG_INFINITY,
-                Tension::Clipped => 0.0,
-            },
+            least_normal_force: parameters.tension.least_normal_force(),
         }
     }
 
     #[inline(always)]
     fn respond<S: Scalar>(
-        law: &HertzLaw<S>,
+        law: &Hertz<S>,
         contact: &Kinematics<S>,
         history: &HertzHistory<S>,
     ) -> (Response<S>, HertzHistory<S>) {
@@ -103,7 +97,7 @@ impl ContactLaw for Hertz {
         (response, HertzHistory { tangential_displacement: spring.displacement })
     }
 
-    fn stored(law: &HertzLaw<f64>, overlap: f64, history: &HertzHistory<f64>) -> Stored<f64> {
+    fn stored(law: &Hertz<f64>, overlap: f64, history: &HertzHistory<f64>) -> Stored<f64> {
         let (stretch, root) = (history.tangential_displacement, overlap.sqrt());
         Stored {
             elastic_normal: 0.4 * law.normal_stiffness * overlap * overlap * root,
@@ -115,7 +109,7 @@ impl ContactLaw for Hertz {
 
 /// The stretch after the overlap has changed, at constant force where it has grown; and the energy lost.
 #[inline(always)]
-fn follow_overlap<S: Scalar>(law: &HertzLaw<S>, contact: &Kinematics<S>, stretch: S) -> (S, S) {
+fn follow_overlap<S: Scalar>(law: &Hertz<S>, contact: &Kinematics<S>, stretch: S) -> (S, S) {
     let (before, after) = (contact.last_overlap.sqrt(), contact.overlap.sqrt());
     // Not above zero where there is no contact and never was.
     let most = before.larger(after).larger(S::splat(f64::MIN_POSITIVE));
@@ -126,7 +120,7 @@ fn follow_overlap<S: Scalar>(law: &HertzLaw<S>, contact: &Kinematics<S>, stretch
 
 /// The dashpot's force at mid-step times the travel. Where the whole force is clipped, the dashpot holds just the spring.
 #[inline(always)]
-fn dashpot_loss<S: Scalar>(law: &HertzLaw<S>, contact: &Kinematics<S>) -> S {
+fn dashpot_loss<S: Scalar>(law: &Hertz<S>, contact: &Kinematics<S>) -> S {
     let mean_overlap = (contact.overlap + contact.last_overlap) * S::splat(0.5);
     let root = mean_overlap.sqrt();
     let force = law.damping * root.sqrt() * contact.step_rate * contact.approach;

@@ -4,9 +4,11 @@
 //! adds to that answer. Each is one file: its parameters and its history as `columns!`, one pure function, the energy that
 //! it stores. A simulation has one base law, bare or with all terms.
 
+use std::fmt::Debug;
+
 use super::parameters::ContactParameters;
-use super::{Kinematics, Response, Stored};
-use crate::physics::columns::{Columns, Of, columns_of};
+use super::{Flows, Kinematics, Response, Stored};
+use crate::physics::columns::{Columns, Of};
 use crate::physics::scalar::Scalar;
 
 /// What a law may depend on of two bodies.
@@ -36,35 +38,38 @@ impl BodyPair {
     }
 }
 
-/// A law of contact. The type itself stands for the record of its parameters, see `Columns`.
-pub trait ContactLaw: Columns {
+/// A law of contact: a base law, alone or in front of terms.
+pub trait ContactLaw: Copy + Debug + Default + PartialEq + Send + Sync + 'static {
+    /// What it follows from between two bodies.
+    type Parameters: Columns;
     /// What must survive a step beyond `ContactState`.
     type History: Columns;
-    /// The energies that it takes, as a set of `Flows`; others are not summed up.
-    const FLOWS: u32;
+    /// The energies that it takes; others are not summed up.
+    const FLOWS: Flows<bool>;
     /// Whether the moments on the two bodies can differ where their arms are equal.
     const ROLLS: bool;
 
     /// The law between two bodies.
-    fn between(parameters: &ContactParameters, bodies: BodyPair) -> Of<Self, f64>;
+    fn between(parameters: &ContactParameters, bodies: BodyPair) -> Of<Self::Parameters, f64>;
 
     /// Forces and losses of one step, and what is to be remembered.
     fn respond<S: Scalar>(
-        law: &Of<Self, S>,
+        law: &Of<Self::Parameters, S>,
         contact: &Kinematics<S>,
         history: &Of<Self::History, S>,
     ) -> (Response<S>, Of<Self::History, S>);
 
     /// Energy that a contact holds at an overlap [J/m].
-    fn stored(law: &Of<Self, f64>, overlap: f64, history: &Of<Self::History, f64>) -> Stored<f64>;
+    fn stored(law: &Of<Self::Parameters, f64>, overlap: f64, history: &Of<Self::History, f64>)
+    -> Stored<f64>;
 }
 
-/// What acts beside a base law.
+/// What acts beside a base law: the record of its parameters.
 pub trait ContactTerm: Columns {
     /// What must survive a step.
     type History: Columns;
-    /// The energies that it takes, as a set of `Flows`.
-    const FLOWS: u32;
+    /// The energies that it takes.
+    const FLOWS: Flows<bool>;
 
     /// The term between two bodies.
     fn between(parameters: &ContactParameters, bodies: BodyPair) -> Of<Self, f64>;
@@ -77,14 +82,20 @@ pub trait ContactTerm: Columns {
         response: &mut Response<S>,
     ) -> Of<Self::History, S>;
 
-    /// Adds the energy that a contact holds at an overlap [J/m].
-    fn store(term: &Of<Self, f64>, overlap: f64, history: &Of<Self::History, f64>, stored: &mut Stored<f64>);
+    /// Adds the energy that a contact holds at an overlap [J/m]; none where the term says nothing else.
+    fn store(
+        _term: &Of<Self, f64>,
+        _overlap: f64,
+        _history: &Of<Self::History, f64>,
+        _stored: &mut Stored<f64>,
+    ) {
+    }
 }
 
 /// Two terms, one after the other.
 impl<A: ContactTerm, B: ContactTerm> ContactTerm for (A, B) {
     type History = (A::History, B::History);
-    const FLOWS: u32 = A::FLOWS | B::FLOWS;
+    const FLOWS: Flows<bool> = A::FLOWS.union(B::FLOWS);
 
     fn between(parameters: &ContactParameters, bodies: BodyPair) -> Of<Self, f64> {
         (A::between(parameters, bodies), B::between(parameters, bodies))
@@ -111,37 +122,20 @@ impl<A: ContactTerm, B: ContactTerm> ContactTerm for (A, B) {
     }
 }
 
-/// No terms.
-impl ContactTerm for () {
-    type History = ();
-    const FLOWS: u32 = 0;
-
-    fn between(_parameters: &ContactParameters, _bodies: BodyPair) {}
-
-    #[inline(always)]
-    fn act<S: Scalar>((): &(), _contact: &Kinematics<S>, (): &(), _response: &mut Response<S>) {}
-
-    fn store((): &(), _overlap: f64, (): &(), _stored: &mut Stored<f64>) {}
-}
-
 /// A base law with terms.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct WithTerms<B, T>(B, T);
-
-columns_of!([B: Columns, T: Columns] WithTerms<B, T> => (B, T));
-
-impl<B: ContactLaw, T: ContactTerm> ContactLaw for WithTerms<B, T> {
+impl<B: ContactLaw, T: ContactTerm> ContactLaw for (B, T) {
+    type Parameters = (B::Parameters, T);
     type History = (B::History, T::History);
-    const FLOWS: u32 = B::FLOWS | T::FLOWS;
+    const FLOWS: Flows<bool> = B::FLOWS.union(T::FLOWS);
     const ROLLS: bool = true;
 
-    fn between(parameters: &ContactParameters, bodies: BodyPair) -> Of<Self, f64> {
+    fn between(parameters: &ContactParameters, bodies: BodyPair) -> Of<Self::Parameters, f64> {
         (B::between(parameters, bodies), T::between(parameters, bodies))
     }
 
     #[inline(always)]
     fn respond<S: Scalar>(
-        (base, terms): &Of<Self, S>,
+        (base, terms): &Of<Self::Parameters, S>,
         contact: &Kinematics<S>,
         history: &Of<Self::History, S>,
     ) -> (Response<S>, Of<Self::History, S>) {
@@ -150,7 +144,11 @@ impl<B: ContactLaw, T: ContactTerm> ContactLaw for WithTerms<B, T> {
         (response, (base_history, term_history))
     }
 
-    fn stored((base, terms): &Of<Self, f64>, overlap: f64, history: &Of<Self::History, f64>) -> Stored<f64> {
+    fn stored(
+        (base, terms): &Of<Self::Parameters, f64>,
+        overlap: f64,
+        history: &Of<Self::History, f64>,
+    ) -> Stored<f64> {
         let mut stored = B::stored(base, overlap, &history.0);
         T::store(terms, overlap, &history.1, &mut stored);
         stored

@@ -6,7 +6,7 @@ use super::friction::TruncatedSpring;
 use super::law::{BodyPair, ContactLaw};
 use super::parameters::{ContactParameters, Tension};
 use super::{Flows, Kinematics, Response, Stored};
-use crate::physics::columns::{Columns, columns, columns_of};
+use crate::physics::columns::{Columns, columns};
 use crate::physics::scalar::Scalar;
 
 columns! {
@@ -43,11 +43,10 @@ columns! {
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Linear<const CLIPS: bool>;
 
-columns_of!([const CLIPS: bool] Linear<CLIPS> => LinearLaw);
-
 impl<const CLIPS: bool> ContactLaw for Linear<CLIPS> {
+    type Parameters = LinearLaw;
     type History = LinearHistory;
-    const FLOWS: u32 = Flows::set(&["dissipated_normal", "dissipated_sliding"]);
+    const FLOWS: Flows<bool> = Flows { dissipated_normal: true, dissipated_sliding: true, ..Flows::NONE };
     const ROLLS: bool = false;
 
     fn between(parameters: &ContactParameters, bodies: BodyPair) -> LinearLaw<f64> {
@@ -57,10 +56,7 @@ impl<const CLIPS: bool> ContactLaw for Linear<CLIPS> {
             tangential_stiffness,
             damping: damping(parameters, bodies.effective_mass),
             slip_compliance: parameters.friction / tangential_stiffness,
-            least_normal_force: match parameters.tension {
-                Tension::Allowed => f64::NEG_INFINITY,
-                Tension::Clipped => 0.0,
-            },
+            least_normal_force: parameters.tension.least_normal_force(),
         }
     }
 
@@ -202,88 +198,5 @@ fn clipped_decay(ratio: f64) -> f64 {
     } else {
         let phase = libm::acosh(ratio);
         2.0 * phase / libm::tanh(phase)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::super::parameters::Base;
-    use super::super::{ContactState, RelativeMotion};
-    use super::*;
-
-    fn table_1(tension: Tension) -> ContactParameters {
-        ContactParameters {
-            base: Base::Linear,
-            normal_stiffness: 9.25e7,
-            stiffness_ratio: 1.0,
-            young_modulus: None,
-            poisson_ratio: 0.3,
-            restitution: Some(0.1),
-            normal_damping: None,
-            friction: 0.5,
-            tension,
-            rolling_friction: 0.0,
-            tangential_damping_ratio: 0.0,
-            adhesion: 0.0,
-        }
-    }
-
-    const BUNDLE_MASS: f64 = 1000.0 * PI * 0.02375 * 0.02375 / 4.0;
-
-    #[test]
-    fn table_1_damping_and_collision_time_follow_from_the_restitution() {
-        let bundle = table_1(Tension::Allowed);
-        assert!((damping(&bundle, 0.5 * BUNDLE_MASS) - 5.35e3).abs() < 5.0);
-        assert!((collision_time(&bundle, 0.5 * BUNDLE_MASS) - 1.906e-4).abs() < 1e-7);
-        let drum = ContactParameters { normal_stiffness: 9.70e7, ..bundle };
-        assert!((damping(&drum, BUNDLE_MASS) - 7.75e3).abs() < 5.0);
-    }
-
-    #[test]
-    fn clipped_restitution_matches_schwager_and_poschel() {
-        for (ratio, restitution) in [(0.1, 0.7441), (0.3, 0.4510), (0.6, 0.2488), (0.8, 0.1798)] {
-            assert!((libm::exp(-clipped_decay(ratio)) - restitution).abs() < 5e-5);
-            assert!((damping_ratio_for(restitution, Tension::Clipped) - ratio).abs() < 3e-4);
-        }
-        assert!(damping_ratio_for(0.1, Tension::Clipped) > 1.0, "0.1 lies beyond critical damping");
-    }
-
-    #[test]
-    fn losses_are_never_negative() {
-        let bodies = BodyPair { effective_mass: 0.2, effective_radius: 0.006, layer: 0.024 };
-        for tension in [Tension::Allowed, Tension::Clipped] {
-            let law = Linear::<true>::between(&table_1(tension), bodies);
-            for k in 0..2000_i32 {
-                let wave = |n: i32| f64::from((k * n) % 17 - 8) * 1e-6;
-                let last =
-                    ContactState { overlap: wave(3).max(0.0), separation_rate: wave(2) * 1e5, ..no_state() };
-                let stretch = if last.overlap > 0.0 { wave(5) } else { 0.0 };
-                let motion = RelativeMotion {
-                    overlap: wave(7),
-                    separation_rate: wave(11) * 1e5,
-                    slip_rate: wave(13) * 1e5,
-                    rolling_rate: 0.0,
-                };
-                let contact = Kinematics::new(&motion, &last, [3.7e-6, 1.0 / 3.7e-6]);
-                let history = LinearHistory { tangential_displacement: stretch };
-                let (response, _) = Linear::<true>::respond(&law, &contact, &history);
-                assert!(response.flows.dissipated_normal >= 0.0, "{k}");
-                assert!(response.flows.dissipated_sliding >= 0.0, "{k}");
-            }
-        }
-    }
-
-    fn no_state() -> ContactState<f64> {
-        ContactState::build(|_| 0.0)
-    }
-
-    #[test]
-    fn bad_parameters_are_named() {
-        let both = ContactParameters { normal_damping: Some(1.0), ..table_1(Tension::Allowed) };
-        let text = both.validate("contact.drum").unwrap_err().to_string();
-        assert!(text.starts_with("contact.drum.restitution is given beside normal_damping"), "{text}");
-        let elastic_plus = ContactParameters { restitution: Some(1.5), ..table_1(Tension::Allowed) };
-        let text = elastic_plus.validate("contact.bundle").unwrap_err().to_string();
-        assert_eq!(text, "contact.bundle.restitution is 1.5, but must be above 0 and at most 1");
     }
 }

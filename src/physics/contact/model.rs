@@ -2,7 +2,7 @@
 
 use super::adhesion::Adhesion;
 use super::hertz::Hertz;
-use super::law::{ContactLaw, WithTerms};
+use super::law::ContactLaw;
 use super::linear::Linear;
 use super::parameters::{Base, ContactParameters};
 use super::rolling::RollingResistance;
@@ -17,12 +17,12 @@ pub type BareLaw = Linear<false>;
 /// The base law alone, tension clipped for some contacts.
 pub type ClippedLaw = Linear<true>;
 /// The base law with all terms.
-pub type FullLaw = WithTerms<Linear<true>, Terms>;
+pub type FullLaw = (Linear<true>, Terms);
 
 /// Hertz–Mindlin alone.
 pub type BareHertzLaw = Hertz;
 /// Hertz–Mindlin with the terms that do not go with the tangential stiffness.
-pub type FullHertzLaw = WithTerms<Hertz, Adhesion>;
+pub type FullHertzLaw = (Hertz, Adhesion);
 
 /// What is made for a law, once it is known which.
 pub trait ForLaw {

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::error::{Error, require_non_negative, require_positive};
+use crate::error::{Error, require, require_non_negative, require_positive};
 
 /// Stiffness, damping, friction; which of them count depends on the base law.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -57,6 +57,16 @@ pub enum Tension {
     Clipped,
 }
 
+impl Tension {
+    /// The least force that spring and dashpot together may have [N/m].
+    pub(super) fn least_normal_force(self) -> f64 {
+        match self {
+            Self::Allowed => f64::NEG_INFINITY,
+            Self::Clipped => 0.0,
+        }
+    }
+}
+
 impl ContactParameters {
     /// Checks every field; `key` is the prefix that a user writes, such as `contact.bundle`.
     pub fn validate(&self, key: &str) -> Result<(), Error> {
@@ -87,10 +97,9 @@ impl ContactParameters {
             Error::config(format!("{key}.young_modulus"), "missing", format!("given {HERTZ}"))
         })?;
         require_positive(&format!("{key}.young_modulus"), modulus)?;
-        if !(0.0..=0.5).contains(&self.poisson_ratio) {
-            let limit = "at least 0 and at most 0.5";
-            return Err(Error::config(format!("{key}.poisson_ratio"), self.poisson_ratio, limit));
-        }
+        let is_possible = (0.0..=0.5).contains(&self.poisson_ratio);
+        let limit = "at least 0 and at most 0.5";
+        require(is_possible, format!("{key}.poisson_ratio"), self.poisson_ratio, limit)?;
         if let Some(damping) = self.normal_damping {
             let limit = format!("missing {HERTZ}: give {key}.restitution instead");
             return Err(Error::config(format!("{key}.normal_damping"), damping, limit));
@@ -99,9 +108,8 @@ impl ContactParameters {
             ("rolling_friction", self.rolling_friction),
             ("tangential_damping_ratio", self.tangential_damping_ratio),
         ];
-        let acting = terms.into_iter().find(|&(_, value)| value > 0.0);
-        acting.map_or(Ok(()), |(name, value)| {
-            Err(Error::config(format!("{key}.{name}"), value, format!("0 {HERTZ}")))
+        terms.into_iter().try_for_each(|(name, value)| {
+            require(value == 0.0, format!("{key}.{name}"), value, format!("0 {HERTZ}"))
         })
     }
 
@@ -112,9 +120,9 @@ impl ContactParameters {
 
     fn validate_damping(&self, key: &str) -> Result<(), Error> {
         match (self.restitution, self.normal_damping) {
-            (Some(restitution), None) if restitution > 0.0 && restitution <= 1.0 => Ok(()),
             (Some(restitution), None) => {
-                Err(Error::config(format!("{key}.restitution"), restitution, "above 0 and at most 1"))
+                let is_possible = restitution > 0.0 && restitution <= 1.0;
+                require(is_possible, format!("{key}.restitution"), restitution, "above 0 and at most 1")
             }
             (None, Some(damping)) => require_non_negative(&format!("{key}.normal_damping"), damping),
             (given, _) => Err(Error::config(

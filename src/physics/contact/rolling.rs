@@ -31,7 +31,7 @@ columns! {
 
 impl ContactTerm for RollingResistance {
     type History = RollingHistory;
-    const FLOWS: u32 = Flows::set(&["dissipated_rolling"]);
+    const FLOWS: Flows<bool> = Flows { dissipated_rolling: true, ..Flows::NONE };
 
     fn between(parameters: &ContactParameters, bodies: BodyPair) -> RollingResistance<f64> {
         let radius = bodies.effective_radius;

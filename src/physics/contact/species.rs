@@ -16,11 +16,6 @@ pub struct SpeciesTable {
 }
 
 impl SpeciesTable {
-    /// One species.
-    pub fn uniform(bundle: ContactParameters, drum: ContactParameters) -> Self {
-        Self { count: 1, pairs: vec![bundle], walls: vec![drum] }
-    }
-
     /// `count` species that meet each other with `bundle` and the drum with `drum`, until `set_pair` and `set_wall` say
     /// otherwise.
     pub fn new(count: usize, bundle: &ContactParameters, drum: &ContactParameters) -> Self {

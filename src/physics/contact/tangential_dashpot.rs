@@ -2,7 +2,7 @@
 
 use super::law::{BodyPair, ContactTerm};
 use super::parameters::ContactParameters;
-use super::{Flows, Kinematics, Response, Stored};
+use super::{Flows, Kinematics, Response};
 use crate::physics::columns::columns;
 use crate::physics::scalar::Scalar;
 
@@ -27,7 +27,7 @@ columns! {
 
 impl ContactTerm for TangentialDashpot {
     type History = SlipHistory;
-    const FLOWS: u32 = Flows::set(&["dissipated_tangential"]);
+    const FLOWS: Flows<bool> = Flows { dissipated_tangential: true, ..Flows::NONE };
 
     fn between(parameters: &ContactParameters, bodies: BodyPair) -> TangentialDashpot<f64> {
         let stiffness = parameters.stiffness_ratio * parameters.normal_stiffness;
@@ -55,13 +55,5 @@ impl ContactTerm for TangentialDashpot {
         response.flows.dissipated_tangential = (mean_force * contact.slip).larger(S::zero());
         response.tangential_force = with_dashpot(rate);
         SlipHistory { slip_rate: contact.slip_rate.within(contact.touching) }
-    }
-
-    fn store(
-        _term: &TangentialDashpot<f64>,
-        _overlap: f64,
-        _history: &SlipHistory<f64>,
-        _stored: &mut Stored<f64>,
-    ) {
     }
 }

@@ -5,14 +5,22 @@
 //! neither gap nor overlap opens between them. Features keep copies of the segments around them: this is asked
 //! for every contact in every step, and nothing has to be looked up.
 
-use super::Proximity;
 use super::polygon::length;
 use super::segment::{Segment, SegmentRegion};
+use super::{FeatureId, Proximity};
 use crate::physics::vector::{Vec2, perpendicular};
+
+/// A feature and its neighbors.
+#[derive(Debug, Clone)]
+pub(super) struct Feature {
+    pub(super) shape: FeatureShape,
+    /// The edges of a vertex, the vertices of an edge.
+    pub(super) links: Box<[FeatureId]>,
+}
 
 /// A feature with all that its proximity needs.
 #[derive(Debug, Clone)]
-pub(super) enum Feature {
+pub(super) enum FeatureShape {
     /// The rim, which is not asked here.
     Rim,
     Vertex(Vertex),
@@ -74,10 +82,10 @@ impl Feature {
     /// The point of the feature that is closest to `center`.
     #[inline]
     pub(super) fn closest_point(&self, center: Vec2) -> Option<Vec2> {
-        match self {
-            Self::Rim => None,
-            Self::Vertex(vertex) => Some(vertex.point),
-            Self::Edge(edge) => Some(edge.segment.project(center).point),
+        match &self.shape {
+            FeatureShape::Rim => None,
+            FeatureShape::Vertex(vertex) => Some(vertex.point),
+            FeatureShape::Edge(edge) => Some(edge.segment.project(center).point),
         }
     }
 
@@ -85,10 +93,10 @@ impl Feature {
     /// where another of these `segments` hides the feature.
     #[inline]
     pub(super) fn proximity(&self, center: Vec2, segments: &[Segment]) -> Option<Proximity> {
-        match self {
-            Self::Rim => None,
-            Self::Vertex(vertex) => vertex.proximity(center, segments),
-            Self::Edge(edge) => edge.proximity(center, segments),
+        match &self.shape {
+            FeatureShape::Rim => None,
+            FeatureShape::Vertex(vertex) => vertex.proximity(center, segments),
+            FeatureShape::Edge(edge) => edge.proximity(center, segments),
         }
     }
 }

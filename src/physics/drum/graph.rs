@@ -5,12 +5,16 @@ use super::union_find::UnionFind;
 use crate::physics::vector::Vec2;
 
 /// Vertices and the edges between them: a polygon, a polyline, or walls that meet in any number at a vertex.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub(super) struct Graph {
     /// Where each vertex is.
     pub(super) vertices: Vec<Vec2>,
     /// In the order in which they were drawn; no two have the same ends.
     pub(super) edges: Vec<GraphEdge>,
+    /// The same as segments.
+    pub(super) segments: Vec<Segment>,
+    /// For each vertex its edges: first those that end there, then those that start there.
+    pub(super) incidences: Vec<Vec<Incidence>>,
 }
 
 /// A directed straight edge.
@@ -38,31 +42,36 @@ pub(super) struct Incidence {
     pub(super) end: usize,
 }
 
+impl Incidence {
+    /// 1 where the edge runs away from the vertex, −1 where it runs towards it.
+    pub(super) fn sign(self) -> f64 {
+        if self.end == 0 { 1.0 } else { -1.0 }
+    }
+}
+
 impl Graph {
+    pub(super) fn new(vertices: Vec<Vec2>, edges: Vec<GraphEdge>) -> Self {
+        let segment = |edge: &GraphEdge| Segment::new(vertices[edge.ends[0]], vertices[edge.ends[1]]);
+        let segments = edges.iter().map(segment).collect();
+        let mut incidences = vec![Vec::new(); vertices.len()];
+        for end in [1, 0] {
+            for (index, edge) in edges.iter().enumerate() {
+                incidences[edge.ends[end]].push(Incidence { edge: index, end });
+            }
+        }
+        Self { vertices, edges, segments, incidences }
+    }
+
     /// A closed polygon, part of one surface.
     pub(super) fn polygon(vertices: Vec<Vec2>, surface: usize) -> Self {
         let count = vertices.len();
-        let edges =
-            (0..count).map(|index| GraphEdge { ends: [index, (index + 1) % count], surface }).collect();
-        Self { vertices, edges }
+        let edge = |index: usize| GraphEdge { ends: [index, (index + 1) % count], surface };
+        Self::new(vertices, (0..count).map(edge).collect())
     }
 
-    /// The edges as segments.
-    pub(super) fn segments(&self) -> Vec<Segment> {
-        let segment =
-            |edge: &GraphEdge| Segment::new(self.vertices[edge.ends[0]], self.vertices[edge.ends[1]]);
-        self.edges.iter().map(segment).collect()
-    }
-
-    /// For each vertex its edges: first those that end there, then those that start there.
-    pub(super) fn incidences(&self) -> Vec<Vec<Incidence>> {
-        let mut lists = vec![Vec::new(); self.vertices.len()];
-        for end in [1, 0] {
-            for (index, edge) in self.edges.iter().enumerate() {
-                lists[edge.ends[end]].push(Incidence { edge: index, end });
-            }
-        }
-        lists
+    /// The vector of an edge, from the end that is seen to the other one.
+    pub(super) fn away(&self, incidence: Incidence) -> Vec2 {
+        self.segments[incidence.edge].vector() * incidence.sign()
     }
 
     /// Vertices and edges in boundary order: every edge after the vertex it starts at, and before the vertex it
@@ -91,22 +100,22 @@ impl Graph {
         }
         let mut component_of = vec![None; self.vertices.len()];
         let mut local = vec![None; self.vertices.len()];
-        let mut components: Vec<Self> = Vec::new();
+        let mut components: Vec<(Vec<Vec2>, Vec<GraphEdge>)> = Vec::new();
         for &GraphEdge { ends, surface } in &self.edges {
             let index = *component_of[sets.find(ends[0])].get_or_insert(components.len());
             if index == components.len() {
-                components.push(Self::default());
+                components.push(Default::default());
             }
-            let component = &mut components[index];
+            let (vertices, edges) = &mut components[index];
             let ends = ends.map(|vertex| {
                 *local[vertex].get_or_insert_with(|| {
-                    component.vertices.push(self.vertices[vertex]);
-                    component.vertices.len() - 1
+                    vertices.push(self.vertices[vertex]);
+                    vertices.len() - 1
                 })
             });
-            component.edges.push(GraphEdge { ends, surface });
+            edges.push(GraphEdge { ends, surface });
         }
-        components
+        components.into_iter().map(|(vertices, edges)| Self::new(vertices, edges)).collect()
     }
 }
 
@@ -116,7 +125,7 @@ mod tests {
 
     fn graph(ends: &[[usize; 2]], count: u32) -> Graph {
         let edges = ends.iter().map(|&ends| GraphEdge { ends, surface: 1 }).collect();
-        Graph { vertices: (0..count).map(|x| Vec2::new(f64::from(x), 0.0)).collect(), edges }
+        Graph::new((0..count).map(|x| Vec2::new(f64::from(x), 0.0)).collect(), edges)
     }
 
     #[test]
@@ -126,8 +135,7 @@ mod tests {
         assert_eq!(open.elements(), [Vertex(0), Edge(0), Vertex(1), Edge(1), Vertex(2)]);
         let closed = graph(&[[0, 1], [1, 2], [2, 0]], 3);
         assert_eq!(closed.elements(), [Vertex(0), Edge(0), Vertex(1), Edge(1), Vertex(2), Edge(2)]);
-        let last_first =
-            |vertex: usize| closed.incidences()[vertex].iter().map(|i| i.edge).collect::<Vec<_>>();
+        let last_first = |vertex: usize| closed.incidences[vertex].iter().map(|i| i.edge).collect::<Vec<_>>();
         assert_eq!([last_first(0), last_first(1)], [[2, 0], [0, 1]]);
     }
 

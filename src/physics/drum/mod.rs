@@ -14,17 +14,15 @@ mod outline;
 mod parameters;
 mod polygon;
 mod segment;
-#[cfg(test)]
-mod tests;
 mod union_find;
 mod validate;
 mod visibility;
 
 use crate::error::Error;
 use crate::physics::vector::Vec2;
-use feature::Feature;
+use feature::{Feature, FeatureShape};
 use graph::Graph;
-use outline::{Kind, Outline, Parts};
+use outline::{Kind, Outline};
 pub use parameters::DrumParameters;
 use polygon::length;
 use segment::Segment;
@@ -56,10 +54,8 @@ pub struct Drum {
     outlines: Vec<Outline>,
     /// All features by id.
     features: Vec<Feature>,
-    /// The surface of each feature.
+    /// The surface of each.
     surfaces: Vec<u32>,
-    /// For each feature those that it ends at or that end at it.
-    links: Vec<Box<[FeatureId]>>,
     /// The edges of all outlines.
     segments: Vec<Segment>,
     /// Every baffle lies at least this far [m] from the axis.
@@ -77,9 +73,8 @@ impl Drum {
             baffle_count: baffles.len(),
             shapes: baffles.iter().cloned().chain(walls).collect(),
             outlines: Vec::new(),
-            features: vec![Feature::Rim],
+            features: vec![Feature { shape: FeatureShape::Rim, links: [].into() }],
             surfaces: vec![0],
-            links: vec![[].into()],
             segments: Vec::new(),
             free_radius: f64::INFINITY,
         };
@@ -94,11 +89,10 @@ impl Drum {
 
     /// Appends an outline.
     fn push(&mut self, graph: &Graph, kind: Kind) {
-        let (outline, parts) = Outline::new(graph, kind, self.feature_count(), self.segments.len() as u32);
-        let Parts { features, surfaces, links } = parts;
+        let (outline, features, surfaces) =
+            Outline::new(graph, kind, self.feature_count(), self.segments.len() as u32);
         self.features.extend(features);
         self.surfaces.extend(surfaces);
-        self.links.extend(links);
         self.segments.extend_from_slice(outline.segments());
         self.outlines.push(outline);
     }
@@ -188,7 +182,7 @@ impl Drum {
     /// most two places apart along it, through whatever vertex. Two, because a disc may pass a blunt vertex
     /// within one step.
     pub fn adjacent(&self, a: FeatureId, b: FeatureId) -> bool {
-        let linked = |feature: FeatureId| self.links.get(feature as usize).map_or(&[][..], |links| links);
+        let linked = |id: FeatureId| self.features.get(id as usize).map_or(&[][..], |feature| &feature.links);
         a == b || linked(a).iter().any(|&between| between == b || linked(between).contains(&b))
     }
 

@@ -189,9 +189,6 @@ impl Drawing {
     fn merge_cuts(&mut self, piece: usize, tolerance: f64) {
         let Self { pieces, same, .. } = self;
         let Piece { cuts, ends, length, .. } = &mut pieces[piece];
-        if cuts.is_empty() {
-            return;
-        }
         cuts.sort_by(|a, b| a.fraction.total_cmp(&b.fraction));
         let close = (tolerance / *length).min(OF_SEGMENT);
         let mut previous = Cut { fraction: 0.0, point: ends[0] };
@@ -224,7 +221,7 @@ impl Drawing {
                 start = end;
             }
         }
-        Graph { vertices, edges }
+        Graph::new(vertices, edges)
     }
 }
 
@@ -288,21 +285,5 @@ mod tests {
         assert!(parts[0].iter().all(|(ends, _)| ends[..2] == [0.0, 0.0] || ends[2..] == [0.0, 0.0]));
         let bow_tie = joined(&[&[[0.0, 0.0], [2.0, 2.0], [2.0, 0.0], [0.0, 2.0]]]);
         assert_eq!(bow_tie[0].len(), 5);
-    }
-
-    #[test]
-    fn too_many_joints_are_refused() {
-        let grid = |count: u32| {
-            let lines = (0..count).flat_map(|k| {
-                let at = f64::from(k) / f64::from(count);
-                [vec![[-1.0, at], [2.0, at]], vec![[at, -1.0], [at, 2.0]]]
-            });
-            join(&lines.collect::<Vec<_>>(), 1).map(|parts| parts.len()).map_err(|error| error.to_string())
-        };
-        assert_eq!(grid(50), Ok(1));
-        let corners = "drum.walls is of 5180 corners in walls that meet, but must be of at most 4000";
-        assert_eq!(grid(70).unwrap_err(), corners);
-        let places = "drum.walls is of walls that meet in more than 20000 places, but must be of walls that meet in fewer";
-        assert_eq!(grid(400), Err(places.to_owned()));
     }
 }

@@ -1,7 +1,7 @@
 //! One outline: a baffle, or walls that hang together. Its features and where they are.
 
 use super::FeatureId;
-use super::feature::{Edge, Feature, Spoke, Vertex};
+use super::feature::{Edge, Feature, FeatureShape, Spoke, Vertex};
 use super::graph::{Element, Graph, Incidence};
 use super::polygon::contains;
 use super::segment::{Segment, SegmentRegion};
@@ -30,22 +30,12 @@ pub(super) struct Outline {
     kind: Kind,
     segments: Vec<Segment>,
     /// The id of its first feature.
-    pub(super) first: FeatureId,
+    first: FeatureId,
     /// Round all of it.
     bounds: Bounds,
     /// Round each `GROUP` of its features.
     groups: Vec<Bounds>,
     feature_count: usize,
-}
-
-/// What an outline adds to the tables of a drum, feature by feature in boundary order.
-#[derive(Debug, Default)]
-pub(super) struct Parts {
-    pub(super) features: Vec<Feature>,
-    /// The surface of each.
-    pub(super) surfaces: Vec<u32>,
-    /// The ids of the edges of each vertex and of the vertices of each edge.
-    pub(super) links: Vec<Box<[FeatureId]>>,
 }
 
 /// A rectangle.
@@ -56,40 +46,30 @@ struct Bounds {
 }
 
 impl Outline {
-    /// From a validated graph; a solid's runs counter-clockwise. Its features are counted from `first`, its edges
-    /// from `first_segment`.
-    pub(super) fn new(graph: &Graph, kind: Kind, first: FeatureId, first_segment: u32) -> (Self, Parts) {
-        let (segments, elements) = (graph.segments(), graph.elements());
-        let boxes: Vec<Bounds> =
-            elements.chunks(GROUP).map(|group| Bounds::of_elements(graph, group)).collect();
+    /// The outline, its features and their surfaces, from a validated graph; a solid's runs counter-clockwise.
+    /// Features are counted from `first`, edges from `first_segment`.
+    pub(super) fn new(
+        graph: &Graph,
+        kind: Kind,
+        first: FeatureId,
+        first_segment: u32,
+    ) -> (Self, Vec<Feature>, Vec<u32>) {
+        let elements = graph.elements();
         let outline = Self {
             kind,
+            segments: graph.segments.clone(),
             first,
             bounds: Bounds::of(&graph.vertices),
-            groups: boxes,
+            groups: elements.chunks(GROUP).map(|group| Bounds::of_elements(graph, group)).collect(),
             feature_count: elements.len(),
-            segments,
         };
-        let builder = Builder {
-            graph,
-            kind,
-            segments: &outline.segments,
-            incidences: graph.incidences(),
-            first_segment,
-        };
-        let parts = builder.parts(&elements, first);
-        (outline, parts)
+        let (features, surfaces) = Builder { graph, kind, first_segment }.features(&elements, first);
+        (outline, features, surfaces)
     }
 
     /// Its edges.
     pub(super) fn segments(&self) -> &[Segment] {
         &self.segments
-    }
-
-    /// The number of vertices and edges together.
-    #[cfg(test)]
-    pub(super) fn feature_count(&self) -> usize {
-        self.feature_count
     }
 
     /// Distance [m] from `point` to the outline, negative inside a solid.
@@ -165,68 +145,57 @@ impl Bounds {
 struct Builder<'a> {
     graph: &'a Graph,
     kind: Kind,
-    segments: &'a [Segment],
-    incidences: Vec<Vec<Incidence>>,
     first_segment: u32,
 }
 
 impl Builder<'_> {
-    fn parts(&self, elements: &[Element], first: FeatureId) -> Parts {
-        let (mut of_vertices, mut of_edges) =
-            (vec![0; self.graph.vertices.len()], vec![0; self.segments.len()]);
+    fn features(&self, elements: &[Element], first: FeatureId) -> (Vec<Feature>, Vec<u32>) {
+        let mut of_vertices = vec![0; self.graph.vertices.len()];
+        let mut of_edges = vec![0; self.graph.edges.len()];
         for (id, element) in (first..).zip(elements) {
             match *element {
                 Element::Vertex(vertex) => of_vertices[vertex] = id,
                 Element::Edge(edge) => of_edges[edge] = id,
             }
         }
-        let mut parts = Parts::default();
-        for element in elements {
-            let (feature, surface, links) = match *element {
-                Element::Vertex(vertex) => {
-                    let edges = self.incidences[vertex].iter().map(|incidence| incidence.edge);
-                    let surface = edges.clone().map(|edge| self.graph.edges[edge].surface).min().unwrap_or(0);
-                    (
-                        Feature::Vertex(self.vertex(vertex)),
-                        surface,
-                        edges.map(|edge| of_edges[edge]).collect(),
-                    )
-                }
-                Element::Edge(index) => {
-                    let edge = &self.graph.edges[index];
-                    let links = edge.ends.iter().map(|&vertex| of_vertices[vertex]).collect();
-                    (Feature::Edge(self.edge(index)), edge.surface, links)
-                }
-            };
-            parts.features.push(feature);
-            parts.surfaces.push(surface as u32);
-            parts.links.push(links);
-        }
-        parts
+        let feature = |element: &Element| match *element {
+            Element::Vertex(vertex) => {
+                let edges = self.graph.incidences[vertex].iter().map(|incidence| incidence.edge);
+                let surfaces = edges.clone().map(|edge| self.graph.edges[edge].surface as u32);
+                let links = edges.map(|edge| of_edges[edge]).collect();
+                let shape = FeatureShape::Vertex(self.vertex(vertex));
+                (Feature { shape, links }, surfaces.min().unwrap_or(0))
+            }
+            Element::Edge(index) => {
+                let edge = &self.graph.edges[index];
+                let links = edge.ends.iter().map(|&vertex| of_vertices[vertex]).collect();
+                let shape = FeatureShape::Edge(self.edge(index));
+                (Feature { shape, links }, edge.surface as u32)
+            }
+        };
+        elements.iter().map(feature).unzip()
     }
 
     fn vertex(&self, vertex: usize) -> Vertex {
-        let own = &self.incidences[vertex];
         let spoke = |&Incidence { edge, end }: &Incidence| Spoke {
-            segment: self.segments[edge],
+            segment: self.graph.segments[edge],
             region: if end == 0 { SegmentRegion::Start } else { SegmentRegion::End },
         };
-        let spokes: Box<[Spoke]> = own.iter().map(spoke).collect();
+        let spokes: Box<[Spoke]> = self.graph.incidences[vertex].iter().map(spoke).collect();
         let is_concave = self.kind == Kind::Solid
             && matches!(&*spokes, [into, out] if cross(into.segment.vector(), out.segment.vector()) < 0.0);
-        let occluders = vertex_occluders(self.graph, self.segments, own, vertex);
-        Vertex { point: self.graph.vertices[vertex], spokes, is_concave, occluders: self.in_drum(&occluders) }
+        let occluders = self.in_drum(&vertex_occluders(self.graph, vertex));
+        Vertex { point: self.graph.vertices[vertex], spokes, is_concave, occluders }
     }
 
     fn edge(&self, index: usize) -> Edge {
-        let (neighbors, contested) = neighbors(self.graph, self.segments, &self.incidences, index);
-        let occluders = edge_occluders(self.graph, self.segments, self.kind, index);
+        let (neighbors, contested) = neighbors(self.graph, index);
         Edge {
-            segment: self.segments[index],
+            segment: self.graph.segments[index],
             is_solid: self.kind == Kind::Solid,
             contested,
             neighbors: neighbors.into(),
-            occluders: self.in_drum(&occluders),
+            occluders: self.in_drum(&edge_occluders(self.graph, self.kind, index)),
         }
     }
 

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::baffle::BaffleParameters;
 use super::graph::Graph;
 use super::{network, polygon};
-use crate::error::{Error, require_finite, require_positive};
+use crate::error::{Error, require, require_finite, require_positive};
 use crate::physics::vector::Vec2;
 
 /// Rim, baffles and straight walls, as a user describes them.
@@ -48,19 +48,20 @@ impl DrumParameters {
         let corners = self.baffles.corner_count();
         let longest = self.walls.iter().map(Vec::len).max().unwrap_or(0);
         let of_walls = self.walls.iter().map(Vec::len).sum::<usize>();
-        let refuse = |key: &str, found: usize, limit: usize, of: &str| {
-            Err(Error::config(key, format!("of {found} corners{of}"), format!("of at most {limit}")))
-        };
-        if corners > each {
-            refuse("drum.baffles.points", corners, each, "")
-        } else if longest > each {
-            refuse("drum.walls", longest, each, " in one wall")
-        } else if of_walls + self.baffles.count.saturating_mul(corners) > all {
-            let found = of_walls + self.baffles.count.saturating_mul(corners);
-            refuse("drum", found, all, " in baffles and walls together")
-        } else {
-            Ok(())
+        let total = of_walls + self.baffles.count.saturating_mul(corners);
+        for (key, found, limit, place) in [
+            ("drum.baffles.points", corners, each, ""),
+            ("drum.walls", longest, each, " in one wall"),
+            ("drum", total, all, " in baffles and walls together"),
+        ] {
+            require(
+                found <= limit,
+                key,
+                format!("of {found} corners{place}"),
+                format!("of at most {limit}"),
+            )?;
         }
+        Ok(())
     }
 }
 
@@ -86,9 +87,10 @@ fn validate_wall(number: usize, wall: &[[f64; 2]]) -> Result<(), Error> {
         let problem = format!("has a side {} without length", index + 1);
         return refuse(problem, "a list of walls of distinct points");
     }
-    if let Some(corner) = segments.windows(2).position(|pair| polygon::folds_back(&pair[0], &pair[1])) {
-        let problem = format!("folds back on itself at point {}", corner + 2);
-        return refuse(problem, "a list of walls that do not");
+    match segments.windows(2).position(|pair| polygon::folds_back(&pair[0], &pair[1])) {
+        Some(corner) => {
+            refuse(format!("folds back on itself at point {}", corner + 2), "a list of walls that do not")
+        }
+        None => Ok(()),
     }
-    Ok(())
 }

@@ -20,22 +20,17 @@ const FLAT: f64 = 1e-6;
 
 /// The other edges at the two ends of the edge at `index`, as far as they may hide it or have the say over a
 /// point that both claim; and how far from each end they do, as fractions of the edge.
-pub(super) fn neighbors(
-    graph: &Graph,
-    segments: &[Segment],
-    incidences: &[Vec<Incidence>],
-    index: usize,
-) -> (Vec<Neighbor>, [f64; 2]) {
+pub(super) fn neighbors(graph: &Graph, index: usize) -> (Vec<Neighbor>, [f64; 2]) {
     let (mut found, mut contested) = (Vec::new(), [0.0_f64; 2]);
     for (end, vertex) in graph.edges[index].ends.into_iter().enumerate() {
         let own = Incidence { edge: index, end };
         let mut precedes = true;
-        for &other in &incidences[vertex] {
+        for &other in &graph.incidences[vertex] {
             if other == own {
                 precedes = false;
                 continue;
             }
-            let neighbor = neighbor(segments, own, other, precedes);
+            let neighbor = neighbor(graph, own, other, precedes);
             if neighbor.precedes || neighbor.overhang > 0.0 {
                 let zone = if precedes { TIE_ZONE } else { 0.0 };
                 contested[end] = contested[end].max(neighbor.overhang).max(zone);
@@ -47,44 +42,34 @@ pub(super) fn neighbors(
 }
 
 /// How the edge `other` lies to the edge `own`, both seen from their vertex.
-fn neighbor(segments: &[Segment], own: Incidence, other: Incidence, precedes: bool) -> Neighbor {
-    let sign = |incidence: Incidence| if incidence.end == 0 { 1.0 } else { -1.0 };
-    let away = |incidence: Incidence| segments[incidence.edge].vector() * sign(incidence);
-    let (along, beside) = (away(own), away(other));
+fn neighbor(graph: &Graph, own: Incidence, other: Incidence, precedes: bool) -> Neighbor {
+    let (along, beside) = (graph.away(own), graph.away(other));
     let (turn, straightness) = (cross(along, beside), -dot(along, beside));
     let is_flat = turn.abs() <= FLAT * straightness;
     let turn = if is_flat { 0.0 } else { f64::from(i8::from(turn > 0.0) - i8::from(turn < 0.0)) };
     Neighbor {
-        segment: segments[other.edge],
+        segment: graph.segments[other.edge],
         end: own.end,
-        edge_sign: turn * sign(own),
-        own_sign: -turn * sign(other),
+        edge_sign: turn * own.sign(),
+        own_sign: -turn * other.sign(),
         overhang: dot(along, beside) / dot(along, along),
         precedes,
     }
 }
 
 /// The edges that reach into the region of a vertex, its own apart, and so may hide it from a point there.
-pub(super) fn vertex_occluders(
-    graph: &Graph,
-    segments: &[Segment],
-    own: &[Incidence],
-    vertex: usize,
-) -> Vec<usize> {
-    let origin = graph.vertices[vertex];
-    let outwards = |&Incidence { edge, end }: &Incidence| {
-        let normal = segments[edge].vector();
-        HalfPlane { normal: if end == 0 { -normal } else { normal }, origin }
-    };
+pub(super) fn vertex_occluders(graph: &Graph, vertex: usize) -> Vec<usize> {
+    let (origin, own) = (graph.vertices[vertex], &graph.incidences[vertex]);
+    let outwards = |&incidence: &Incidence| HalfPlane { normal: -graph.away(incidence), origin };
     let region: Vec<HalfPlane> = own.iter().map(outwards).collect();
-    reaching(segments, &region, |edge| own.iter().any(|incidence| incidence.edge == edge))
+    reaching(&graph.segments, &region, |edge| own.iter().any(|incidence| incidence.edge == edge))
 }
 
 /// The edges that reach into the region of the edge at `index`, its neighbors apart, and so may hide it.
-pub(super) fn edge_occluders(graph: &Graph, segments: &[Segment], kind: Kind, index: usize) -> Vec<usize> {
+pub(super) fn edge_occluders(graph: &Graph, kind: Kind, index: usize) -> Vec<usize> {
     let ends = graph.edges[index].ends;
-    let region = edge_region(kind, &segments[index]);
-    reaching(segments, &region, |edge| graph.edges[edge].ends.iter().any(|end| ends.contains(end)))
+    let region = edge_region(kind, &graph.segments[index]);
+    reaching(&graph.segments, &region, |edge| graph.edges[edge].ends.iter().any(|end| ends.contains(end)))
 }
 
 /// The half plane of all points x with normal · (x − origin) ≥ 0.
@@ -160,28 +145,26 @@ mod tests {
     #[test]
     fn nothing_hides_a_feature_of_a_convex_solid() {
         let graph = polygon(&[[0.2, 0.03], [0.15, 0.01], [0.15, -0.02], [0.2, -0.03]]);
-        let (segments, incidences) = (graph.segments(), graph.incidences());
-        for (index, own) in incidences.iter().enumerate() {
-            assert!(vertex_occluders(&graph, &segments, own, index).is_empty());
-            assert!(edge_occluders(&graph, &segments, Kind::Solid, index).is_empty());
+        for index in 0..4 {
+            assert!(vertex_occluders(&graph, index).is_empty());
+            assert!(edge_occluders(&graph, Kind::Solid, index).is_empty());
             // Seen from both sides, opposite walls do hide each other.
-            assert_eq!(edge_occluders(&graph, &segments, Kind::Wall, index), [(index + 2) % 4]);
+            assert_eq!(edge_occluders(&graph, Kind::Wall, index), [(index + 2) % 4]);
         }
     }
 
     #[test]
     fn acute_corners_overhang() {
         let graph = polygon(&[[0.0, 0.0], [4.0, 0.0], [3.0, 3.0], [-9.0, 3.0]]);
-        let (segments, incidences) = (graph.segments(), graph.incidences());
         // The corners at the end of edge 0 and between edges 2 and 3 are acute.
         let overhangs = |index: usize| {
-            let (found, _) = neighbors(&graph, &segments, &incidences, index);
+            let (found, _) = neighbors(&graph, index);
             found.iter().filter(|n| n.overhang > 0.0).map(|n| (n.end, n.overhang)).collect::<Vec<_>>()
         };
         assert_eq!(overhangs(0), [(1, 0.25)]);
         assert_eq!(overhangs(2), [(1, 0.75)]);
         assert_eq!([overhangs(1), overhangs(3)].map(|list| list.len()), [1, 1]);
-        let (_, contested) = neighbors(&graph, &segments, &incidences, 0);
+        let (_, contested) = neighbors(&graph, 0);
         assert_eq!(contested, [TIE_ZONE, 0.25]);
     }
 }

@@ -1,10 +1,6 @@
 //! The discs placed so far, on a square grid that finds the neighbors of a point.
 
-use super::Room;
 use crate::physics::vector::{Vec2, dot};
-
-/// Ends the list of a cell.
-const NONE: u32 = u32::MAX;
 
 /// Centers of equal discs, listed by the grid cell they are in.
 ///
@@ -15,25 +11,19 @@ pub(super) struct Cells {
     spacing: f64,
     width: f64,
     across: usize,
-    first: Vec<u32>,
-    next: Vec<u32>,
+    /// The discs in each cell, the last to arrive at the end.
+    discs: Vec<Vec<u32>>,
     centers: Vec<Vec2>,
 }
 
 impl Cells {
-    /// An empty grid over the room, of no more cells than suit `count` discs.
-    pub(super) fn new<S>(room: &Room<S>, count: usize) -> Self {
-        let width = room.spacing.max(2.0 * room.reach / (count as f64).sqrt());
-        let across = (2.0 * room.reach / width) as usize + 3;
-        Self {
-            reach: room.reach,
-            spacing: room.spacing,
-            width,
-            across,
-            first: vec![NONE; across * across],
-            next: Vec::with_capacity(count),
-            centers: Vec::with_capacity(count),
-        }
+    /// An empty grid for centers within `reach` of the axis on both axes and at least `spacing` apart [m], of no more
+    /// cells than suit `count` discs.
+    pub(super) fn new(reach: f64, spacing: f64, count: usize) -> Self {
+        let width = spacing.max(2.0 * reach / (count as f64).sqrt());
+        let across = (2.0 * reach / width) as usize + 3;
+        let discs = vec![Vec::new(); across * across];
+        Self { reach, spacing, width, across, discs, centers: Vec::with_capacity(count) }
     }
 
     /// Number of discs.
@@ -48,30 +38,21 @@ impl Cells {
 
     /// Whether a disc centered here, within reach, overlaps none of those placed, apart from disc `except`.
     pub(super) fn is_free(&self, center: Vec2, except: Option<usize>) -> bool {
-        let except = except.map_or(NONE, |disc| disc as u32);
+        let is_far = |&disc: &u32| {
+            let apart = self.centers[disc as usize] - center;
+            except == Some(disc as usize) || dot(apart, apart) >= self.spacing * self.spacing
+        };
         let corner = self.cell(center) - self.across - 1;
-        let least = self.spacing * self.spacing;
-        for row in 0..3 {
+        (0..3).all(|row| {
             let start = corner + row * self.across;
-            for &first in &self.first[start..start + 3] {
-                let mut disc = first;
-                while disc != NONE {
-                    let apart = self.centers[disc as usize] - center;
-                    if disc != except && dot(apart, apart) < least {
-                        return false;
-                    }
-                    disc = self.next[disc as usize];
-                }
-            }
-        }
-        true
+            self.discs[start..start + 3].iter().all(|discs| discs.iter().all(is_far))
+        })
     }
 
     /// Adds a disc.
     pub(super) fn push(&mut self, center: Vec2) {
         let cell = self.cell(center);
-        self.next.push(self.first[cell]);
-        self.first[cell] = self.centers.len() as u32;
+        self.discs[cell].push(self.centers.len() as u32);
         self.centers.push(center);
     }
 
@@ -80,33 +61,16 @@ impl Cells {
         let (from, to) = (self.cell(self.centers[disc]), self.cell(center));
         self.centers[disc] = center;
         if from != to {
-            self.unlink(disc, from);
-            self.next[disc] = self.first[to];
-            self.first[to] = disc as u32;
+            self.discs[from].retain(|&other| other != disc as u32);
+            self.discs[to].push(disc as u32);
         }
     }
 
     /// All centers, cell by cell: in rows from bottom to top, each from left to right.
     pub(super) fn into_rows(self) -> Vec<Vec2> {
-        let mut rows = Vec::with_capacity(self.centers.len());
-        for &first in &self.first {
-            let mut disc = first;
-            while disc != NONE {
-                rows.push(self.centers[disc as usize]);
-                disc = self.next[disc as usize];
-            }
-        }
-        rows
-    }
-
-    fn unlink(&mut self, disc: usize, cell: usize) {
-        let after = self.next[disc];
-        let mut link = &mut self.first[cell];
-        while *link != disc as u32 {
-            let before = *link as usize;
-            link = &mut self.next[before];
-        }
-        *link = after;
+        // Within a cell the last to arrive comes first.
+        let discs = self.discs.iter().flat_map(|discs| discs.iter().rev());
+        discs.map(|&disc| self.centers[disc as usize]).collect()
     }
 
     fn cell(&self, center: Vec2) -> usize {
@@ -129,7 +93,7 @@ mod tests {
     }
 
     fn grid(centers: impl Iterator<Item = Vec2>) -> Cells {
-        let mut cells = Cells::new(&Room { space: &(), reach: 1.0, radius: 0.05, spacing: 0.1 }, 100);
+        let mut cells = Cells::new(1.0, 0.1, 100);
         centers.for_each(|center| cells.push(center));
         cells
     }

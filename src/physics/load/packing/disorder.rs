@@ -2,9 +2,9 @@
 
 use rand::Rng;
 
+use super::Room;
 use super::cells::Cells;
 use super::draws::{below, in_square};
-use super::{FreeSpace, Room};
 use crate::physics::vector::Vec2;
 
 /// Tries of random insertion, per disc and in all, after which a bed counts as too dense for it.
@@ -16,8 +16,8 @@ const MOVES: usize = 10_000_000;
 const SWEEPS: (usize, usize) = (20, 2000);
 
 /// Inserts discs one by one wherever a random point has room for one; `None` if that stalls.
-pub(super) fn insert<S: FreeSpace>(room: &Room<S>, count: usize, random: &mut impl Rng) -> Option<Cells> {
-    let mut bed = Cells::new(room, count);
+pub(super) fn insert(room: &Room, count: usize, random: &mut impl Rng) -> Option<Cells> {
+    let mut bed = Cells::new(room.reach, room.spacing, count);
     for _ in 0..count.saturating_mul(TRIES_PER_DISC).saturating_add(TRIES) {
         let center = in_square(room.reach, random);
         // The solids come last: their distance may cost more than everything else.
@@ -35,13 +35,8 @@ pub(super) fn insert<S: FreeSpace>(room: &Room<S>, count: usize, random: &mut im
 ///
 /// Up to some thousand discs the bed forgets its pattern wherever it is loose enough to; larger ones, of fewer
 /// sweeps, keep a part of its order.
-pub(super) fn shuffled<S: FreeSpace>(
-    room: &Room<S>,
-    sites: &[Vec2],
-    count: usize,
-    random: &mut impl Rng,
-) -> Cells {
-    let mut bed = Cells::new(room, count);
+pub(super) fn shuffled(room: &Room, sites: &[Vec2], count: usize, random: &mut impl Rng) -> Cells {
+    let mut bed = Cells::new(room.reach, room.spacing, count);
     // Taken in the order of the pattern, neighbors stay near each other in memory.
     for (index, site) in sites.iter().enumerate() {
         if below(sites.len() - index, random) < count - bed.len() {
@@ -59,7 +54,7 @@ pub(super) fn shuffled<S: FreeSpace>(
 }
 
 /// Tries to move every disc once by at most `length` along x and y; tells how many moved.
-fn sweep<S: FreeSpace>(room: &Room<S>, bed: &mut Cells, length: f64, random: &mut impl Rng) -> usize {
+fn sweep(room: &Room, bed: &mut Cells, length: f64, random: &mut impl Rng) -> usize {
     let mut moved = 0;
     for disc in 0..bed.len() {
         let center = bed.center(disc) + in_square(length, random);

@@ -4,15 +4,13 @@
 //! are shuffled by random moves until the bed is as random as its density allows. A count is accepted exactly if
 //! the densest pattern found has that many sites, whatever the seed, so an error can name the count that fits.
 //!
-//! Every length is a multiple of the space's own lengths: scaling space and radius by a power of two scales the
+//! Every length is a multiple of the drum's own lengths: scaling drum and radius by a power of two scales the
 //! positions by it, bit for bit.
 
 mod cells;
 mod disorder;
 mod draws;
 mod pattern;
-#[cfg(test)]
-mod tests;
 
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
@@ -24,51 +22,23 @@ use crate::physics::vector::{Vec2, dot};
 /// The relative gap kept round every disc, so that neither rounding nor a turn of the drum makes two discs overlap.
 const GAP: f64 = 1e-9;
 
-/// Where discs may be: the free space of the drum in its own frame.
-pub trait FreeSpace {
-    /// Signed distance [m] from a point to the nearest solid, negative within solids.
-    fn clearance(&self, point: Vec2) -> f64;
-
-    /// Radius [m] of the circle round the axis that contains the free space, `None` if it is unbounded.
-    fn bounding_radius(&self) -> Option<f64>;
-
-    /// Whether the nearest solid is at least `distance` [m] from a point.
-    fn is_clear(&self, point: Vec2, distance: f64) -> bool {
-        self.clearance(point) >= distance
-    }
-}
-
-impl FreeSpace for Drum {
-    fn clearance(&self, point: Vec2) -> f64 {
-        Self::clearance(self, point)
-    }
-
-    fn bounding_radius(&self) -> Option<f64> {
-        self.radius()
-    }
-
-    fn is_clear(&self, point: Vec2, distance: f64) -> bool {
-        Self::is_clear(self, point, distance)
-    }
-}
-
 /// Seeded random positions (drum frame) of `count` equal discs of `radius` [m] that overlap neither each other nor
 /// a solid.
 ///
 /// They come in rows from bottom to top, so that discs near each other are near each other in memory.
 ///
 /// # Errors
-/// `Error::Packing` if no pattern found has `count` sites; `Error::Config` for a space without bounds and for a
+/// `Error::Packing` if no pattern found has `count` sites; `Error::Config` for a drum without a rim and for a
 /// radius that is not positive.
-pub fn pack(space: &impl FreeSpace, count: usize, radius: f64, seed: u64) -> Result<Vec<Vec2>, Error> {
-    let Some(bound) = space.bounding_radius() else {
+pub fn pack(drum: &Drum, count: usize, radius: f64, seed: u64) -> Result<Vec<Vec2>, Error> {
+    let Some(bound) = drum.radius() else {
         return Err(Error::config("drum.diameter", "none", "given when no initial state is"));
     };
     require_positive("load.diameter", 2.0 * radius)?;
     if count == 0 {
         return Ok(Vec::new());
     }
-    let room = Room::new(space, bound, radius);
+    let room = Room::new(drum, bound, radius);
     let densest = pattern::densest(&room, count).map_err(|fits| Error::Packing {
         requested: count,
         fits,
@@ -82,9 +52,9 @@ pub fn pack(space: &impl FreeSpace, count: usize, radius: f64, seed: u64) -> Res
     Ok(bed.into_rows())
 }
 
-/// A free space and the size of the discs that go into it; all tests of a position happen here.
-struct Room<'a, S> {
-    space: &'a S,
+/// The space inside a drum and the size of the discs that go into it; all tests of a position happen here.
+struct Room<'a> {
+    drum: &'a Drum,
     /// Radius of the circle round the axis that holds every center [m]; negative if not even one disc fits.
     reach: f64,
     /// Least distance from a center to a solid [m].
@@ -93,10 +63,10 @@ struct Room<'a, S> {
     spacing: f64,
 }
 
-impl<'a, S: FreeSpace> Room<'a, S> {
-    fn new(space: &'a S, bound: f64, radius: f64) -> Self {
+impl<'a> Room<'a> {
+    fn new(drum: &'a Drum, bound: f64, radius: f64) -> Self {
         let radius = radius * (1.0 + GAP);
-        Self { space, reach: bound - radius, radius, spacing: 2.0 * radius }
+        Self { drum, reach: bound - radius, radius, spacing: 2.0 * radius }
     }
 
     /// Whether a center may be here as far as the bounding circle goes; it costs next to nothing.
@@ -106,6 +76,6 @@ impl<'a, S: FreeSpace> Room<'a, S> {
 
     /// Whether a disc centered here is clear of every solid.
     fn admits(&self, center: Vec2) -> bool {
-        self.bounds(center) && self.space.is_clear(center, self.radius)
+        self.bounds(center) && self.drum.is_clear(center, self.radius)
     }
 }

@@ -6,7 +6,7 @@ use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
 use super::draws::unit;
-use super::{FreeSpace, GAP, Room};
+use super::{GAP, Room};
 use crate::physics::vector::{Rotation, Vec2};
 
 /// Height of a row of a triangular lattice over its spacing, √3/2.
@@ -39,7 +39,7 @@ pub(super) enum Pattern {
 ///
 /// It does not depend on any seed: what fits has to be one number. In a room of far more sites than bundles a wider
 /// pattern is enough: going through sites by the billion, of which a baffle may cover any number, could take for ever.
-pub(super) fn densest<S: FreeSpace>(room: &Room<S>, count: usize) -> Result<Pattern, usize> {
+pub(super) fn densest(room: &Room, count: usize) -> Result<Pattern, usize> {
     let mut most = 0;
     for spacing in spacings(room, count) {
         match search(room, spacing, count, SITE_TESTS, &mut Pcg64::seed_from_u64(0)) {
@@ -51,7 +51,7 @@ pub(super) fn densest<S: FreeSpace>(room: &Room<S>, count: usize) -> Result<Patt
 }
 
 /// The spacings to be tried: the discs' own, after wider ones where it makes more sites than `WIDE` or than suit `count`.
-fn spacings<S>(room: &Room<S>, count: usize) -> Vec<f64> {
+fn spacings(room: &Room, count: usize) -> Vec<f64> {
     let spacing_of = |sites: f64| room.reach * (PI / (ROW * sites)).sqrt();
     let mut spacing = spacing_of(WIDE.max(64.0 * count as f64));
     let mut spacings = Vec::new();
@@ -69,12 +69,7 @@ fn spacings<S>(room: &Room<S>, count: usize) -> Vec<f64> {
 ///
 /// On a wide pattern every disc can move from the start, which melts the order; `random` places it, so that seeds
 /// need not share one orientation.
-pub(super) fn sparsest<S: FreeSpace>(
-    room: &Room<S>,
-    count: usize,
-    densest: Pattern,
-    random: &mut impl Rng,
-) -> Vec<Vec2> {
+pub(super) fn sparsest(room: &Room, count: usize, densest: Pattern, random: &mut impl Rng) -> Vec<Vec2> {
     let sites = densest.sites(room, usize::MAX);
     let widest = (sites.len() as f64 / count as f64).sqrt();
     for step in 0..SPACINGS {
@@ -88,8 +83,8 @@ pub(super) fn sparsest<S: FreeSpace>(
 }
 
 /// Tries random placements until one has `count` sites; otherwise tells the most that any has.
-fn search<S: FreeSpace>(
-    room: &Room<S>,
+fn search(
+    room: &Room,
     spacing: f64,
     count: usize,
     tests: f64,
@@ -123,7 +118,7 @@ impl Pattern {
     }
 
     /// The sites that the room admits, up to `limit` of them.
-    fn sites<S: FreeSpace>(self, room: &Room<S>, limit: usize) -> Vec<Vec2> {
+    fn sites(self, room: &Room, limit: usize) -> Vec<Vec2> {
         match self {
             Self::Lattice { spacing, shift, turn } => {
                 let sites = lattice_sites(room.reach, spacing, shift).map(|site| turn.apply(site));

@@ -2,9 +2,10 @@
 
 use std::f64::consts::TAU;
 
-use super::super::segment::SegmentRegion;
+use drumrs::physics::vector::perpendicular;
+
+use super::proximity::blocks;
 use super::*;
-use crate::physics::vector::{cross, perpendicular};
 
 type Wall = Vec<[f64; 2]>;
 
@@ -188,50 +189,84 @@ fn overlapping_walls_are_one() {
     assert_eq!((doubled.feature_count(), doubled.wall_count(), doubled.surface_count()), (4, 2, 3));
 }
 
-/// Whether the definition lets a feature answer, its edges being `segments`.
-fn ought_to_answer(feature: &Feature, center: Vec2, segments: &[(Vec2, Vec2)]) -> bool {
+/// Vertices, and edges as pairs of them.
+type Joined = (Vec<Vec2>, Vec<[usize; 2]>);
+
+/// The index of a point among `vertices`, added if it is none of them.
+fn index_of(point: Vec2, vertices: &mut Vec<Vec2>) -> usize {
+    vertices.iter().position(|vertex| (vertex - point).norm() < 1e-8).unwrap_or_else(|| {
+        vertices.push(point);
+        vertices.len() - 1
+    })
+}
+
+/// Lines cut at every end and every crossing of any two, by trying all: what lies upon each other counts once.
+fn cut(walls: &[Wall]) -> Joined {
+    let lines: Vec<(Vec2, Vec2)> =
+        walls.iter().flat_map(|wall| wall.windows(2)).map(|ends| (ends[0].into(), ends[1].into())).collect();
+    let crossing = |(start, end): (Vec2, Vec2), (other, far): (Vec2, Vec2)| {
+        let fraction = cross(other - start, far - other) / cross(end - start, far - other);
+        start + (end - start) * fraction
+    };
+    let crossings = lines.iter().flat_map(|&one| lines.iter().map(move |&other| crossing(one, other)));
+    let points: Vec<Vec2> = lines.iter().flat_map(|&(start, end)| [start, end]).chain(crossings).collect();
+    let (mut vertices, mut edges): Joined = (vec![], vec![]);
+    for &(start, end) in &lines {
+        let is_on = |point: &&Vec2| distance(**point, (start, end)) < 1e-8;
+        let mut along: Vec<Vec2> = points.iter().filter(is_on).copied().collect();
+        along.sort_by(|a, b| dot(a - start, end - start).total_cmp(&dot(b - start, end - start)));
+        let mut along: Vec<usize> = along.into_iter().map(|point| index_of(point, &mut vertices)).collect();
+        along.dedup();
+        for ends in along.windows(2).map(|pair| [pair[0], pair[1]]) {
+            let is_known = edges.iter().any(|&[a, b]| [a, b] == ends || [b, a] == ends);
+            if !is_known {
+                edges.push(ends);
+            }
+        }
+    }
+    (vertices, edges)
+}
+
+/// The closest points of the features that ought to answer, by definition.
+fn expected_feet((vertices, edges): &Joined, center: Vec2) -> Vec<Vec2> {
+    let lines: Vec<(Vec2, Vec2)> = edges.iter().map(|ends| (vertices[ends[0]], vertices[ends[1]])).collect();
     let along = |start: Vec2, end: Vec2| dot(center - start, end - start) / (end - start).norm_squared();
-    let (own, target) = match feature {
-        Feature::Rim => return false,
-        Feature::Edge(edge) => {
-            let (start, end) = (edge.segment.start(), edge.segment.end());
-            let fraction = along(start, end);
-            (fraction > 0.0 && fraction < 1.0, start + (end - start) * fraction)
-        }
-        Feature::Vertex(vertex) => {
-            let clamps = vertex.spokes.iter().all(|spoke| {
-                let fraction = along(spoke.segment.start(), spoke.segment.end());
-                if spoke.region == SegmentRegion::Start { fraction <= 0.0 } else { fraction >= 1.0 }
-            });
-            (clamps, vertex.point)
-        }
-    };
-    let blocks = |&(start, end): &(Vec2, Vec2)| {
-        let (ray, edge) = (target - center, end - start);
-        let scale = cross(ray, edge);
-        let (along, across) = (cross(start - center, edge) / scale, cross(start - center, ray) / scale);
-        along > 1e-9 && along < 1.0 - 1e-9 && (0.0..=1.0).contains(&across)
-    };
-    own && !segments.iter().any(blocks)
+    let of_edges = lines.iter().filter_map(|&(start, end)| {
+        let fraction = along(start, end);
+        (fraction > 0.0 && fraction < 1.0).then(|| start + (end - start) * fraction)
+    });
+    let of_vertices = vertices.iter().enumerate().filter_map(|(index, &vertex)| {
+        let others = edges.iter().filter(|ends| ends.contains(&index));
+        let mut others = others.map(|ends| vertices[if ends[0] == index { ends[1] } else { ends[0] }]);
+        others.all(|other| along(vertex, other) <= 0.0).then_some(vertex)
+    });
+    let is_visible = |foot: &Vec2| !lines.iter().any(|&line| blocks(line, center, *foot));
+    of_edges.chain(of_vertices).filter(is_visible).collect()
 }
 
 #[test]
 fn visible_features_of_networks_answer_and_no_others() {
-    let drum = drum(&drawing());
-    // T, X, star, overlapping lines, bow tie, circle.
-    assert_eq!(drum.outlines.len(), 6);
+    let parameters = drawing();
+    let drum = drum(&parameters);
+    // T, X, star, overlapping lines, bow tie, circle: each is hidden by itself only.
+    let mut walls = parameters.walls.as_slice();
+    let mut parts = vec![];
+    for count in [2, 2, 5, 2, 1, 60] {
+        let (own, others) = walls.split_at(count);
+        parts.push(cut(own));
+        walls = others;
+    }
+    let features: usize = parts.iter().map(|(vertices, edges)| vertices.len() + edges.len()).sum();
+    assert_eq!((walls.len(), drum.feature_count() as usize), (0, 1 + features));
     for center in cloud(8000) {
-        let mut expected = vec![];
-        for outline in &drum.outlines {
-            let ends = |segment: &Segment| (segment.start(), segment.end());
-            let segments: Vec<_> = outline.segments().iter().map(ends).collect();
-            let own =
-                drum.features.iter().enumerate().skip(outline.first as usize).take(outline.feature_count());
-            let answering = own.filter(|(_, feature)| ought_to_answer(feature, center, &segments));
-            expected.extend(answering.map(|(id, _)| id as FeatureId));
+        let expected: Vec<Vec2> = parts.iter().flat_map(|part| expected_feet(part, center)).collect();
+        let found = answers(&drum, center);
+        assert_eq!(found.len(), expected.len(), "{center}");
+        for (feature, Proximity { distance, direction }) in found {
+            let foot = center + direction * distance;
+            assert!(expected.iter().any(|other| (foot - other).norm() < 1e-8), "{center}");
+            assert!((drum.distance_to(feature, center) - distance).abs() < 1e-15);
         }
-        let found: Vec<FeatureId> = answers(&drum, center).into_iter().map(|answer| answer.0).collect();
-        assert_eq!(found, expected, "{center}");
     }
 }
 
@@ -309,4 +344,23 @@ fn walls_too_many_to_join_are_refused() {
     let walls = (0..4000).map(ray).collect();
     let message = DrumParameters { walls, ..walls_free() }.validate().unwrap_err().to_string();
     assert_eq!(message, "drum.walls is of 4001 corners in walls that meet, but must be of at most 4000");
+}
+
+#[test]
+fn too_many_joints_are_refused() {
+    let grid = |count: u32| {
+        let lines = (0..count).flat_map(|k| {
+            let at = f64::from(k) / f64::from(count);
+            [line([-1.0, at], [2.0, at]), line([at, -1.0], [at, 2.0])]
+        });
+        let drum = Drum::new(&DrumParameters { walls: lines.collect(), ..walls_free() });
+        drum.map(|drum| drum.feature_count()).map_err(|error| error.to_string())
+    };
+    // Crossings, ends and the edges between them.
+    assert_eq!(grid(50), Ok(1 + 50 * 50 + 4 * 50 + 2 * 50 * 51));
+    let corners = "drum.walls is of 5180 corners in walls that meet, but must be of at most 4000";
+    assert_eq!(grid(70).unwrap_err(), corners);
+    let places =
+        "drum.walls is of walls that meet in more than 20000 places, but must be of walls that meet in fewer";
+    assert_eq!(grid(400), Err(places.to_owned()));
 }

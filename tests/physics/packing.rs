@@ -1,60 +1,32 @@
 //! Contracts of `pack` on the drum of the paper, bare and with its three baffles.
 
-use std::f64::consts::PI;
+use drumrs::error::Error;
+use drumrs::physics::drum::baffle::BaffleParameters;
+use drumrs::physics::drum::{Drum, DrumParameters};
+use drumrs::physics::load::packing::pack;
+use drumrs::physics::vector::{Rotation, Vec2, cross, dot};
 
-use super::*;
-use crate::physics::vector::{Rotation, cross};
+use crate::common::{DRUM_RADIUS, RADIUS, baffles};
 
-/// Radius of the bundles of the paper [m]: a drum twenty times as wide.
-const RADIUS: f64 = 0.011_875;
-
-/// A rim of radius 0.2375 m and triangular baffles, all lengths times a scale.
-struct TestDrum {
-    radius: f64,
-    baffles: Vec<[Vec2; 3]>,
+/// The drum of the paper with so many triangular baffles, all lengths times a scale.
+fn scaled(scale: f64, baffle_count: usize) -> Drum {
+    let baffles = baffles(baffle_count);
+    let (height, base) = (scale * baffles.height, scale * baffles.base);
+    let radius = Some(scale * DRUM_RADIUS);
+    let baffles = BaffleParameters { height, base, ..baffles };
+    Drum::new(&DrumParameters { radius, baffles, walls: vec![] }).unwrap()
 }
 
-impl TestDrum {
-    fn new(scale: f64, baffles: u32) -> Self {
-        let radius = 0.2375 * scale;
-        let half_angle = libm::asin(0.03 / 0.2375);
-        let corner = |distance: f64, angle: f64| Rotation::new(angle).apply(Vec2::new(distance, 0.0));
-        let baffle = |index: u32| {
-            let axis = f64::from(index) * 2.0 * PI / 3.0;
-            let tip = corner(0.1875 * scale, axis);
-            [corner(radius, axis - half_angle), corner(radius, axis + half_angle), tip]
-        };
-        Self { radius, baffles: (0..baffles).map(baffle).collect() }
-    }
-
-    /// The bare drum and the one with baffles.
-    fn both() -> [Self; 2] {
-        [Self::new(1.0, 0), Self::new(1.0, 3)]
-    }
+/// The bare drum and the one with baffles.
+fn both() -> [Drum; 2] {
+    [scaled(1.0, 0), scaled(1.0, 3)]
 }
 
-impl FreeSpace for TestDrum {
-    fn clearance(&self, point: Vec2) -> f64 {
-        let rim = self.radius - dot(point, point).sqrt();
-        self.baffles.iter().map(|baffle| distance_to_triangle(baffle, point)).fold(rim, f64::min)
-    }
-
-    fn bounding_radius(&self) -> Option<f64> {
-        Some(self.radius)
-    }
-}
-
-/// Free space without bounds.
-struct Open;
-
-impl FreeSpace for Open {
-    fn clearance(&self, _: Vec2) -> f64 {
-        f64::INFINITY
-    }
-
-    fn bounding_radius(&self) -> Option<f64> {
-        None
-    }
+/// Distance to the rim or to the nearest baffle, by formula: negative within a solid.
+fn clearance(drum: &Drum, point: Vec2) -> f64 {
+    let rim = drum.radius().unwrap() - dot(point, point).sqrt();
+    let baffles = drum.outlines().map(|baffle| distance_to_triangle(baffle.try_into().unwrap(), point));
+    baffles.fold(rim, f64::min)
 }
 
 /// Distance to a triangle with counter-clockwise corners, negative inside.
@@ -71,8 +43,8 @@ fn distance_to_triangle(corners: &[Vec2; 3], point: Vec2) -> f64 {
 }
 
 /// Asserts that discs touch neither each other nor a solid, after a turn by any odd angle too.
-fn assert_valid(space: &impl FreeSpace, bed: &[Vec2], radius: f64) {
-    assert!(bed.iter().all(|center| space.clearance(*center) >= radius));
+fn assert_valid(drum: &Drum, bed: &[Vec2], radius: f64) {
+    assert!(bed.iter().all(|center| clearance(drum, *center) >= radius));
     let turn = Rotation::new(1.234);
     let turned: Vec<Vec2> = bed.iter().map(|center| turn.apply(*center)).collect();
     for (index, center) in turned.iter().enumerate() {
@@ -83,8 +55,8 @@ fn assert_valid(space: &impl FreeSpace, bed: &[Vec2], radius: f64) {
 }
 
 /// The count that an error names for a request that cannot fit.
-fn most_that_fit(space: &impl FreeSpace, radius: f64) -> usize {
-    match pack(space, 5000, radius, 0) {
+fn most_that_fit(drum: &Drum, radius: f64) -> usize {
+    match pack(drum, 5000, radius, 0) {
         Err(Error::Packing { requested: 5000, fits, diameter }) if diameter == 2.0 * radius => fits,
         other => panic!("not the error of a drum too small: {other:?}"),
     }
@@ -109,7 +81,7 @@ fn hexagonal_order(bed: &[Vec2], radius: f64) -> f64 {
 
 #[test]
 fn discs_are_free_at_every_fill() {
-    for drum in TestDrum::both() {
+    for drum in both() {
         for tenths in 1..=8 {
             let bed = pack(&drum, 40 * tenths, RADIUS, 5).unwrap();
             assert_eq!(bed.len(), 40 * tenths);
@@ -120,7 +92,7 @@ fn discs_are_free_at_every_fill() {
 
 #[test]
 fn the_densest_beds_of_the_paper_fit() {
-    for (drum, at_least) in TestDrum::both().iter().zip([330, 321]) {
+    for (drum, at_least) in both().iter().zip([330, 321]) {
         let fits = most_that_fit(drum, RADIUS);
         assert!(fits >= at_least, "only {fits} fit");
         for seed in 0..4 {
@@ -135,9 +107,9 @@ fn the_densest_beds_of_the_paper_fit() {
 
 #[test]
 fn few_large_discs_fit_at_the_reported_count() {
-    for drum in TestDrum::both() {
+    for drum in both() {
         for ratio in [1.5, 2.2, 2.5, 2.75, 3.4, 4.1, 6.0, 9.0] {
-            let radius = drum.radius / ratio;
+            let radius = DRUM_RADIUS / ratio;
             let fits = most_that_fit(&drum, radius);
             for (seed, count) in (1..=fits).enumerate() {
                 assert_valid(&drum, &pack(&drum, count, radius, seed as u64).unwrap(), radius);
@@ -149,15 +121,15 @@ fn few_large_discs_fit_at_the_reported_count() {
 
 #[test]
 fn few_large_discs_lie_in_rings_where_these_hold_more() {
-    let drum = TestDrum::new(1.0, 0);
+    let drum = scaled(1.0, 0);
     for (ratio, count) in [(1.5, 1), (2.2, 3), (2.5, 4), (2.75, 5), (3.01, 7), (3.4, 8), (5.0, 17)] {
-        assert_eq!(most_that_fit(&drum, drum.radius / ratio), count, "drum {ratio} times as wide");
+        assert_eq!(most_that_fit(&drum, DRUM_RADIUS / ratio), count, "drum {ratio} times as wide");
     }
 }
 
 #[test]
 fn a_seed_decides_every_bit() {
-    for drum in TestDrum::both() {
+    for drum in both() {
         for count in [100, 240, 320] {
             let bed = pack(&drum, count, RADIUS, 1).unwrap();
             assert_eq!(bed, pack(&drum, count, RADIUS, 1).unwrap());
@@ -169,7 +141,7 @@ fn a_seed_decides_every_bit() {
 
 #[test]
 fn beds_have_the_same_bits_on_every_machine() {
-    let drum = TestDrum::new(1.0, 3);
+    let drum = scaled(1.0, 3);
     let sums = [100, 300].map(|count| {
         let bed = pack(&drum, count, RADIUS, 1).unwrap();
         bed.iter().fold(0u64, |sum, center| sum.rotate_left(1) ^ center.x.to_bits() ^ center.y.to_bits())
@@ -181,17 +153,17 @@ fn beds_have_the_same_bits_on_every_machine() {
 fn lengths_scale_bit_for_bit() {
     for baffles in [0, 3] {
         for count in [100, 240, 320] {
-            let bed = pack(&TestDrum::new(1.0, baffles), count, RADIUS, 3).unwrap();
-            let scaled: Vec<Vec2> = bed.iter().map(|center| center * 4.0).collect();
-            assert_eq!(pack(&TestDrum::new(4.0, baffles), count, RADIUS * 4.0, 3).unwrap(), scaled);
+            let bed = pack(&scaled(1.0, baffles), count, RADIUS, 3).unwrap();
+            let expected: Vec<Vec2> = bed.iter().map(|center| center * 4.0).collect();
+            assert_eq!(pack(&scaled(4.0, baffles), count, RADIUS * 4.0, 3).unwrap(), expected);
         }
     }
 }
 
 #[test]
 fn a_loose_bed_is_uniform() {
-    let drum = TestDrum::new(1.0, 0);
-    let reach = drum.radius - RADIUS;
+    let drum = scaled(1.0, 0);
+    let reach = DRUM_RADIUS - RADIUS;
     let mut sum = 0.0;
     let mut mean = Vec2::zeros();
     for seed in 0..400 {
@@ -206,7 +178,7 @@ fn a_loose_bed_is_uniform() {
 
 #[test]
 fn shuffling_melts_the_pattern() {
-    let drum = TestDrum::new(1.0, 0);
+    let drum = scaled(1.0, 0);
     for seed in 0..4 {
         let order = hexagonal_order(&pack(&drum, 240, RADIUS, seed).unwrap(), RADIUS);
         assert!(order < 0.3, "order {order} at 60 % fill");
@@ -215,36 +187,37 @@ fn shuffling_melts_the_pattern() {
 
 #[test]
 fn a_disc_may_be_barely_smaller_than_the_drum() {
-    let drum = TestDrum::new(1.0, 0);
-    let radius = drum.radius * 0.999_999;
+    let drum = scaled(1.0, 0);
+    let radius = DRUM_RADIUS * 0.999_999;
     for seed in 0..20 {
         assert_valid(&drum, &pack(&drum, 1, radius, seed).unwrap(), radius);
     }
     assert_eq!(most_that_fit(&drum, radius), 1);
-    assert_eq!(most_that_fit(&drum, drum.radius), 0);
-    assert_eq!(most_that_fit(&drum, drum.radius * 3.0), 0);
-    let baffled = TestDrum::new(1.0, 3);
+    assert_eq!(most_that_fit(&drum, DRUM_RADIUS), 0);
+    assert_eq!(most_that_fit(&drum, DRUM_RADIUS * 3.0), 0);
+    let baffled = scaled(1.0, 3);
     assert_valid(&baffled, &pack(&baffled, 1, 0.187, 1).unwrap(), 0.187);
 }
 
 #[test]
 fn few_tiny_discs_cost_little() {
-    let drum = TestDrum::new(1.0, 3);
-    let radius = drum.radius * 1e-7;
+    let drum = scaled(1.0, 3);
+    let radius = DRUM_RADIUS * 1e-7;
     assert_valid(&drum, &pack(&drum, 7, radius, 1).unwrap(), radius);
 }
 
 #[test]
 fn nothing_is_placed_where_nothing_is_asked_for() {
-    assert_eq!(pack(&TestDrum::new(1.0, 3), 0, RADIUS, 1), Ok(Vec::new()));
+    assert_eq!(pack(&scaled(1.0, 3), 0, RADIUS, 1), Ok(Vec::new()));
 }
 
 #[test]
 fn a_drum_without_bounds_and_a_disc_without_size_are_refused() {
-    let error = pack(&Open, 1, RADIUS, 1).unwrap_err();
+    let without_rim = DrumParameters { radius: None, baffles: baffles(0), walls: vec![] };
+    let error = pack(&Drum::new(&without_rim).unwrap(), 1, RADIUS, 1).unwrap_err();
     assert_eq!(error.to_string(), "drum.diameter is none, but must be given when no initial state is");
     for radius in [0.0, -1.0, f64::NAN] {
-        let error = pack(&TestDrum::new(1.0, 0), 1, radius, 1).unwrap_err();
+        let error = pack(&scaled(1.0, 0), 1, radius, 1).unwrap_err();
         assert!(error.to_string().starts_with("load.diameter is "));
     }
 }

@@ -1,14 +1,15 @@
 //! Which features answer, and how far away they are.
 
+use drumrs::physics::vector::perpendicular;
+
 use super::*;
-use crate::physics::vector::{cross, perpendicular};
 
 #[test]
 fn closest_answer_is_the_distance_to_the_outlines() {
     for parameters in all() {
         let drum = drum(&parameters);
-        for point in cloud(4000).filter(|&point| drum.outlines.iter().all(|o| o.signed_distance(point) > 0.0))
-        {
+        let is_free = |point| (0..drum.outlines().count()).all(|o| signed_distance(&drum, o, point) > 0.0);
+        for point in cloud(4000).filter(|&point| is_free(point)) {
             let mut near = vec![];
             drum.features_near(point, 1.0, &mut near);
             let found = near.iter().filter_map(|&feature| drum.proximity(feature, point));
@@ -20,27 +21,36 @@ fn closest_answer_is_the_distance_to_the_outlines() {
 }
 
 /// Whether the line between two points, its ends apart, meets an edge.
-fn blocks((start, end): (Vec2, Vec2), from: Vec2, to: Vec2) -> bool {
+pub(super) fn blocks((start, end): (Vec2, Vec2), from: Vec2, to: Vec2) -> bool {
     let (ray, edge) = (to - from, end - start);
     let scale = cross(ray, edge);
     let (along, across) = (cross(start - from, edge) / scale, cross(start - from, ray) / scale);
     along > 1e-9 && along < 1.0 - 1e-9 && (0.0..=1.0).contains(&across)
 }
 
+fn is_closed(edges: &[(Vec2, Vec2)]) -> bool {
+    edges[0].0 == edges[edges.len() - 1].1
+}
+
+/// Number of vertices and edges together.
+fn place_count(edges: &[(Vec2, Vec2)]) -> usize {
+    2 * edges.len() + usize::from(!is_closed(edges))
+}
+
 /// The features of an outline that ought to answer, as places along it, by definition.
 fn expected_answers(drum: &Drum, outline: usize, point: Vec2) -> Vec<usize> {
-    if drum.outlines[outline].signed_distance(point) < 0.0 {
+    if signed_distance(drum, outline, point) < 0.0 {
         return vec![];
     }
     let edges = edges_of(drum, outline);
-    let closed = edges[0].0 == edges[edges.len() - 1].1;
+    let closed = is_closed(&edges);
     let along = |edge: usize| {
         let (start, end) = edges[edge];
         dot(point - start, end - start) / (end - start).norm_squared()
     };
     let before = |vertex: usize| if vertex > 0 { Some(vertex - 1) } else { closed.then(|| edges.len() - 1) };
     let mut places = vec![];
-    for place in 0..2 * edges.len() + usize::from(!closed) {
+    for place in 0..place_count(&edges) {
         let (index, is_edge) = (place / 2, place % 2 == 1);
         let target = if is_edge {
             edges[index].0 + (edges[index].1 - edges[index].0) * along(index)
@@ -68,9 +78,11 @@ fn visible_features_answer_and_no_others() {
             let answering: Vec<FeatureId> =
                 answers(&drum, point).into_iter().map(|answer| answer.0).collect();
             let mut expected = vec![];
-            for (outline, first) in drum.outlines.iter().map(|o| o.first).enumerate() {
+            let mut first = 1;
+            for outline in 0..drum.outlines().count() {
                 let places = expected_answers(&drum, outline, point);
                 expected.extend(places.into_iter().map(|place| first + place as FeatureId));
+                first += place_count(&edges_of(&drum, outline)) as FeatureId;
             }
             assert_eq!(answering, expected, "{point}");
         }
@@ -87,11 +99,9 @@ fn every_answer_points_to_its_own_feature() {
                 assert!((direction.norm() - 1.0).abs() < 1e-15);
                 assert!((distance - expected[feature as usize - 1]).abs() < 1e-15);
                 // The closest point is part of the boundary.
-                assert!(
-                    drum.outlines
-                        .iter()
-                        .any(|o| o.signed_distance(point + direction * distance).abs() < 1e-15)
-                );
+                let foot = point + direction * distance;
+                let on = |outline| signed_distance(&drum, outline, foot).abs() < 1e-15;
+                assert!((0..drum.outlines().count()).any(on));
             }
         }
     }
@@ -102,10 +112,10 @@ fn solids_answer_once_around_a_convex_baffle() {
     for parameters in [triangles(), trapezoids()] {
         let drum = drum(&parameters);
         for point in cloud(4000) {
-            for (index, baffle) in drum.outlines[..drum.baffle_count()].iter().enumerate() {
+            for index in 0..drum.baffle_count() {
                 let answers =
                     answers(&drum, point).iter().filter(|a| drum.surface_of(a.0) == index + 1).count();
-                assert_eq!(answers, usize::from(baffle.signed_distance(point) > 0.0));
+                assert_eq!(answers, usize::from(signed_distance(&drum, index, point) > 0.0));
             }
         }
     }

@@ -1,24 +1,18 @@
-//! Tests of whole drums: culls, scaling, clearance, errors; proximities and joints of walls in files of their own.
+//! Drums at rest: culls, scaling, clearance, errors; baffles, proximities and joints of walls in files of their own.
 
+mod baffles;
 mod joints;
 mod proximity;
 
-use super::baffle::{BaffleParameters, BaffleShape};
-use super::*;
-use crate::physics::vector::dot;
+use drumrs::physics::drum::baffle::{BaffleParameters, BaffleShape};
+use drumrs::physics::drum::{Drum, DrumParameters, FeatureId, Proximity, RIM};
+use drumrs::physics::vector::{Vec2, cross, dot};
+
+use crate::common::{DRUM_RADIUS, baffles};
 
 /// The default drum: three triangles, 0.05 m high on a base of 0.06 m, in a rim of 0.475 m diameter.
 fn triangles() -> DrumParameters {
-    let baffles = BaffleParameters {
-        count: 3,
-        shape: BaffleShape::Triangle,
-        height: 0.05,
-        base: 0.06,
-        tip: 0.02,
-        points: None,
-        phase: 0.0,
-    };
-    DrumParameters { radius: Some(0.2375), baffles, walls: vec![] }
+    DrumParameters { radius: Some(DRUM_RADIUS), baffles: baffles(3), walls: vec![] }
 }
 
 fn trapezoids() -> DrumParameters {
@@ -84,10 +78,23 @@ fn distance(point: Vec2, (start, end): (Vec2, Vec2)) -> f64 {
     (start + (end - start) * along - point).norm()
 }
 
+/// Signed distance from a point to an outline, by formula: negative inside a baffle.
+fn signed_distance(drum: &Drum, outline: usize, point: Vec2) -> f64 {
+    let edges = edges_of(drum, outline);
+    let nearest = edges.iter().map(|&edge| distance(point, edge)).fold(f64::INFINITY, f64::min);
+    let crosses_ray = |&&(start, end): &&(Vec2, Vec2)| {
+        let is_upward = end.y > start.y;
+        let spans = (start.y <= point.y) != (end.y <= point.y);
+        spans && (cross(end - start, point - start) > 0.0) == is_upward
+    };
+    let is_inside = edges.iter().filter(crosses_ray).count() % 2 == 1;
+    if outline < drum.baffle_count() && is_inside { -nearest } else { nearest }
+}
+
 /// Distance from a point to each feature in order of its id, by formula.
 fn distances(drum: &Drum, point: Vec2) -> Vec<f64> {
     let mut found = vec![];
-    for outline in 0..drum.baffle_count() + drum.wall_count() {
+    for outline in 0..drum.outlines().count() {
         let edges = edges_of(drum, outline);
         for &(start, end) in &edges {
             found.extend([(start - point).norm(), distance(point, (start, end))]);
@@ -168,8 +175,7 @@ fn solids_contain_what_has_negative_clearance() {
         for point in cloud(4000) {
             let solid = drum.solid_at(point);
             let outside = drum.radius().is_some_and(|radius| point.norm() > radius);
-            let baffles = &drum.outlines[..drum.baffle_count()];
-            let baffle = baffles.iter().position(|baffle| baffle.signed_distance(point) < 0.0);
+            let baffle = (0..drum.baffle_count()).find(|&index| signed_distance(&drum, index, point) < 0.0);
             assert_eq!(solid, if outside { Some(0) } else { baffle.map(|index| index + 1) });
             assert_eq!(solid.is_some(), drum.clearance(point) < 0.0);
         }
