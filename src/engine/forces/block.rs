@@ -31,7 +31,7 @@ pub struct BlockForces {
 #[inline(always)]
 pub fn evaluate<L: ContactLaw>(
     block: &mut Block<L>,
-    law: &Of<L, F64x4>,
+    law: &Of<L::Parameters, F64x4>,
     motion: &RelativeMotion<F64x4>,
     (normal, arm): (Vec2x4, F64x4),
     time: StepTime,

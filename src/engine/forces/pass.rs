@@ -247,7 +247,7 @@ impl<L: ContactLaw> ForcePass for Pass<L> {
 
     fn stored(&self) -> Stored<f64> {
         let mut sum = Stored::build(|_| 0.0);
-        for list in self.chunks.iter().flat_map(|chunk| chunk.lists()) {
+        for list in self.chunks.iter().flat_map(super::chunk::Chunk::lists) {
             for (index, record) in list.records().enumerate() {
                 let (law, _) = list.parameters(index);
                 let stored = L::stored(&law, record.overlap, &record.history_of::<L>());

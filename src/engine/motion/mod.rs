@@ -147,7 +147,7 @@ impl Arrays {
     pub fn new(count: usize, inside: f64) -> Self {
         match count {
             0..=CHUNK => Self::OneChunk(FlatArrays::new(count, inside)),
-            0..=32_766 => Self::Small(FlatArrays::new(count, inside)),
+            _ if count <= 32_766 => Self::Small(FlatArrays::new(count, inside)),
             _ => Self::Large(FlatArrays::new(count, inside)),
         }
     }

@@ -81,8 +81,8 @@ impl ChunkNeighbors {
         self.rim.near.clear();
         let Some(rim) = inputs.drum.radius() else { return };
         let rim = F64x4::splat((rim - 0.5 * self.horizon.budget()) * ROUND_OFF);
-        let (time, last) = (F64x4::splat(time), self.rim.len().saturating_sub(1));
-        for first in (0..self.rim.len()).step_by(LANES) {
+        let (time, last) = (F64x4::splat(time), self.rim.pairs().len().saturating_sub(1));
+        for first in (0..self.rim.pairs().len()).step_by(LANES) {
             let particle = |lane: usize| self.rim.pairs()[(first + lane).min(last)].0;
             let (position, velocity) = gather(motion, particle);
             let displacement = velocity.scaled(time);
@@ -99,7 +99,7 @@ impl ChunkNeighbors {
     /// Pairs with features that may touch. As seen from the drum only the particle moves.
     fn fill_near_features(&mut self, motion: impl MotionView, inputs: &StepInputs, time: f64) {
         self.features.near.clear();
-        for place in 0..self.features.len() {
+        for place in 0..self.features.pairs().len() {
             if !self.features.is_apart(place) {
                 continue;
             }

@@ -36,11 +36,6 @@ impl Neighbors {
         self.status.clear();
     }
 
-    /// Number of pairs.
-    pub fn len(&self) -> usize {
-        self.pairs.len()
-    }
-
     /// Appends a pair of the greatest key so far, or of its owner: `sort_from` then brings these in order.
     pub fn push(&mut self, own: u32, other: u32) {
         self.pairs.push((own, other));

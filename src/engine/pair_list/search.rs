@@ -48,7 +48,7 @@ impl Search<'_> {
     fn find_particles(&self, chunk: &mut ChunkNeighbors, particle: u32, inputs: &StepInputs) {
         let (own, radius) =
             (self.positions[particle as usize], inputs.bodies.radius_of(particle) + self.skin);
-        let start = chunk.pairs.len();
+        let start = chunk.pairs.pairs().len();
         for &(other, position) in self.grid.around(particle as usize) {
             let (apart, reach) = (position - own, radius + inputs.bodies.radius_of(other));
             if other > particle && dot(apart, apart) < reach * reach {
