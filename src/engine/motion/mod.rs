@@ -100,23 +100,28 @@ impl Chunked for MotionArrays<'_> {
 /// The moving part of a load, in arrays whose length the compiler knows, so that masked indices need not be compared with
 /// it. The textbook compares every one; here some 30 instructions of 290 for a block of contacts are saved.
 ///
-/// `N` numbers hold the vectors of `H` particles; `M` is N + 1. The arrays are longer than most loads: memory that is not used
-/// is not touched.
+/// Masks let vectors be at N numbers, and scalars at half as many. The arrays of vectors are `M` numbers long, those of scalars
+/// `H`, eleven cache lines more: were all of them powers of two apart, the same particle would be at the same place of a page
+/// in each, and a CPU takes a load behind a store to such an address for one from it. They are longer than most loads: memory
+/// that is not used is not touched.
 #[derive(Debug, Clone)]
 pub struct FlatArrays<const N: usize, const M: usize, const H: usize, const ONE_CHUNK: bool> {
-    position: Box<[f64; M]>,
-    velocity: Box<[f64; N]>,
-    force: Box<[f64; N]>,
-    angle: Box<[f64; H]>,
-    angular_velocity: Box<[f64; H]>,
-    torque: Box<[f64; H]>,
+    /// Positions, velocities, forces; angles, angular velocities, torques.
+    numbers: Box<[f64]>,
+    /// Where they begin: at a line of the cache, so that four numbers are never on two of them.
+    start: usize,
 }
+
+/// Numbers between the ends of masks and of arrays: eleven lines of the cache.
+const SKEW: usize = 11 * LINE;
+/// Numbers in a line of the cache.
+const LINE: usize = 8;
 
 /// Arrays that offsets of 16 bits reach: the cheapest masks there are.
 pub type SmallArrays<const ONE_CHUNK: bool> =
-    FlatArrays<{ 1 << 16 }, { (1 << 16) + 1 }, { 1 << 15 }, ONE_CHUNK>;
+    FlatArrays<{ 1 << 16 }, { (1 << 16) + SKEW }, { (1 << 15) + SKEW }, ONE_CHUNK>;
 /// Arrays for 16 million particles.
-pub type LargeArrays = FlatArrays<{ 1 << 25 }, { (1 << 25) + 1 }, { 1 << 24 }, false>;
+pub type LargeArrays = FlatArrays<{ 1 << 25 }, { (1 << 25) + SKEW }, { (1 << 24) + SKEW }, false>;
 
 /// Arrays of the size that a load needs.
 #[derive(Debug, Clone)]
@@ -165,25 +170,23 @@ pub trait MovingArrays {
     fn part(&mut self, range: Range<usize>) -> MotionArrays<'_>;
 }
 
-/// Zeros that take no memory until they are written to.
-#[allow(clippy::unnecessary_box_returns)] // They would not fit on a stack.
-fn zeros<const N: usize>() -> Box<[f64; N]> {
-    vec![0.0; N].into_boxed_slice().try_into().expect("a slice of this length")
-}
-
 impl<const N: usize, const M: usize, const H: usize, const ONE_CHUNK: bool> FlatArrays<N, M, H, ONE_CHUNK> {
     fn new(count: usize, inside: f64) -> Self {
-        let mut position = zeros();
+        // Zeros take no memory until they are written to.
+        let numbers = vec![0.0; 3 * M + 3 * H + LINE].into_boxed_slice();
+        let start = numbers.as_ptr().align_offset(LINE * size_of::<f64>()).min(LINE);
+        let mut arrays = Self { numbers, start };
+        let ([position, ..], _) = arrays.split();
         position[2 * count] = FAR;
         position[2 * (count + 1)] = inside;
-        Self {
-            position,
-            velocity: zeros(),
-            force: zeros(),
-            angle: zeros(),
-            angular_velocity: zeros(),
-            torque: zeros(),
-        }
+        arrays
+    }
+
+    /// The arrays of vectors and of scalars.
+    #[inline(always)]
+    fn split(&mut self) -> ([&mut [f64; M]; 3], [&mut [f64; H]; 3]) {
+        let (vectors, scalars) = self.numbers[self.start..].split_at_mut(3 * M);
+        (three(vectors), three(scalars))
     }
 
     /// Takes what moves from the particles.
@@ -212,22 +215,33 @@ impl<const N: usize, const M: usize, const H: usize, const ONE_CHUNK: bool> Movi
 
     #[inline(always)]
     fn lend(&mut self) -> (Self::View<'_>, ChunkForces<'_>) {
-        let Self { position, velocity, angular_velocity, force, torque, .. } = self;
+        let ([position, velocity, force], [_, angular_velocity, torque]) = self.split();
         let forces = ChunkForces { force: force.as_chunks_mut().0, torque: torque.as_chunks_mut().0 };
         (FlatView { position, velocity, angular_velocity }, forces)
     }
 
+    #[inline(always)]
     fn part(&mut self, range: Range<usize>) -> MotionArrays<'_> {
         let flat = 2 * range.start..2 * range.end;
+        let ([position, velocity, force], [angle, angular_velocity, torque]) = self.split();
         MotionArrays {
             first: range.start,
-            position: self.position[flat.clone()].as_chunks_mut().0,
-            velocity: self.velocity[flat.clone()].as_chunks_mut().0,
-            force: self.force[flat].as_chunks_mut().0,
-            angle: &mut self.angle[range.clone()],
-            angular_velocity: &mut self.angular_velocity[range.clone()],
-            torque: &mut self.torque[range],
+            position: position[flat.clone()].as_chunks_mut().0,
+            velocity: velocity[flat.clone()].as_chunks_mut().0,
+            force: force[flat].as_chunks_mut().0,
+            angle: &mut angle[range.clone()],
+            angular_velocity: &mut angular_velocity[range.clone()],
+            torque: &mut torque[range],
         }
+    }
+}
+
+/// Three arrays at the beginning of a slice.
+#[inline(always)]
+fn three<const N: usize>(numbers: &mut [f64]) -> [&mut [f64; N]; 3] {
+    match numbers.as_chunks_mut().0 {
+        [a, b, c, ..] => [a, b, c],
+        _ => unreachable!("room for three arrays"),
     }
 }
 
@@ -266,7 +280,7 @@ pub trait MotionView: Copy + Send + Sync {
 #[derive(Debug, Clone, Copy)]
 pub struct FlatView<'a, const N: usize, const M: usize, const H: usize, const ONE_CHUNK: bool> {
     position: &'a [f64; M],
-    velocity: &'a [f64; N],
+    velocity: &'a [f64; M],
     angular_velocity: &'a [f64; H],
 }
 
