@@ -263,7 +263,6 @@ fn libraries_stay_where_they_belong() {
         ("rayon", &["engine::parallel"]),
         ("wide", &["engine"]),
         ("bytemuck", &["engine"]),
-        ("safe_arch", &["engine"]),
         ("std::arch", &["engine", "python"]),
         ("std::thread", &["python"]),
         ("std::fs", &["io::checkpoint"]),
