@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 
 from drumrs.config import Config
 from drumrs.progress import Board, Journey, board
@@ -10,13 +11,15 @@ from drumrs.run_folder import RunFolder
 from drumrs.simulation import Simulation
 
 
-def run(config: Config, seed: int | None = None, *, threads: int = 1, progress: bool = True) -> Result:
+def run(
+    config: Config | str | Path, seed: int | None = None, *, threads: int = 1, progress: bool = True
+) -> Result:
     """Simulate the configuration's duration and average over its window.
 
     Parameters
     ----------
     config
-        What to simulate.
+        What to simulate: a configuration, or the name of a TOML file that is laid over the baseline.
     seed
         Seed of the random start, instead of ``config.run.seed``.
     threads
@@ -44,6 +47,7 @@ def run(config: Config, seed: int | None = None, *, threads: int = 1, progress: 
     >>> result.frames.positions.shape[1:]
     (40, 2)
     """
+    config = config if isinstance(config, Config) else Config.read(config)
     simulation = Simulation(config, seed, threads)
     with board(show=progress) as shown:
         finish(simulation, announce(shown, simulation))

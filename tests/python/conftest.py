@@ -3,12 +3,17 @@
 import os
 import shutil
 
+import hypothesis
 import pytest
 
 os.environ.setdefault("MPLBACKEND", "Agg")
 
 import drumrs
 from drumrs.cli import run_command
+
+# How long an example takes depends on what else the machine does.
+hypothesis.settings.register_profile("drumrs", deadline=None)
+hypothesis.settings.load_profile("drumrs")
 
 SHORT = {"run.duration": 0.06, "run.sample_every": 0.001, "run.frame_every": 0.01}
 

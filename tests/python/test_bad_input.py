@@ -35,6 +35,10 @@ SETTINGS = [
     ("load.fill=1.2", "load.fill is 1.2 (480 bundles), but must be at most 0.825 (330 bundles)"),
     ("load.count=500", "load.count is 500, but must be at most"),
     ("load.count=0", "from 1"),
+    ("load.count=10.5", "load.count is 10.5, but must be a whole number"),
+    ("load.fill=0,25", "0,25 is no number; write 0.25"),
+    ("drum.baffles=3", "drum.baffles is 3, but must be a table of keys: count, shape"),
+    ("load.diameter=0.47", "one bundle of diameter 0.47 fills 0.9791 of a drum of diameter 0.475"),
     ("load.diameter=0.5", "load.diameter"),
     ("run.window=[5, 40]", "run.duration"),
     ("run.window=[7, 7]", "start < end"),
@@ -229,3 +233,36 @@ def test_bad_threads(short, threads):
 def test_bad_length_of_run(short, arguments):
     with pytest.raises(ConfigError):
         drumrs.Simulation(short).run(**arguments)
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (["--seed", "1.5"], "--seed: 1.5 is not a whole number"),
+        (["--seed", "-0.5"], "--seed: -0.5 is not a whole number"),
+        (["--threads", "2.7"], "--threads: 2.7 is not a whole number"),
+        (["--fill", "0.2"], "--fill is not an option; write --set load.fill=VALUE"),
+        (["--set", "run.window=[5,", "15]"], "'15]' stands alone; a value with spaces needs quotes"),
+    ],
+)
+def test_words_for_what_people_type(drum, words, told):
+    status, printed, complaint = drum("run", *words)
+    assert (status, printed) == (2, "")
+    assert told in complaint
+    assert complaint.count("\n") == 1
+
+
+def test_a_whole_number_may_be_written_as_one(drum):
+    brief = ["--set", "run.duration=0.01", "--set", "run.sample_every=0.001", "--set", "load.count=1e1"]
+    status, printed, _ = drum("run", "--seed", "1e3", "--json", *brief)
+    assert status == 0
+    assert '"bundle_count": 10' in printed
+
+
+def test_a_run_of_a_file_and_rows_that_are_no_table(tmp_path):
+    (tmp_path / "case.toml").write_text("run.duration = 0.01\nrun.sample_every = 0.001\nload.count = 5\n")
+    assert drumrs.run(tmp_path / "case.toml", progress=False).summary.bundle_count == 5
+    rows = [{"load.fill": 0.1}, {"load.fill": 0.2}]
+    assert len(drumrs.Sweep.from_rows(drumrs.baseline(), rows).cases) == 2
+    with pytest.raises(ConfigError, match="the table of rows is of type int, but must be a table"):
+        drumrs.Sweep.from_rows(drumrs.baseline(), 5)

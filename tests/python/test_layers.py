@@ -58,6 +58,33 @@ def test_settings_are_toml_literals_or_bare_words():
     }
 
 
+def test_settings_are_also_what_people_type():
+    words = ["a=.25", "b=5.", "c=25%", "d=-.5e-3", "e=2.5 %", "f=True", "g=False", "h=1e3"]
+    assert parse_settings(words) == {
+        "a": 0.25,
+        "b": 5.0,
+        "c": 0.25,
+        "d": -0.5e-3,
+        "e": 0.025,
+        "f": True,
+        "g": False,
+        "h": 1000.0,
+    }
+
+
+def test_numbers_in_quotes_and_whole_floats_are_taken():
+    config = drumrs.baseline().replace({"load.count": 1e3, "run.seed": "7", "contact.drum.friction": "0.3"})
+    assert (config.bundle_count, config.run.seed, config.contact.drum.friction) == (1000, 7, 0.3)
+    assert isinstance(config.load.count, int)
+
+
+def test_a_key_cannot_be_assigned():
+    with pytest.raises(
+        ConfigError, match=r'fill cannot be set to 0.3: .* config.replace\(\{"…fill": 0.3\}\)'
+    ):
+        drumrs.baseline().load.fill = 0.3
+
+
 def test_a_setting_cannot_smuggle_a_second_one():
     assert parse_settings(["a=1\nb = 2"]) == {"a": "1\nb = 2"}
 

@@ -6,17 +6,19 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any
 
-from cyclopts import App, CycloptsError
+from cyclopts import App, CycloptsError, UnknownOptionError, UnusedCliTokensError
 
 import drumrs
 from drumrs.cli.baseline import baseline
 from drumrs.cli.config import config
 from drumrs.cli.info import info
+from drumrs.cli.options import stands_alone
 from drumrs.cli.reproduce import reproduce
 from drumrs.cli.run import run
 from drumrs.cli.sweep import sweep
 from drumrs.cli.verify import verify
 from drumrs.cli.view import view
+from drumrs.config import Config, dotted_keys
 from drumrs.errors import CheckpointError, ConfigError, DrumrsWarning, UnstableError
 from drumrs.files import NO_ROOM
 
@@ -63,7 +65,7 @@ def run_command(arguments: Sequence[str] | None = None) -> int:
     except (ConfigError, CheckpointError) as error:
         return _complain(str(error), _BAD_INPUT)
     except CycloptsError as error:
-        return _complain(" ".join(str(error).split()), _BAD_INPUT)
+        return _complain(_way_out(error) or " ".join(str(error).split()), _BAD_INPUT)
     except UnstableError as error:
         return _complain(str(error), _FAILED)
     except (OSError, MemoryError) as error:
@@ -75,6 +77,21 @@ def run_command(arguments: Sequence[str] | None = None) -> int:
             raise
         return _complain(str(interrupt) or "interrupted", _INTERRUPTED)
     return status if isinstance(status, int) else 0
+
+
+def _way_out(error: CycloptsError) -> str | None:
+    """Say what to write instead where somebody gave a key as an option, or a list without quotes."""
+    if isinstance(error, UnknownOptionError):
+        option = error.token.keyword or error.token.value
+        word = option.lstrip("-").replace("-", "_")
+        keys = [key for key in dotted_keys(Config) if key.rpartition(".")[2] == word]
+        if keys:
+            settings = " or ".join(f"--set {key}=VALUE" for key in keys)
+            return f"{option} is not an option; write {settings}"
+    words = (error.unused_tokens or []) if isinstance(error, UnusedCliTokensError) else []
+    if words and words[-1].endswith(("]", "}")):
+        return stands_alone(" ".join(words))
+    return None
 
 
 def _of_the_system(error: OSError | MemoryError) -> str:

@@ -1,11 +1,12 @@
 """What several commands take: settings, seeds, threads, folders."""
 
+import math
 import os
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated
 
-from cyclopts import Parameter
+from cyclopts import Parameter, Token
 
 import drumrs
 from drumrs.config import Config, merge, nest, parse_settings, read_toml_file
@@ -19,12 +20,33 @@ Settings = Annotated[
         help="KEY=VALUE, a layer over the file; may be repeated. VALUE is a TOML literal, a bare word a string.",
     ),
 ]
-Seed = Annotated[int | None, Parameter(help="Seed of the random start, over all layers.")]
-Threads = Annotated[int, Parameter(help="Threads that share a step; the result is the same for any number.")]
+
+
+def _whole(_: object, tokens: Sequence[Token]) -> int:
+    """Read a whole number, also one that is written as 1e3; anything else would be rounded in silence."""
+    text = tokens[0].value
+    try:
+        number = float(text)
+    except ValueError:
+        number = math.nan
+    if not number.is_integer():
+        raise ValueError(f"{text} is not a whole number")
+    return int(text) if text.lstrip("+-").isdigit() else int(number)
+
+
+# The type of an option that is a whole number.
+WHOLE = Parameter(converter=_whole)
+Seed = Annotated[int | None, WHOLE, Parameter(help="Seed of the random start, over all layers.")]
+Threads = Annotated[
+    int, WHOLE, Parameter(help="Threads that share a step; the result is the same for any number.")
+]
+Jobs = Annotated[int | None, WHOLE, Parameter(help="Cases at once; one a usable core unless given.")]
 
 
 def layered(case: Path | None, settings: Sequence[str] | None, seed: int | None) -> Config:
     """Lay a case file over the baseline, settings over the file, the seed over all."""
+    if case is not None and str(case).endswith(("]", "}")) and not case.exists():
+        raise ConfigError(stands_alone(str(case)))
     layers = [read_toml_file(case)] if case is not None else []
     layers.append(nest(parse_settings(settings or [])))
     if seed is not None:
@@ -34,6 +56,11 @@ def layered(case: Path | None, settings: Sequence[str] | None, seed: int | None)
     for layer in layers:
         values = merge(Config, values, layer)
     return Config.model_validate(values)
+
+
+def stands_alone(words: str) -> str:
+    """Say of words that a shell has cut off a value how to keep them together."""
+    return f"{words!r} stands alone; a value with spaces needs quotes: --set 'KEY=[1, 2]'"
 
 
 def check_folder(folder: Path, option: str = "--out") -> None:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
-from drumrs.cli.options import check_folder
+from drumrs.cli.options import Jobs, check_folder
 from drumrs.cli.tables import print_paths
 from drumrs.errors import ConfigError
 
@@ -24,7 +24,7 @@ def reproduce(
     quick: Flag = False,
     full: Flag = False,
     out: Path = Path("out"),
-    jobs: Annotated[int | None, Parameter(help="Cases at once; one a usable core unless given.")] = None,
+    jobs: Jobs = None,
     retry: Flag = False,
 ) -> int:
     """Run the paper's whole study, judge its claims, draw its figures, and write a report of one HTML file.

@@ -7,7 +7,7 @@ from typing import Annotated, Any
 
 from cyclopts import Parameter
 
-from drumrs.cli.options import check_folder
+from drumrs.cli.options import WHOLE, Jobs, check_folder
 from drumrs.cli.tables import number, print_paths, with_error
 from drumrs.errors import ConfigError
 from drumrs.sweep import Outcome, Sweep, read_study
@@ -22,10 +22,10 @@ def sweep(
     /,
     *,
     out: Path,
-    jobs: Annotated[int | None, Parameter(help="Cases at once; one a usable core unless given.")] = None,
+    jobs: Jobs = None,
     shard: str | None = None,
     retry: Annotated[bool, Parameter(negative="")] = False,
-    seeds: int | None = None,
+    seeds: Annotated[int | None, WHOLE] = None,
 ) -> int:
     """Run the cases of a study file that are not finished yet, and write the table of all that are.
 

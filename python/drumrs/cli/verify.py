@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
-from drumrs.cli.options import check_folder
+from drumrs.cli.options import Jobs, check_folder
 from drumrs.cli.tables import print_paths
 from drumrs.errors import ConfigError
 
@@ -26,7 +26,7 @@ def verify(
     ] = None,
     html: Path | None = None,
     json: Annotated[bool, Parameter(negative="")] = False,
-    jobs: Annotated[int | None, Parameter(help="Cases at once; one a usable core unless given.")] = None,
+    jobs: Jobs = None,
 ) -> int:
     """Hold drumrs against formulas, identities and its own promises, and print what came of it.
 

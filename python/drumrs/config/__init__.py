@@ -17,6 +17,7 @@ from drumrs.config.models import (
     Run,
     WallContact,
 )
+from drumrs.config.report import dotted_keys
 from drumrs.config.root import Config, baseline, read_toml_file
 
 __all__ = [
@@ -31,6 +32,7 @@ __all__ = [
     "Run",
     "WallContact",
     "baseline",
+    "dotted_keys",
     "merge",
     "nest",
     "parse_settings",

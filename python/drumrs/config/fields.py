@@ -25,9 +25,9 @@ def _plain(value: Any) -> Any:
     return value.tolist() if hasattr(value, "tolist") else value
 
 
-def _whole_as_float(value: Any) -> Any:
-    """Let 54 stand for 54.0; an integer beyond all floats is refused as infinite."""
-    value = _plain(value)
+def _float_of(value: Any) -> Any:
+    """Let 54 and "54.0" stand for 54.0; an integer beyond all floats is refused as infinite."""
+    value = _number_in(_plain(value))
     if isinstance(value, int) and not isinstance(value, bool):
         try:
             return float(value)
@@ -36,7 +36,24 @@ def _whole_as_float(value: Any) -> Any:
     return value
 
 
-_NUMBER = BeforeValidator(_whole_as_float)
+def _whole_of(value: Any) -> Any:
+    """Let 1e3 and "1000" stand for 1000."""
+    value = _number_in(_plain(value))
+    return int(value) if isinstance(value, float) and value.is_integer() else value
+
+
+def _number_in(value: Any) -> Any:
+    """Return the number that a string holds; anything else as it is."""
+    if not isinstance(value, str):
+        return value
+    try:
+        return float(value)
+    except ValueError:
+        return value
+
+
+_NUMBER = BeforeValidator(_float_of)
+_COUNT = BeforeValidator(_whole_of)
 _FINITE = Field(strict=True, allow_inf_nan=False)
 _WHOLE = Field(strict=True)
 
@@ -53,26 +70,24 @@ GREATEST_SEED = 2**63 - 1
 
 BundleCount = Annotated[
     int,
-    BeforeValidator(_plain),
+    _COUNT,
     _WHOLE,
     Field(ge=1, le=GREATEST_COUNT),
     Limit(f"a whole number from 1 to {GREATEST_COUNT}"),
 ]
-BaffleCount = Annotated[
-    int, BeforeValidator(_plain), _WHOLE, Field(ge=0, le=1000), Limit("a whole number from 0 to 1000")
-]
+BaffleCount = Annotated[int, _COUNT, _WHOLE, Field(ge=0, le=1000), Limit("a whole number from 0 to 1000")]
 GREATEST_SPECIES = 256
 
 SpeciesCount = Annotated[
     int,
-    BeforeValidator(_plain),
+    _COUNT,
     _WHOLE,
     Field(ge=1, le=GREATEST_SPECIES),
     Limit(f"a whole number from 1 to {GREATEST_SPECIES}"),
 ]
 Species = Annotated[
     int,
-    BeforeValidator(_plain),
+    _COUNT,
     _WHOLE,
     Field(ge=0, lt=GREATEST_SPECIES),
     Limit(f"a whole number from 0 to {GREATEST_SPECIES - 1}"),
@@ -82,7 +97,7 @@ TwoSpecies = Annotated[
 ]
 Seed = Annotated[
     int,
-    BeforeValidator(_plain),
+    _COUNT,
     _WHOLE,
     Field(ge=0, le=GREATEST_SEED),
     Limit(f"a whole number from 0 to {GREATEST_SEED}"),

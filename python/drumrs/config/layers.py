@@ -1,5 +1,6 @@
 """Layers of keys: a case file over the baseline, command-line settings over the file, the upper one winning."""
 
+import re
 import tomllib
 from collections.abc import Iterable, Mapping
 from typing import Any, ClassVar, Protocol, cast
@@ -78,6 +79,8 @@ def parse_settings(settings: Iterable[str]) -> dict[str, Any]:
     --------
     >>> parse_settings(["run.window=[5, 15]", "contact.drum.tension=clipped"])
     {'run.window': [5, 15], 'contact.drum.tension': 'clipped'}
+
+    Numbers may also be written as Python or people do: ``.5``, ``5.``, ``25 %``.
     """
     layer: dict[str, Any] = {}
     for setting in settings:
@@ -103,9 +106,25 @@ def read_toml(text: str, source: str = "the configuration") -> dict[str, Any]:
         raise ConfigError(f"{source} is not valid TOML: {error}") from None
 
 
+# Numbers that people and Python write, and TOML does not take: .5, 5., 25 %.
+_NUMBER = re.compile(r"([+-]?(?:\d+\.\d*|\.\d+|\d+)(?:[eE][+-]?\d+)?)\s*(%?)")
+_DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+")
+_WORDS = {"True": True, "False": False}
+
+
 def _literal(text: str) -> Any:
     try:
         parsed = tomllib.loads(f"value = {text}")
     except (ValueError, RecursionError):
-        return text
+        return _typed(text)
     return parsed["value"] if len(parsed) == 1 else text
+
+
+def _typed(text: str) -> Any:
+    """Return what somebody means who does not write TOML; a bare word is a string."""
+    number = _NUMBER.fullmatch(text)
+    if number is not None:
+        return float(number[1]) / (100.0 if number[2] else 1.0)
+    if _DECIMAL_COMMA.fullmatch(text):
+        raise ConfigError(f"{text} is no number; write {text.replace(',', '.')}")
+    return _WORDS.get(text, text)

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self
 from pydantic import BaseModel, ConfigDict, ValidationError, model_validator
 
 from drumrs.config.layers import both_given
-from drumrs.config.report import relation, sentence
+from drumrs.config.report import relation, sentence, show
 from drumrs.errors import ConfigError
 
 if TYPE_CHECKING:
@@ -32,6 +32,13 @@ class Part(BaseModel, metaclass=_OneSentence):
 
     # Two keys of which a complete table holds exactly one.
     pair: ClassVar[tuple[str, str] | None] = None
+
+    def __setattr__(self, key: str, value: Any) -> None:
+        """Refuse to change a key, and say how to get a copy with another value."""
+        raise ConfigError(
+            f"{key} cannot be set to {show(value)}: a configuration does not change; "
+            f'config.replace({{"…{key}": {show(value)}}}) returns a copy with its dotted key changed'
+        )
 
     @model_validator(mode="after")
     def _has_one_of_its_pair(self) -> Self:

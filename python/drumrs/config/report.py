@@ -10,6 +10,7 @@ from pydantic_core import ErrorDetails, PydanticCustomError
 from drumrs.config.fields import Limit
 
 _LONGEST_VALUE = 60
+_TABLE = "a table of keys"
 
 
 def sentence(root: type[BaseModel], error: ValidationError) -> str:
@@ -100,7 +101,7 @@ def _refused_value(root: type[BaseModel], problem: ErrorDetails) -> str:
 
 def _locate(root: type[BaseModel], path: Sequence[str | int]) -> tuple[str, str]:
     """Return the dotted key and the limit's words; steps into unions carry no key and are passed over."""
-    key, limit = "", "a table of keys"
+    key, limit = "", _TABLE
     annotation: Any = root
     for step in path:
         if _is_table(annotation):
@@ -108,8 +109,9 @@ def _locate(root: type[BaseModel], path: Sequence[str | int]) -> tuple[str, str]
             if field is None:
                 break
             key = f"{key}.{step}" if key else str(step)
-            limit = _limit(field.annotation, field.metadata) or "a table of keys"
             annotation = field.annotation
+            keys = ", ".join(annotation.model_fields) if _is_table(annotation) else ""
+            limit = _limit(annotation, field.metadata) or (f"{_TABLE}: {keys}" if keys else _TABLE)
         elif isinstance(step, int):
             annotation = _element(annotation, step)
             key = f"{key}[{step}]"

@@ -48,8 +48,9 @@ class Config(Part):
         one = (self.load.diameter / self.drum.diameter) ** 2
         if self.load.fill is not None and not one / 2.0 < self.load.fill <= one * fields.GREATEST_COUNT:
             raise relation(
-                f"load.fill is {self.load.fill}, but must be between one bundle, {one:.4g}, "
-                f"and {fields.GREATEST_COUNT} of them"
+                f"load.fill is {self.load.fill}, but must be between {one / 2.0:.4g} and "
+                f"{one * fields.GREATEST_COUNT:.4g}: one bundle of diameter {self.load.diameter} fills {one:.4g} "
+                f"of a drum of diameter {self.drum.diameter}"
             )
         return self
 

@@ -2,18 +2,17 @@
 
 from collections.abc import Iterable, Mapping, Sequence
 from itertools import product
-from typing import TYPE_CHECKING, Any, cast
+from typing import Any, cast
 
 from drumrs.config import Config
 from drumrs.config.report import dotted_keys, show
 from drumrs.errors import ConfigError
 from drumrs.sweep.case import Case
 
-if TYPE_CHECKING:
-    import polars as pl
-
 Axes = Mapping[str, Iterable[Any]]
 Seeds = Iterable[int] | int | None
+# What `polars.DataFrame` takes: also a table of pandas, a dict of columns, a list of dicts.
+Rows = Any
 
 _SEED = "run.seed"
 
@@ -36,7 +35,7 @@ def from_axes(base: Config, axes: Axes | None, seeds: Seeds) -> tuple[Case, ...]
     return _distinct(base, _with_seeds(points, list(values), seeds))
 
 
-def from_rows(base: Config, frame: "pl.DataFrame", seeds: Seeds) -> tuple[Case, ...]:
+def from_rows(base: Config, table: Rows, seeds: Seeds) -> tuple[Case, ...]:
     """Return the cases of a table's rows with every seed; its columns are dotted keys, null keeps the base's value.
 
     Raises
@@ -44,6 +43,15 @@ def from_rows(base: Config, frame: "pl.DataFrame", seeds: Seeds) -> tuple[Case, 
     ConfigError
         Where a column names no key, a value is not accepted, there is no row, or a case comes twice.
     """
+    import polars as pl
+
+    try:
+        frame = table if isinstance(table, pl.DataFrame) else pl.DataFrame(table)
+    except (TypeError, ValueError, pl.exceptions.PolarsError) as error:
+        raise ConfigError(
+            f"the table of rows is of type {type(table).__name__}, but must be a table of polars or pandas, "
+            f"or a list of dicts: {error}"
+        ) from None
     if not frame.height or not frame.width:
         raise ConfigError(
             f"the table of rows has {frame.height} rows and {frame.width} columns, but must have some of both"

@@ -63,7 +63,7 @@ class Sweep:
         self.cases = design.from_axes(base, axes, seeds)
 
     @classmethod
-    def from_rows(cls, base: Config, frame: "pl.DataFrame", seeds: design.Seeds = None) -> Self:
+    def from_rows(cls, base: Config, frame: design.Rows, seeds: design.Seeds = None) -> Self:
         """Make a sweep of a table's rows: Latin hypercube, Sobol sequence, a list by hand.
 
         Parameters
@@ -71,7 +71,8 @@ class Sweep:
         base
             The configuration that the rows vary.
         frame
-            Polars table; its columns are dotted keys, and null leaves the base's value.
+            Table of polars or pandas, dict of columns or list of dicts; its columns are dotted keys, and null leaves
+            the base's value.
         seeds
             As of `Sweep`.
 
