@@ -263,7 +263,7 @@ def test_summary_of_a_window_not_reached(short):
 
 def test_result_survives_a_folder(short, tmp_path):
     result = drumrs.run(short, seed=3, progress=False)
-    paths = result.save(tmp_path / "run")
+    paths = drumrs.save(result, tmp_path / "run")
     names = {
         "summary.json",
         "series.parquet",
