@@ -68,8 +68,8 @@ class Summary:
         Force of the load on the drum [N/m].
     kinetic_energy
         Kinetic energy of the load [J/m].
-    dissipated_normal_power, dissipated_sliding_power
-        Dissipation by normal damping and by sliding [W/m].
+    dissipated_normal_power, dissipated_sliding_power, dissipated_tangential_power, dissipated_rolling_power
+        Dissipation by normal damping, by sliding, by tangential damping and by rolling [W/m].
     numerical_power
         Power that the finite time step takes [W/m].
     correlation_time
@@ -106,6 +106,8 @@ class Summary:
     kinetic_energy: float
     dissipated_normal_power: float
     dissipated_sliding_power: float
+    dissipated_tangential_power: float
+    dissipated_rolling_power: float
     numerical_power: float
     correlation_time: float | None
     wall_time: float

@@ -2,10 +2,10 @@
 
 use crate::error::Error;
 use crate::observe::recorder::{Series, contact_energies, is_normal, is_tangential, quantities};
-use crate::physics::contact::Stored;
+use crate::physics::contact::{Flows, Stored};
 
 /// A named statistic; none where it is not defined.
-pub type Statistic = (&'static str, Option<f64>);
+pub type Statistic = (String, Option<f64>);
 
 /// The first and last sample of a window.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -37,7 +37,7 @@ pub fn summarize(series: &Series, mass: f64, start: f64, end: f64) -> Result<Vec
     let spread = Spread::of(&table.interval_powers(window), table.interval(window));
     let mean = |name| table.mean(name, window);
     let residual = table.column("energy_residual");
-    Ok(vec![
+    let fixed = [
         ("window_start", Some(table.column("time")[window.first])),
         ("window_end", Some(table.column("time")[window.last])),
         ("drum_torque", Some(table.exact_mean("drum_torque", window))),
@@ -50,8 +50,6 @@ pub fn summarize(series: &Series, mass: f64, start: f64, end: f64) -> Result<Vec
         ("normal_tangential_ratio", (tangential != 0.0).then(|| normal / tangential)),
         ("work_normal_power", Some(rate("work_normal"))),
         ("work_tangential_power", Some(rate("work_tangential"))),
-        ("dissipated_normal_power", Some(rate("dissipated_normal"))),
-        ("dissipated_sliding_power", Some(rate("dissipated_sliding"))),
         ("numerical_power", Some(rate("numerical"))),
         ("power_torque", Some(powers[0])),
         ("power_ledger", Some(powers[1])),
@@ -63,7 +61,9 @@ pub fn summarize(series: &Series, mass: f64, start: f64, end: f64) -> Result<Vec
         ("kinetic_energy", Some(mean("kinetic_translation") + mean("kinetic_rotation"))),
         ("max_overlap_ratio", Some(table.greatest("max_overlap_ratio", window))),
         ("energy_residual", Some(residual.into_iter().fold(0.0, f64::max))),
-    ])
+    ];
+    let taken = Flows::NAMES.iter().map(|flow| (format!("{flow}_power"), Some(rate(flow))));
+    Ok(fixed.map(|(name, value)| (name.to_owned(), value)).into_iter().chain(taken).collect())
 }
 
 /// Largest difference of the three powers over the greatest of their magnitudes, or over `turnover` where that is more:

@@ -100,10 +100,10 @@ impl Chunked for MotionArrays<'_> {
 /// The moving part of a load, in arrays whose length the compiler knows, so that masked indices need not be compared with
 /// it. The textbook compares every one; here some 30 instructions of 290 for a block of contacts are saved.
 ///
-/// Masks let vectors be at N numbers, and scalars at half as many. The arrays of vectors are `M` numbers long, those of scalars
-/// `H`, eleven cache lines more: were all of them powers of two apart, the same particle would be at the same place of a page
-/// in each, and a CPU takes a load behind a store to such an address for one from it. They are longer than most loads: memory
-/// that is not used is not touched.
+/// `N` is a power of two: the mask of offsets is N − 1. Arrays of vectors are `M` numbers long and arrays of scalars `H`, eleven
+/// lines of the cache more than the masks reach. Without these a particle would be at the same place of a memory page in every
+/// array, and a CPU that sees a load follow a store to such an address waits for the store. The arrays are longer than most
+/// loads: memory that is not used is not touched.
 #[derive(Debug, Clone)]
 pub struct FlatArrays<const N: usize, const M: usize, const H: usize, const ONE_CHUNK: bool> {
     /// Positions, velocities, forces; angles, angular velocities, torques.
@@ -112,7 +112,7 @@ pub struct FlatArrays<const N: usize, const M: usize, const H: usize, const ONE_
     start: usize,
 }
 
-/// Numbers between the ends of masks and of arrays: eleven lines of the cache.
+/// Numbers of an array that no mask reaches: eleven lines of the cache.
 const SKEW: usize = 11 * LINE;
 /// Numbers in a line of the cache.
 const LINE: usize = 8;
