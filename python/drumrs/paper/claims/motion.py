@@ -1,4 +1,4 @@
-"""Claims about how the load moves: the conditions of each."""
+"""Claims about how the load moves, and the conditions of each."""
 
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial

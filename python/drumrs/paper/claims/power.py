@@ -1,4 +1,4 @@
-"""Claims about the power that the drum draws: each function gives the conditions that make one up."""
+"""Claims about the power that the drum draws, and the conditions of each."""
 
 from collections.abc import Iterator
 from functools import partial

@@ -1,4 +1,4 @@
-"""Claims about N/T, what normal contacts take over what tangential contacts take: the conditions of each."""
+"""Claims about N/T, what normal contacts take over what tangential contacts take, and the conditions of each."""
 
 import math
 from collections.abc import Iterator

@@ -1,4 +1,4 @@
-"""The study on one page of Markdown, for whoever keeps its results: findings, verdicts with their numbers, figures."""
+"""The study on one page of Markdown, for those who keep its results: findings, verdicts with their numbers, figures."""
 
 from collections.abc import Iterator
 from pathlib import Path
