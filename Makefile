@@ -42,7 +42,7 @@ lint: develop ## check format, lints, layers, types and the stub of the core
 	cargo clippy --all-targets --features python -- -D warnings
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
-	PYTHONPATH=python $(BIN)/lint-imports --no-cache
+	$(BIN)/lint-imports --no-cache
 	$(BIN)/mypy
 	cd benches/peers && MYPYPATH=../../python:. ../../$(BIN)/mypy --config-file ../../pyproject.toml *.py ../*.py
 	cd python && ../$(BIN)/python -m mypy.stubtest drumrs._core --mypy-config-file ../pyproject.toml
