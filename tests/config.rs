@@ -147,7 +147,7 @@ fn missing_fields_are_refused() {
 fn values_outside_their_limits_are_refused_by_name() {
     let numbers: &[(&str, f64, &str)] = &[
         ("drum.radius", 0.0, "drum.diameter is 0, but must be a positive finite number"),
-        ("load.count", 0.0, "load.count is 0, but must be between 1 and 100000000"),
+        ("load.count", 0.0, "load.count is 0, but must be between 1 and 10000000"),
         ("load.diameter", -1.0, "load.diameter is -1, but must be a positive finite number"),
         (
             "load.diameter",

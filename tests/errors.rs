@@ -186,6 +186,11 @@ fn fields_of_a_wrong_length_are_refused() {
     }
     let empty = InitialState::default();
     assert_eq!(refusal(&config, empty), "state.positions is empty, but must be of at least one bundle");
+    let crowd = InitialState { positions: vec![Vec2::zeros(); 10_000_001], ..InitialState::default() };
+    assert_eq!(
+        refusal(&config, crowd),
+        "state.positions is of 10000001 bundles, but must be of at most 10000000 bundles"
+    );
 }
 
 #[test]

@@ -166,8 +166,8 @@ impl SimulationConfig {
     }
 }
 
-/// Offsets, twice an id, are 32 bits wide, and the largest arrays hold some 134 million particles.
-const MOST_BUNDLES: usize = 100_000_000;
+/// The most bundles of a load; the largest arrays of the engine hold 16 million.
+pub const MOST_BUNDLES: usize = 10_000_000;
 
 impl LoadParameters {
     fn validate(&self, drum_radius: Option<f64>) -> Result<(), Error> {

@@ -8,7 +8,7 @@ use rand_pcg::Pcg64Mcg;
 use crate::engine::contacts::ContactRecord;
 use crate::engine::forces::Lists;
 use crate::error::Error;
-use crate::io::config::SimulationConfig;
+use crate::io::config::{MOST_BUNDLES, SimulationConfig};
 use crate::physics::drum::Drum;
 use crate::physics::energy::SurfaceLoad;
 use crate::physics::particles::Particles;
@@ -44,6 +44,10 @@ impl InitialState {
         let count = self.positions.len();
         if count == 0 {
             return Err(Error::config("state.positions", "empty", "of at least one bundle"));
+        }
+        if count > MOST_BUNDLES {
+            let limit = format!("of at most {MOST_BUNDLES} bundles");
+            return Err(Error::config("state.positions", format!("of {count} bundles"), limit));
         }
         let radii = self.radii.clone().unwrap_or_else(|| vec![0.5 * config.load.diameter; count]);
         if radii.len() != count {
