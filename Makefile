@@ -37,11 +37,12 @@ test: develop ## test the physics, the package and the documentation
 develop: $(STAMP) ## build the core into the environment (.venv)
 	$(BIN)/maturin develop --release --skip-install --quiet
 
-lint: develop ## check format, lints, types and the stub of the core
+lint: develop ## check format, lints, layers, types and the stub of the core
 	cargo fmt --check
 	cargo clippy --all-targets --features python -- -D warnings
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
+	$(BIN)/lint-imports --no-cache
 	$(BIN)/mypy
 	cd benches/peers && MYPYPATH=../../python:. ../../$(BIN)/mypy --config-file ../../pyproject.toml *.py ../*.py
 	cd python && ../$(BIN)/python -m mypy.stubtest drumrs._core --mypy-config-file ../pyproject.toml

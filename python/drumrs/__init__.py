@@ -8,19 +8,23 @@
 All values are in SI units and per meter of drum depth, but for rpm and degrees in configurations.
 """
 
+from importlib import import_module
 from importlib.metadata import version
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from drumrs import errors
 from drumrs.config import Config, baseline
 from drumrs.errors import CheckpointError, ConfigError, DrumrsError, DrumrsWarning, UnstableError
 from drumrs.frames import Frames
+from drumrs.output import player, save
 from drumrs.protocol import run
 from drumrs.result import Result, Summary, load
 from drumrs.simulation import Simulation, info, quantities, units
 from drumrs.state import State
 from drumrs.sweep import Case, Sweep
-from drumrs.verification import Verification, verify
+
+if TYPE_CHECKING:
+    from drumrs.verification import Verification, verify
 
 __version__ = version("drumrs")
 
@@ -44,15 +48,19 @@ __all__ = [
     "errors",
     "info",
     "load",
+    "player",
     "quantities",
     "run",
+    "save",
     "units",
     "verify",
 ]
 
 
 def __getattr__(name: str) -> Any:
-    """Make `drumrs.QUANTITIES`, the columns of a bare drum's series, on demand."""
+    """Make `drumrs.QUANTITIES`, the columns of a bare drum's series, and load the verification, on demand."""
     if name == "QUANTITIES":
         return quantities()
+    if name in {"Verification", "verify"}:
+        return getattr(import_module("drumrs.verification"), name)
     raise AttributeError(f"module 'drumrs' has no attribute {name!r}")

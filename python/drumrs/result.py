@@ -4,6 +4,7 @@ import io
 import json
 import math
 from dataclasses import asdict, dataclass, fields
+from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -17,8 +18,6 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     import polars as pl
-
-    from drumrs.viewer import Player
 
 # What a run leaves instead of summary.json where it ended unstable.
 UNSTABLE = "unstable.json"
@@ -127,6 +126,39 @@ class Summary:
         """Return one JSON object; what is not defined is null."""
         return json.dumps(asdict(self), indent=2, allow_nan=False)
 
+    def rows(self) -> dict[str, str]:
+        """Return the main numbers as texts, by name with unit."""
+        window = f"{self.window_start:.4g}–{self.window_end:.4g}"
+        x, y = (f"{1e3 * value:.1f}" for value in self.center_of_mass)
+        return {
+            "bundles": str(self.bundle_count),
+            "averages over t = [s]": window,
+            "specific power [W/kg]": with_error(self.specific_power, self.specific_power_error),
+            "drum power [W/m]": number(self.drum_power),
+            "torque [N m/m]": number(self.drum_torque),
+            "normal / tangential power": number(self.normal_tangential_ratio),
+            "center of mass [mm]": f"({x}, {y})",
+            "contacts per bundle": number(self.coordination),
+            "greatest overlap / radius": number(self.max_overlap_ratio),
+            "energy residual": f"{self.energy_residual:.1e}",
+            "disagreement of three powers": f"{self.power_disagreement:.1e}",
+            "wall time [s]": f"{self.wall_time:.1f}",
+            "million particle-steps per second": number(self.particle_steps_per_second, 1e-6),
+        }
+
+
+def number(value: float | None, scale: float = 1.0) -> str:
+    """Show a value to four digits, a dash where there is none."""
+    return "–" if value is None else f"{scale * value:.4g}"
+
+
+def with_error(value: float, error: float | None) -> str:
+    """Show a value with its standard error, both to the error's second digit."""
+    if not error:
+        return number(value)
+    digits = max(0, 1 - math.floor(math.log10(error)))
+    return f"{value:.{digits}f} ± {error:.{digits}f}"
+
 
 def _finite(value: Any) -> Any:
     return None if isinstance(value, float) and not math.isfinite(value) else value
@@ -162,89 +194,13 @@ class Result:
         window = f"t = {summary.window_start:.6g} to {summary.window_end:.6g} s"
         return f"<Result of {summary.bundle_count} bundles: {summary.specific_power:.4g} W/kg over {window}>"
 
-    def player(self) -> "Player":
-        """Return the run as a player: shown by a notebook, or written as one HTML file with its `save`.
-
-        Examples
-        --------
-        >>> import drumrs
-        >>> config = drumrs.baseline(fill=0.1).replace({"run.duration": 0.1})
-        >>> drumrs.run(config, progress=False).player()
-        <Player of 40 bundles, 3 frames>
-        """
-        from drumrs.viewer import Player
-
-        window = self.config.run.averaging_window
-        return Player(self.frames, self.series, title=self.config.title, window=window)
-
-    def save(self, folder: str | Path, *, pictures: bool = True) -> list[Path]:
-        """Write config.toml, series.parquet, frames.parquet, pictures, a player and, last, summary.json.
-
-        Parameters
-        ----------
-        folder
-            Created where it does not exist.
-        pictures
-            Whether to draw snapshots.png and time_series.png, and to write player.html, which plays the run.
-
-        Returns
-        -------
-        list of Path
-            The files written.
-        """
-        folder = Path(folder)
-        folder.mkdir(parents=True, exist_ok=True)
-        written = write_tables(folder, self.config, self.series, self.units)
-        self.frames.save(folder / "frames.parquet")
-        written.append(folder / "frames.parquet")
-        drawn = (
-            draw(folder, self.config, self.summary, self.series, self.frames, self.frames) if pictures else []
+    def _repr_html_(self) -> str:
+        """Show the summary as a table in a notebook."""
+        rows = (
+            f"<tr><th>{escape(name)}</th><td>{escape(value)}</td></tr>"
+            for name, value in self.summary.rows().items()
         )
-        # The summary comes last: a folder that has one is complete.
-        write_whole(folder / "summary.json", f"{self.summary.to_json()}\n".encode())
-        (folder / UNSTABLE).unlink(missing_ok=True)
-        return [*written, folder / "summary.json", *drawn]
-
-
-def draw(
-    folder: Path, config: Config, summary: Summary, series: "pl.DataFrame", shown: Frames, pictured: Frames
-) -> list[Path]:
-    """Write snapshots.png, time_series.png and player.html.
-
-    Parameters
-    ----------
-    folder
-        Where to write them.
-    config, summary, series
-        The run.
-    shown
-        Frames of the player.
-    pictured
-        Frames of the snapshots: at the start and at both ends of the window, with those beside them.
-
-    Returns
-    -------
-    list of Path
-        The files written.
-    """
-    from drumrs import figures
-    from drumrs.viewer import Player
-
-    start, end = window = config.run.averaging_window
-    drawings = {"time_series.png": figures.time_series(series, window=window)}
-    if len(pictured):
-        indices = sorted({pictured.nearest(time) for time in (0.0, start, end)})
-        fill = f"fill {100.0 * summary.fill:.0f} %"
-        drawings["snapshots.png"] = figures.snapshots(
-            [figures.View(pictured, index, fill) for index in indices]
-        )
-    for name, figure in drawings.items():
-        figures.write(figure, folder / name)
-    written = [folder / name for name in drawings]
-    if len(shown):
-        player = Player(shown, series, title=config.title, window=window)
-        written.append(player.save(folder / "player.html"))
-    return written
+        return f"<table>{''.join(rows)}</table>"
 
 
 def write_tables(
@@ -257,7 +213,7 @@ def write_tables(
 
 
 def load(folder: str | Path) -> Result:
-    """Read what `Result.save` wrote.
+    """Read what `save` wrote.
 
     Raises
     ------

@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from drumrs.errors import UnstableError
-from drumrs.files import write_whole
 from drumrs.frames import Frames, FramesFile, thinned
+from drumrs.output import complete, draw
 from drumrs.parts import PART_SIZE, Parts
-from drumrs.result import UNSTABLE, Summary, draw, write_tables
+from drumrs.result import UNSTABLE, Summary, write_tables
 from drumrs.simulation import Simulation, units
 from drumrs.unstable import UnstableRun
 
@@ -65,19 +65,17 @@ class RunFolder:
         simulation.save(self.path / _CHECKPOINT)
 
     def conclude(self, simulation: Simulation) -> tuple[Summary, list[Path]]:
-        """Write what `Result.save` writes; return the summary and the files written."""
+        """Write what `drumrs.save` writes; return the summary and the files written."""
         summary, series = simulation.summary(), simulation.series
         written = self._write_tables(simulation, series)
         file = FramesFile.of(self.path / "frames.parquet")
         drawn = draw(self.path, simulation.config, summary, series, *_pictured(file, simulation))
-        # The summary comes last: a folder that has one is complete.
-        write_whole(self.path / "summary.json", f"{summary.to_json()}\n".encode())
-        (self.path / UNSTABLE).unlink(missing_ok=True)
+        told = complete(self.path, summary)
         self._parts.remove()
-        return summary, [*written, self.path / "summary.json", *drawn]
+        return summary, [*written, told, *drawn]
 
     def conclude_unstable(self, simulation: Simulation, error: UnstableError) -> None:
-        """Write what `UnstableRun.save` writes."""
+        """Write what `UnstableRun.save_end` writes."""
         series = simulation.series
         self._write_tables(simulation, series)
         frames = _shown(FramesFile.of(self.path / "frames.parquet"))

@@ -1,6 +1,6 @@
 """A study so small that tests can run it: the snapshots' fills, a moment each."""
 
-from drumrs.study import Scale
+from drumrs.paper import Scale
 
 SMALL = Scale(
     seeds=(1,),

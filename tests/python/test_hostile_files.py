@@ -245,7 +245,7 @@ def test_a_table_of_another_kind_is_computed_again(copy):
 @pytest.mark.parametrize("name", ["summary.json", "series.parquet", "frames.parquet", "config.toml"])
 @pytest.mark.parametrize("content", [b"", b"{}", b"[" * 100_000, b"PAR1" * 100])
 def test_a_damaged_folder_of_a_run_is_named(tmp_path, name, content):
-    drumrs.run(BASE, progress=False).save(tmp_path / "run", pictures=False)
+    drumrs.save(drumrs.run(BASE, progress=False), tmp_path / "run", pictures=False)
     (tmp_path / "run" / name).write_bytes(content)
     if (name, content) == ("config.toml", b""):
         assert drumrs.load(tmp_path / "run").config == drumrs.baseline()

@@ -31,7 +31,7 @@ TINY = """
 import matplotlib.ft2font
 from dataclasses import replace
 from small_study import SMALL
-from drumrs.study import scales
+from drumrs.paper import scales
 tiny = replace(SMALL, duration=0.2, window=(0.1, 0.2), fills=(0.05,), fills_with_baffles=(0.05,), frictions=(0.5,))
 scales.SCALES = {"quick": tiny}
 """
@@ -58,7 +58,7 @@ CALLS = {
         ["reproduce", "--quick"],
         "interrupted; 0 cases are finished and kept, and the same sweep goes on with the others",
     ),
-    "report": ("drumrs.reproduction.write", TINY, ["reproduce", "--quick"], "interrupted"),
+    "report": ("drumrs.paper.reproduction.write", TINY, ["reproduce", "--quick"], "interrupted"),
 }
 
 

@@ -7,7 +7,7 @@ from types import ModuleType
 import pytest
 
 import drumrs
-from drumrs import notebook, progress
+from drumrs import progress
 
 SHARE = re.compile(r'<progress max="1" value="([\d.]+)"></progress> ([^<]*)')
 
@@ -30,7 +30,7 @@ def shown(monkeypatch):
     module.display = lambda _, **__: display
     monkeypatch.setitem(sys.modules, "IPython.display", module)
     monkeypatch.setattr("rich.console._is_jupyter", lambda: True)
-    monkeypatch.setattr(notebook, "_PAUSE", 0.0)
+    monkeypatch.setattr(progress, "_PAUSE", 0.0)
     return display
 
 

@@ -107,7 +107,7 @@ def test_a_run_in_memory_needs_what_the_rule_counts(tmp_path):
     made = f"config = drumrs.Config.model_validate_json({config.model_dump_json()!r})"
     counted = 2 * 16 * 100 * round(3.0 / 3.7e-5)
     before = peak(made)
-    kept = f"{made}; drumrs.run(config, progress=False).save({str(tmp_path)!r}, pictures=False)"
+    kept = f"{made}; drumrs.save(drumrs.run(config, progress=False), {str(tmp_path)!r}, pictures=False)"
     assert peak(kept) < before + 1.5 * counted
     loaded = f"assert len(drumrs.load({str(tmp_path)!r}).frames) > 80_000"
     assert peak(loaded) < before + 1.5 * counted
@@ -255,7 +255,7 @@ def test_a_blow_while_parts_are_removed_leaves_a_run_that_goes_on(drum, tmp_path
 
 
 def test_a_run_removes_what_another_one_left_in_its_folder(tmp_path):
-    drumrs.run(dense(0.1), progress=False).save(tmp_path, pictures=False)
+    drumrs.save(drumrs.run(dense(0.1), progress=False), tmp_path, pictures=False)
     folder = RunFolder(tmp_path)
     folder.clear()
     assert [path.name for path in tmp_path.iterdir()] == ["config.toml"]

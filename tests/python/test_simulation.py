@@ -261,9 +261,17 @@ def test_summary_of_a_window_not_reached(short):
         simulation.summary()
 
 
+def test_a_notebook_shows_a_result_as_a_table_with_units(short):
+    result = drumrs.run(short, progress=False)
+    shown = result._repr_html_()
+    assert f"<th>drum power [W/m]</th><td>{result.summary.drum_power:.4g}</td>" in shown
+    assert shown.count("<tr>") == len(result.summary.rows())
+    assert len(shown) < 2000
+
+
 def test_result_survives_a_folder(short, tmp_path):
     result = drumrs.run(short, seed=3, progress=False)
-    paths = result.save(tmp_path / "run")
+    paths = drumrs.save(result, tmp_path / "run")
     names = {
         "summary.json",
         "series.parquet",

@@ -155,13 +155,13 @@ def finished(tmp_path_factory):
     """Return the folder of a finished run."""
     folder = tmp_path_factory.mktemp("view") / "run"
     config = drumrs.baseline(fill=0.05, baffles=True).replace({"run.duration": 0.2})
-    drumrs.run(config, progress=False).save(folder, pictures=False)
+    drumrs.save(drumrs.run(config, progress=False), folder, pictures=False)
     return folder
 
 
 def test_a_result_shows_itself(finished):
     result = drumrs.load(finished)
-    data = json.loads(SCRIPT.search(result.player().page()).group(1))
+    data = json.loads(SCRIPT.search(drumrs.player(result).page()).group(1))
     assert data["title"] == "20 bundles (5 % fill), 3 baffles, 54 rpm, seed 1"
     assert data["window"] == pytest.approx([0.2 * 2 / 3, 0.2])
     assert [panel["unit"] for panel in data["panels"]] == ["W/m", "J/m"]

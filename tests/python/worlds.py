@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 import polars as pl
 
-from drumrs.study.scales import SCALES
+from drumrs.paper.scales import SCALES
 
 DEFAULT = SCALES["default"]
 SEEDS = (1, 2, 3)

@@ -31,7 +31,9 @@ def baseline(
         for name, baffles in (("without baffles", False), ("with baffles", True))
     }
     results = run_side_by_side(cases)
-    written = [path for name, result in results.items() for path in result.save(out / name.replace(" ", "_"))]
+    written = [
+        path for name, result in results.items() for path in drumrs.save(result, out / name.replace(" ", "_"))
+    ]
     print_table({name: result.summary for name, result in results.items()})
     print_paths([_draw_together(results, out), *(path for path in written if path.suffix == ".png")])
 

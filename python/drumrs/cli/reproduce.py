@@ -11,7 +11,7 @@ from drumrs.cli.tables import print_paths
 from drumrs.errors import ConfigError
 
 if TYPE_CHECKING:
-    from drumrs.reproduction import Plan, Reproduction
+    from drumrs.paper.reproduction import Reproduction, ReproductionResult
 
 _FAILED = 1
 _STYLES = {"holds": "green", "does not hold": "red", "undecided": "yellow"}
@@ -42,14 +42,14 @@ def reproduce(
     retry
         Run cases again that failed before.
     """
-    from drumrs.reproduction import Plan
+    from drumrs.paper.reproduction import Reproduction
 
     if quick and full:
         raise ConfigError("--quick and --full are both given, but only one of them may be")
     check_folder(out)
-    plan = Plan("quick" if quick else "full" if full else "default", out, jobs)
-    _announce(plan)
-    done = plan.run(retry=retry, say=_say)
+    reproduction = Reproduction("quick" if quick else "full" if full else "default", out, jobs)
+    _announce(reproduction)
+    done = reproduction.run(retry=retry, say=_say)
     _print_verdicts(done)
     print_paths([*sorted({done.table, done.summary, out / "figures"}), done.report])
     return _tell_failures(done)
@@ -60,25 +60,25 @@ def _say(sentence: str) -> None:
     sys.stderr.flush()
 
 
-def _announce(plan: "Plan") -> None:
-    from drumrs.report.facts import duration
+def _announce(reproduction: "Reproduction") -> None:
+    from drumrs.pages.provenance import format_duration
 
-    count, waiting = len(plan.sweep), len(plan.waiting)
+    count, waiting = len(reproduction.sweep), len(reproduction.waiting)
     done = f", {count - waiting} of them settled already" if waiting < count else ""
-    cores = f"{plan.jobs} core{'s' if plan.jobs > 1 else ''}"
+    cores = f"{reproduction.jobs} core{'s' if reproduction.jobs > 1 else ''}"
     _say(
-        f"{plan.scale} study: {count} cases{done}, {plan.cost:.2g} particle-steps to do, "
-        f"about {duration(plan.expected_time())} on {cores}"
+        f"{reproduction.scale} study: {count} cases{done}, {reproduction.cost:.2g} particle-steps to do, "
+        f"about {format_duration(reproduction.expected_time())} on {cores}"
     )
 
 
-def _print_verdicts(done: "Reproduction") -> None:
+def _print_verdicts(done: "ReproductionResult") -> None:
     from rich.console import Console
     from rich.markup import escape
 
     console = Console(highlight=False)
     wide = max(map(len, _STYLES))
-    for verdict in done.findings.verdicts:
+    for verdict in done.data.verdicts:
         shown = f"[{_STYLES[verdict.verdict]}]{verdict.verdict:<{wide}}[/]"
         # One line a claim, so that all of them fit on a screen.
         line = f"{verdict.claim:<3}  {shown}  {escape(verdict.statement)}"
@@ -88,13 +88,13 @@ def _print_verdicts(done: "Reproduction") -> None:
             sys.stdout.write(f"not drawn: {picture.figure.number}, for want of {picture.missing}\n")
 
 
-def _tell_failures(done: "Reproduction") -> int:
-    failures = done.findings.failures
+def _tell_failures(done: "ReproductionResult") -> int:
+    failures = done.data.failures
     for failure in failures:
         sys.stderr.write(
             f"drumrs: case {failure.case.id} ({failure.case.config.title}) failed: {failure.message}\n"
         )
     if failures:
-        total = len(done.findings.sweep)
+        total = len(done.data.sweep)
         sys.stderr.write(f"drumrs: {len(failures)} of {total} cases failed; --retry runs them again\n")
     return _FAILED if failures else 0

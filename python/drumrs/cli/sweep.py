@@ -8,8 +8,9 @@ from typing import Annotated, Any
 from cyclopts import Parameter
 
 from drumrs.cli.options import WHOLE, Jobs, check_folder
-from drumrs.cli.tables import number, print_paths, with_error
+from drumrs.cli.tables import print_paths
 from drumrs.errors import ConfigError
+from drumrs.result import number, with_error
 from drumrs.sweep import Outcome, Sweep, read_study
 
 _FAILED = 1

@@ -64,7 +64,7 @@ def _print(found: "Verification") -> None:
     from rich.markup import escape
     from rich.table import Table
 
-    from drumrs.report.facts import duration
+    from drumrs.pages.provenance import format_duration
 
     # What goes to a file or a pipe has room for everything.
     console = Console(highlight=False, width=None if sys.stdout.isatty() else _WIDE)
@@ -83,7 +83,7 @@ def _print(found: "Verification") -> None:
         sys.stdout.write(f"{trial.case.name} failed: {_reason(trial)}\n")
     count = len(found.trials)
     passed = count - len(found.failures)
-    sys.stdout.write(f"{passed} of {count} cases passed, in {duration(found.wall_time)}\n")
+    sys.stdout.write(f"{passed} of {count} cases passed, in {format_duration(found.wall_time)}\n")
 
 
 def _numbers(trial: "Trial") -> tuple[str, str, str]:

@@ -4,11 +4,10 @@ import math
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from drumrs.config.models import Contact, Drum, LinearContact, Rotation, Run
-    from drumrs.config.root import Config
+    from drumrs.config.models import Contact, Drum, LinearContact, Rotation, Run, Tables
 
 
-def core_config(config: "Config", bundle_count: int) -> dict[str, Any]:
+def core_config(config: "Tables", bundle_count: int) -> dict[str, Any]:
     """Return the tree of the core's `SimulationConfig`; every field is given, for defaults live here."""
     return {
         "drum": _drum(config.drum),

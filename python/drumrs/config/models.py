@@ -253,3 +253,14 @@ class Run(Part):
     def averaging_window(self) -> tuple[float, float]:
         """Interval of the averages [s]: `window`, or the last third of the duration."""
         return self.window or (self.duration * 2.0 / 3.0, self.duration)
+
+
+class Tables(Part):
+    """All tables together, as the baseline has them."""
+
+    drum: Drum = Field(default=Drum())
+    rotation: Rotation = Field(default=Rotation(rpm=54.0))
+    load: Load = Field(default=Load(fill=0.25))
+    contact: Contact = Field(default=Contact())
+    gravity: Annotated[fields.Vector, Field(description="Gravity [x, y] [m/s²].")] = (0.0, -9.81)
+    run: Run = Field(default=Run())

@@ -4,22 +4,21 @@ import hashlib
 import json
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated, Any, Self
+from typing import Any, Self
 
-from pydantic import Field, model_validator
+from pydantic import model_validator
 
 from drumrs.config import fields
 from drumrs.config.boundary import core_config
 from drumrs.config.document import to_toml
 from drumrs.config.layers import merge, nest, read_toml
-from drumrs.config.models import Contact, Drum, Load, Rotation, Run
-from drumrs.config.part import Part
+from drumrs.config.models import Tables
 from drumrs.config.report import relation
 from drumrs.config.softening import layer, softening
 from drumrs.errors import ConfigError
 
 
-class Config(Part):
+class Config(Tables):
     """Everything that defines a simulation: frozen, validated, in SI units but for rpm and degrees.
 
     Examples
@@ -30,13 +29,6 @@ class Config(Part):
     >>> config.contact.bundle.friction, config.bundle_count
     (0.3, 160)
     """
-
-    drum: Drum = Field(default=Drum())
-    rotation: Rotation = Field(default=Rotation(rpm=54.0))
-    load: Load = Field(default=Load(fill=0.25))
-    contact: Contact = Field(default=Contact())
-    gravity: Annotated[fields.Vector, Field(description="Gravity [x, y] [m/s²].")] = (0.0, -9.81)
-    run: Run = Field(default=Run())
 
     @model_validator(mode="after")
     def _bundles_are_smaller_than_the_drum(self) -> Self:

@@ -8,11 +8,10 @@ from drumrs.errors import ConfigError
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from drumrs.config.models import Contact, LinearContact, PairContact, WallContact
-    from drumrs.config.root import Config
+    from drumrs.config.models import Contact, LinearContact, PairContact, Tables, WallContact
 
 
-def softening(config: "Config", factor: float, name: str = "softer") -> dict[str, tuple[float, float]]:
+def softening(config: "Tables", factor: float, name: str = "softer") -> dict[str, tuple[float, float]]:
     """Return the keys that change, each with its value before and after.
 
     With k / X and dt √X a contact lasts longer by √X and takes as many steps. Restitution depends on ν / √(m k)
@@ -47,7 +46,7 @@ def _laws(contact: "Contact") -> "Iterator[tuple[str, LinearContact | PairContac
     yield from ((f"contact.walls[{index}].normal", law) for index, law in enumerate(contact.walls))
 
 
-def layer(config: "Config", changes: dict[str, tuple[float, float]]) -> dict[str, Any]:
+def layer(config: "Tables", changes: dict[str, tuple[float, float]]) -> dict[str, Any]:
     """Return the changes as a layer: those of a table in a list need the whole list."""
     after: dict[str, Any] = {key: new for key, (_, new) in changes.items() if "[" not in key}
     for name, laws in (("pairs", config.contact.pairs), ("walls", config.contact.walls)):

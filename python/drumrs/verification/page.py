@@ -2,70 +2,68 @@
 
 import base64
 import re
+from collections.abc import Sequence
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
-from drumrs.report import facts
-from drumrs.report.template import environment, style, text_of
+from drumrs.pages import environment, provenance, style, text_of
+from drumrs.verification import theory
+from drumrs.verification.case import Trial
+from drumrs.verification.catalog import FAMILIES
 
 if TYPE_CHECKING:
     from jinja2 import Template
     from markupsafe import Markup
 
-    from drumrs.verification.case import Trial
-    from drumrs.verification.runner import Verification
-
 _TITLE = "Verification of drumrs"
 
 
-def render(found: "Verification") -> str:
+def render(tried: Sequence[Trial], wall_time: float, jobs: int) -> str:
     """Return the page."""
-    from drumrs.verification.catalog import FAMILIES
-
-    trials = {trial.case.name: trial for trial in found.trials}
+    trials = {trial.case.name: trial for trial in tried}
     families = {
         name: [trials[case.name] for case in cases if case.name in trials] for name, cases in FAMILIES.items()
     }
-    checked = sum(len(trial.evidence.checks) for trial in found.trials if trial.evidence is not None)
+    checked = sum(len(trial.evidence.checks) for trial in tried if trial.evidence is not None)
     return _template().render(
         title=_TITLE,
         style=style(),
-        found=found,
+        count=len(tried),
+        failures=[trial for trial in tried if not trial.passed],
         families={name: members for name, members in families.items() if members},
         pictures={name: _picture(trial) for name, trial in trials.items()},
         checked=checked,
-        versions=facts.versions(),
-        machine=facts.machine(),
-        times=_times(found),
+        versions=provenance.versions(),
+        machine=provenance.machine(),
+        times=_times(tried, wall_time, jobs),
         theory=_theory(),
     )
 
 
-def _times(found: "Verification") -> dict[str, str]:
-    spent = sum(trial.wall_time for trial in found.trials)
+def _times(tried: Sequence[Trial], wall_time: float, jobs: int) -> dict[str, str]:
+    spent = sum(trial.wall_time for trial in tried)
     return {
-        "cases": str(len(found.trials)),
-        "time taken": f"{facts.duration(found.wall_time)}, {found.jobs} at once",
-        "time of all cases": facts.duration(spent),
-        "page written": facts.now(),
+        "cases": str(len(tried)),
+        "time taken": f"{provenance.format_duration(wall_time)}, {jobs} at once",
+        "time of all cases": provenance.format_duration(spent),
+        "page written": provenance.now(),
     }
 
 
-def _picture(trial: "Trial") -> str:
+def _picture(trial: Trial) -> str:
     """Return a case's plot as an address that holds it, empty where there is none."""
     from drumrs import figures
+    from drumrs.verification.picture import agreement
 
     if trial.evidence is None:
         return ""
-    drawn = figures.svg(figures.agreement(trial.evidence.panel))
+    drawn = figures.svg(agreement(trial.evidence.panel))
     return f"data:image/svg+xml;base64,{base64.b64encode(drawn).decode('ascii')}"
 
 
 def _theory() -> list["Markup"]:
     """Return the paragraphs on how far a run may be off, as the documentation of `theory` has them."""
     from markupsafe import Markup, escape
-
-    from drumrs.verification import theory
 
     _, _, told = (theory.__doc__ or "").partition("-----\n")
     strong = (

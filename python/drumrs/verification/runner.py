@@ -18,6 +18,7 @@ from drumrs.sweep.worker import Running
 from drumrs.verification.advance import under_way
 from drumrs.verification.case import Case, Trial
 from drumrs.verification.catalog import chosen, family_of
+from drumrs.verification.page import render
 
 if TYPE_CHECKING:
     import polars as pl
@@ -87,9 +88,7 @@ class Verification:
         OSError
             Where the file cannot be written.
         """
-        from drumrs.verification.page import render
-
-        write_whole(path, render(self).encode())
+        write_whole(path, render(self.trials, self.wall_time, self.jobs).encode())
         return Path(path)
 
 

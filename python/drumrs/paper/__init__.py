@@ -1,0 +1,33 @@
+"""The paper by number: the cases of its figures, the figures, and a verdict on each of its claims.
+
+>>> from drumrs import paper
+>>> len(paper.cases("default")) > 300
+True
+
+Nothing here runs a simulation: `cases` says what to run, and everything else reads tables and frames.
+"""
+
+from drumrs.paper.cases import cases, cost
+from drumrs.paper.claims import CLAIMS, Claim, judge
+from drumrs.paper.data import StudyData
+from drumrs.paper.figures import FIGURES, PaperFigure
+from drumrs.paper.measure import measure
+from drumrs.paper.scales import SCALES, Scale
+from drumrs.paper.verdict import MissingError, Number, Verdict
+
+__all__ = [
+    "CLAIMS",
+    "FIGURES",
+    "SCALES",
+    "Claim",
+    "MissingError",
+    "Number",
+    "PaperFigure",
+    "Scale",
+    "StudyData",
+    "Verdict",
+    "cases",
+    "cost",
+    "judge",
+    "measure",
+]

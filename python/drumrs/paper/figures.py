@@ -1,0 +1,206 @@
+"""The paper's figures by number: title, caption, what they are drawn from."""
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import TYPE_CHECKING
+
+from drumrs.analysis import disagreement
+from drumrs.config import baseline
+from drumrs.paper.cases import THIRDS, percent
+from drumrs.paper.data import StudyData
+from drumrs.paper.verdict import MissingError
+
+if TYPE_CHECKING:
+    import polars as pl
+    from matplotlib.figure import Figure
+
+    from drumrs.paper.curves import Curve
+
+
+# Seeds this unlikely to be of one steady state are shown one by one.
+_APART = 0.05
+_HALF = 0.5
+
+
+@dataclass(frozen=True)
+class PaperFigure:
+    """A figure of the paper.
+
+    Attributes
+    ----------
+    number
+        ``"F2"`` to ``"F9"``, ``"speed"``, ``"restitution"``, ``"drift"``.
+    title, caption
+        What it shows, and how to read it.
+    draw
+        Function from `StudyData` to a matplotlib figure; raises `MissingError` where cases are missing.
+    """
+
+    number: str
+    title: str
+    caption: str
+    draw: "Callable[[StudyData], Figure]"
+
+
+def points(curves: "list[Curve]") -> "pl.DataFrame":
+    """Return curves as the table that `drumrs.figures.curves` draws.
+
+    Raises
+    ------
+    MissingError
+        Where there is no point.
+    """
+    import polars as pl
+
+    rows = [
+        {
+            "label": curve.label,
+            "x": point.x,
+            "mean": point.estimate.mean,
+            "half_width": point.estimate.interval().half_width,
+            "drifting": point.drifting,
+            "disagree": disagreement(point.values, point.errors) < _APART,
+            "values": list(point.values),
+        }
+        for curve in curves
+        for point in curve.points
+    ]
+    if not rows:
+        raise MissingError("every case of the figure")
+    return pl.DataFrame(rows)
+
+
+def _both_drums(data: StudyData, axis: str, column: str) -> "pl.DataFrame":
+    return points([data.results.curve(axis, column, baffles=baffles) for baffles in (False, True)])
+
+
+def _three_fills(data: StudyData, column: str) -> "pl.DataFrame":
+    return points([data.results.curve("friction", column, fill=fill) for fill in THIRDS])
+
+
+def _snapshots(baffles: bool) -> "Callable[[StudyData], Figure]":
+    def draw(data: StudyData) -> "Figure":
+        from drumrs.paper import plots
+
+        frames = {}
+        for fill in THIRDS:
+            case = data.cases(fill, baffles=baffles)[0]
+            frames[f"{percent(fill)} fill"] = data.sweep.frames(case, data.folder)
+        return plots.snapshots_of_fills(frames)
+
+    return draw
+
+
+def _draw_drift(data: StudyData) -> "Figure":
+    from drumrs.paper import plots
+
+    runs, mass = {}, {}
+    for baffles in (False, True):
+        found = data.cases(_HALF, baffles=baffles)
+        drum = f"50 % fill, {'with' if baffles else 'without'} baffles"
+        runs[drum] = [data.sweep.series(case, data.folder) for case in found]
+        config = found[0].config
+        mass[drum] = config.bundle_count * config.load.density * math.pi * config.load.diameter**2 / 4.0
+    return plots.drift_over_time(runs, mass, config.run.averaging_window)
+
+
+def _draw_speed(data: StudyData) -> "Figure":
+    from drumrs.paper import plots
+
+    radius, gravity = baseline().drum.diameter / 2.0, abs(baseline().gravity[1])
+    centrifuging = math.sqrt(gravity / radius) * 60.0 / (2.0 * math.pi)
+    return plots.specific_power_against_speed(_both_drums(data, "speed", "drum_specific_power"), centrifuging)
+
+
+def _curve(name: str, axis: str, *columns: str) -> "Callable[[StudyData], Figure]":
+    """Return the function that draws a figure of `plots` from columns against an axis."""
+
+    def draw(data: StudyData) -> "Figure":
+        from drumrs.paper import plots
+
+        tables = [
+            _three_fills(data, column) if axis == "friction" else _both_drums(data, axis, column)
+            for column in columns
+        ]
+        figure: Figure = getattr(plots, name)(*tables)
+        return figure
+
+    return draw
+
+
+_BARS = (
+    "Bars are 95 % intervals; open markers: the load drifts; faint dots: single seeds, where they disagree."
+)
+_POWER, _RATIOS = "drum_specific_power", ("dissipation_ratio", "work_ratio")
+
+_ALL = (
+    PaperFigure(
+        "F2",
+        "Snapshots without baffles",
+        "Fill 25, 50 and 75 %, colored by speed, at the end of the runs; a radius on each bundle shows its spin.",
+        _snapshots(baffles=False),
+    ),
+    PaperFigure(
+        "F3", "Snapshots with baffles", "As F2. The baffles' size is an assumption.", _snapshots(baffles=True)
+    ),
+    PaperFigure(
+        "F4",
+        "Drum power against fill",
+        f"Power of the drum per meter of its depth. Shaded is where the paper has the peak. {_BARS}",
+        _curve("power_against_fill", "fill", "drum_power"),
+    ),
+    PaperFigure(
+        "F5",
+        "Specific power against fill",
+        f"Drum power over the mass of the load. {_BARS}",
+        _curve("specific_power_against_fill", "fill", _POWER),
+    ),
+    PaperFigure(
+        "F6",
+        "N/T against fill",
+        "Power taken by normal damping over power taken by sliding; crosses: work of the contacts' normal over that of "
+        f"their tangential forces, which counts springs as well. {_BARS}",
+        _curve("ratio_against_fill", "fill", *_RATIOS),
+    ),
+    PaperFigure(
+        "F7",
+        "Specific power against bundle size",
+        f"At 40 % fill; the drum is the same, the bundles smaller to the right. {_BARS}",
+        _curve("specific_power_against_size", "size", _POWER),
+    ),
+    PaperFigure(
+        "F8",
+        "Specific power against friction",
+        f"Without baffles; the same friction between bundles and with the drum. {_BARS}",
+        _curve("specific_power_against_friction", "friction", _POWER),
+    ),
+    PaperFigure(
+        "F9",
+        "N/T against friction",
+        f"Without baffles; readings as in F6. {_BARS}",
+        _curve("ratio_against_friction", "friction", *_RATIOS),
+    ),
+    PaperFigure(
+        "speed",
+        "Specific power against the drum's speed",
+        f"At 25 % fill. The line marks where the rim's acceleration equals gravity. {_BARS}",
+        _draw_speed,
+    ),
+    PaperFigure(
+        "restitution",
+        "Specific power against restitution",
+        f"At 25 % fill; the same restitution between bundles and with the drum. {_BARS}",
+        _curve("specific_power_against_restitution", "restitution", _POWER),
+    ),
+    PaperFigure(
+        "drift",
+        "How steady the load is at 50 % fill",
+        "Running means over 2 s, one line a seed; shaded is the window of the averages. Where a load passes between "
+        "states, lines bend and part for longer than a few seconds.",
+        _draw_drift,
+    ),
+)
+
+FIGURES: Mapping[str, PaperFigure] = MappingProxyType({figure.number: figure for figure in _ALL})

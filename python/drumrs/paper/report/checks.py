@@ -1,0 +1,111 @@
+"""What speaks for and against the numbers: ledgers, the three powers, loads that drift."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from drumrs.analysis.drift import FALSE_ALARMS
+from drumrs.paper.data import StudyData
+from drumrs.paper.verdict import Number
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from drumrs.config import Config
+
+_CASE_DIGITS = 8
+
+
+@dataclass(frozen=True)
+class Run:
+    """A run as the report lists it.
+
+    Attributes
+    ----------
+    name
+        Beginning of the case's name.
+    parameters
+        What was varied, ready to be shown: fill, baffles, D/d, friction, restitution, speed, seed.
+    power
+        Specific power [W/kg] with its standard error.
+    ratio
+        N/T by dissipation.
+    residual
+        What the ledger fails to account for, relative.
+    disagreement
+        Largest relative difference of the three powers.
+    drifting
+        Whether the load drifts in the window.
+    reasons
+        Which of its three tests say so, with numbers.
+    """
+
+    name: str
+    parameters: tuple[str, ...]
+    power: str
+    ratio: str
+    residual: float
+    disagreement: float
+    drifting: bool
+    reasons: str
+
+
+PARAMETERS = ("fill", "baffles", "D/d", "μ", "e", "rpm", "seed")
+
+
+def runs(data: StudyData) -> list[Run]:
+    """Return every finished run, in the table's order."""
+    return [_run(row, data.configs[row["case"]]) for row in data.table.iter_rows(named=True)]
+
+
+def _run(row: "Mapping[str, Any]", config: "Config") -> Run:
+    return Run(
+        name=row["case"][:_CASE_DIGITS],
+        parameters=_parameters(config),
+        power=_value(row["drum_specific_power"], row["drum_specific_power_error"]),
+        ratio=_value(row["dissipation_ratio"], row["dissipation_ratio_error"]),
+        residual=abs(float(row["energy_residual"])),
+        disagreement=abs(float(row["power_disagreement"])),
+        drifting=bool(row["drifting"]),
+        reasons=_reasons(row),
+    )
+
+
+def _parameters(config: "Config") -> tuple[str, ...]:
+    contact = config.contact.bundle
+    fill = config.bundle_count * (config.load.diameter / config.drum.diameter) ** 2
+    return (
+        f"{100.0 * fill:.3g} %",
+        str(config.drum.baffles.count),
+        f"{config.drum.diameter / config.load.diameter:.3g}",
+        f"{contact.friction:g}",
+        f"{contact.restitution:g}" if contact.restitution is not None else "–",
+        f"{config.rotation.rpm:g}" if config.rotation.rpm is not None else "–",
+        str(config.run.seed),
+    )
+
+
+def _value(value: float | None, error: float | None) -> str:
+    if value is None:
+        return "–"
+    return f"{value:.3g}" if error is None else Number("", value, error).text
+
+
+_TESTS = (
+    ("drift", "power changes by {:+.0%}"),
+    ("share_drift", "N’s share changes by {:+.2f}"),
+    ("wandering", "N’s share differs by {:.2f} between stretches"),
+)
+
+
+def _reasons(row: "Mapping[str, Any]") -> str:
+    told = [
+        words.format(row[name])
+        for name, words in _TESTS
+        if row.get(name) is not None and row[f"{name}_significance"] < FALSE_ALARMS
+    ]
+    return ", ".join(told) if row["drifting"] else ""
+
+
+def worst(listed: list[Run], quantity: str) -> Run | None:
+    """Return the run with the greatest `residual` or `disagreement`, `None` where there is no run."""
+    return max(listed, key=lambda run: float(getattr(run, quantity)), default=None)

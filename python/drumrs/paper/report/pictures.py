@@ -1,0 +1,78 @@
+"""The study's figures, kept as PNG and SVG, in the page as whichever is smaller; and players of two runs."""
+
+import base64
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+from drumrs.paper.cases import BASELINE_FILL
+from drumrs.paper.data import StudyData
+from drumrs.paper.figures import FIGURES, PaperFigure
+from drumrs.paper.verdict import MissingError
+from drumrs.viewer import Player
+
+_KINDS = {".svg": "image/svg+xml", ".png": "image/png"}
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A figure of the study as the page shows it.
+
+    Attributes
+    ----------
+    figure
+        Its number, title and caption.
+    address
+        The picture itself as an address, empty where it could not be drawn.
+    missing
+        What it lacks to be drawn.
+    """
+
+    figure: PaperFigure
+    address: str = ""
+    missing: str = ""
+
+
+def draw(data: StudyData, folder: Path) -> list[Picture]:
+    """Draw every figure of the study into a folder, as PNG and SVG.
+
+    Raises
+    ------
+    OSError
+        Where the folder cannot be written.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    return [_draw(figure, data, folder) for figure in FIGURES.values()]
+
+
+def _draw(figure: PaperFigure, data: StudyData, folder: Path) -> Picture:
+    from drumrs import figures
+
+    try:
+        drawn = figure.draw(data)
+    except MissingError as missing:
+        return Picture(figure, missing=str(missing))
+    paths = [folder / f"{figure.number}{ending}" for ending in _KINDS]
+    for path in paths:
+        figures.write(drawn, path)
+    return Picture(figure, embedded(paths))
+
+
+def embedded(paths: Iterable[Path]) -> str:
+    """Return the smallest of some picture files as an address that holds the picture itself."""
+    smallest = min(paths, key=lambda path: path.stat().st_size)
+    data = base64.b64encode(smallest.read_bytes()).decode("ascii")
+    return f"data:{_KINDS[smallest.suffix]};base64,{data}"
+
+
+def players(data: StudyData) -> list[Player]:
+    """Return a player of the first seed without and one with baffles at 25 % fill, as far as they are finished."""
+    found = []
+    for baffles in (False, True):
+        try:
+            case = data.cases(BASELINE_FILL, baffles=baffles)[0]
+        except MissingError:
+            continue
+        frames, series = data.sweep.frames(case, data.folder), data.sweep.series(case, data.folder)
+        found.append(Player(frames, series, title=case.config.title, window=case.config.run.averaging_window))
+    return found

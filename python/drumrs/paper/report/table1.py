@@ -1,0 +1,177 @@
+"""The paper's Table 1, repaired: what the scan prints, what it must have been, and how that is known."""
+
+import math
+from dataclasses import dataclass
+
+from drumrs.config import Config, LinearContact, baseline
+
+# Scanned off the paper, units as here: stiffness [N/m] and damping [N s/m] between bundles and with the drum, and the
+# time step [s].
+SCANNED_STIFFNESS = {"bundle": 9.25e9, "drum": 9.70e9}
+SCANNED_DAMPING = {"bundle": 5.35e3, "drum": 7.74e3}
+SCANNED_STEP = 3.70e-6
+
+_AUTHORS = "as scanned"
+_ASSUMED = "assumed: the figure that gave it is lost"
+
+
+@dataclass(frozen=True)
+class Row:
+    """A line of Table 1."""
+
+    quantity: str
+    scanned: str
+    used: str
+    source: str = _AUTHORS
+
+
+@dataclass(frozen=True)
+class Contact:
+    """One kind of contact in the baseline: what is given, what follows, and what the scan would mean.
+
+    Attributes
+    ----------
+    name
+        ``"bundle"`` or ``"drum"``: what the bundle touches.
+    effective_mass
+        Mass m* of the collision per meter of depth [kg/m].
+    stiffness, damping
+        k_N [N/m] and ν_N [N s/m] of the baseline; the latter follows from the restitution.
+    collision_time
+        How long a collision lasts [s].
+    """
+
+    name: str
+    effective_mass: float
+    stiffness: float
+    damping: float
+    collision_time: float
+
+    @property
+    def scanned_restitution(self) -> float:
+        """Restitution that the scanned stiffness and damping would give."""
+        return restitution(SCANNED_STIFFNESS[self.name], SCANNED_DAMPING[self.name], self.effective_mass)
+
+    @property
+    def repaired_restitution(self) -> float:
+        """Restitution that the repaired stiffness and the scanned damping give."""
+        return restitution(self.stiffness, SCANNED_DAMPING[self.name], self.effective_mass)
+
+    @property
+    def scanned_steps(self) -> float:
+        """Time steps that a collision would last by the scan."""
+        name = self.name
+        return (
+            collision_time(SCANNED_STIFFNESS[name], SCANNED_DAMPING[name], self.effective_mass) / SCANNED_STEP
+        )
+
+
+def damping(law: LinearContact, mass: float) -> float:
+    """Return the damping [N s/m] that gives the law's restitution, ν = −2 ln e √(m* k) / √(π² + ln² e).
+
+    Examples
+    --------
+    >>> from drumrs.config import LinearContact
+    >>> law = LinearContact(normal_stiffness=9.25e7, restitution=0.1)
+    >>> f"{damping(law, 0.2215):.3g}"
+    '5.35e+03'
+    """
+    if law.restitution is None:
+        return law.normal_damping or 0.0
+    loss = -math.log(law.restitution)
+    return 2.0 * loss * math.sqrt(mass * law.normal_stiffness) / math.hypot(math.pi, loss)
+
+
+def restitution(stiffness: float, damping: float, mass: float) -> float:
+    """Return the restitution of a linear spring and dashpot, e = exp(−π ζ / √(1 − ζ²)) with ζ = ν / 2√(m* k)."""
+    share = damping / (2.0 * math.sqrt(mass * stiffness))
+    return math.exp(-math.pi * share / math.sqrt(1.0 - share**2))
+
+
+def collision_time(stiffness: float, damping: float, mass: float) -> float:
+    """Return how long a collision lasts [s], t = π / √(k/m* − (ν/2m*)²)."""
+    return math.pi / math.sqrt(stiffness / mass - (damping / (2.0 * mass)) ** 2)
+
+
+def bundle_mass(config: Config) -> float:
+    """Return the mass of a bundle per meter of depth [kg/m]."""
+    return config.load.density * math.pi * config.load.diameter**2 / 4.0
+
+
+def contacts(config: Config) -> tuple[Contact, Contact]:
+    """Return the contacts of a bundle with another one, and with the drum, whose mass counts as infinite."""
+    mass = bundle_mass(config)
+    kinds = (("bundle", config.contact.bundle, mass / 2.0), ("drum", config.contact.drum, mass))
+    found = []
+    for name, law, effective in kinds:
+        lost = damping(law, effective)
+        lasts = collision_time(law.normal_stiffness, lost, effective)
+        found.append(Contact(name, effective, law.normal_stiffness, lost, lasts))
+    return found[0], found[1]
+
+
+def rows() -> list[Row]:
+    """Return Table 1 line by line, with the numbers of the baseline."""
+    config = baseline()
+    bundle, drum = contacts(config)
+    load, run = config.load, config.run
+    law = config.contact.bundle
+    step = float(run.time_step)
+    ratio = config.drum.diameter / load.diameter
+    return [
+        Row("drum diameter D", "47.5 cm", f"{config.drum.diameter:g} m"),
+        Row("drum speed", "54 rpm", f"{config.rotation.rpm:g} rpm, {_speed(config)}"),
+        Row("bundle diameter d", "2.375 cm", f"{load.diameter:g} m (D/d = {ratio:g})"),
+        Row("bundle density ρ", "1000 kg/m³", f"{load.density:g} kg/m³, {bundle_mass(config):.4f} kg per m"),
+        Row("number of bundles N", "100 (25 %)", f"{config.bundle_count} at fill N d²/D² = {load.fill:.0%}"),
+        Row("friction μ, both", "0.5 (symbol lost)", f"{law.friction:g}", "the other of the two rows"),
+        Row(
+            "restitution e, both", "0.1 (symbol lost)", f"{law.restitution:g}", "fits the damping, see below"
+        ),
+        *_stiffness_rows(bundle, "bundle–bundle"),
+        *_stiffness_rows(drum, "bundle–drum"),
+        Row("k_S / k_N, both", "1", f"{law.stiffness_ratio:g}"),
+        Row(
+            "time step",
+            f"{scientific(SCANNED_STEP)} s",
+            f"{scientific(step)} s, 1/{bundle.collision_time / step:.1f} of a collision",
+        ),
+        Row("baffles", "–", _baffles(config), _ASSUMED),
+    ]
+
+
+def _stiffness_rows(contact: Contact, name: str) -> tuple[Row, Row]:
+    scanned = scientific(SCANNED_STIFFNESS[contact.name]), scientific(SCANNED_DAMPING[contact.name])
+    return (
+        Row(
+            f"{name} k_N",
+            f"{scanned[0]} N/m",
+            f"{scientific(contact.stiffness)} N/m",
+            "exponent repaired, see below",
+        ),
+        Row(f"{name} ν_N", f"{scanned[1]} N s/m", f"{scientific(contact.damping)} N s/m", "follows from e"),
+    )
+
+
+def _speed(config: Config) -> str:
+    speed = (config.rotation.rpm or 0.0) * math.tau / 60.0
+    froude = speed**2 * config.drum.diameter / 2.0 / math.hypot(*config.gravity)
+    return f"Ω = {speed:.4f} rad/s (Ω²R/g = {froude:.3f})"
+
+
+def _baffles(config: Config) -> str:
+    one = config.drum.baffles
+    return f"3 {one.shape}s, {1e3 * one.height:g} mm high on a base of {1e3 * one.base:g} mm, every 120°"
+
+
+def scientific(value: float) -> str:
+    """Write a number with a power of ten, as the paper does.
+
+    Examples
+    --------
+    >>> scientific(9.25e7), scientific(3.7e-6)
+    ('9.25·10⁷', '3.70·10⁻⁶')
+    """
+    digits, exponent = f"{value:.2e}".split("e")
+    raised = str(int(exponent)).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
+    return f"{digits}·10{raised}"

@@ -1,0 +1,173 @@
+"""The paper's study in one go: cases, runs, table, verdicts, figures, report; taken up again after any break."""
+
+import io
+import time
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+
+from drumrs.config import baseline
+from drumrs.files import write_whole
+from drumrs.paper.cases import cases
+from drumrs.paper.data import StudyData
+from drumrs.paper.measure import measure
+from drumrs.paper.report import Picture, summary, write
+from drumrs.paper.scales import Scale
+from drumrs.simulation import Simulation
+from drumrs.sweep import Case, Sweep
+from drumrs.sweep.crew import check_jobs, usable_cores
+from drumrs.sweep.store import Store
+
+# What the speed is measured on: a load that costs as much a particle-step as those of the study on average, once it
+# has fallen and lies in contact.
+_TRIAL_FILL = 0.5
+_SETTLING = 0.3  # simulated seconds
+_TRIAL = 0.25  # seconds of the wall clock
+# Reading results, drawing and writing the report: so long at least, and so long for each case [s].
+_WRITING, _WRITING_CASE = 6.0, 0.1
+
+
+@dataclass(frozen=True)
+class ReproductionResult:
+    """What a study leaves.
+
+    Attributes
+    ----------
+    data
+        Table, verdicts, failures.
+    report
+        The report, one HTML file.
+    summary
+        Findings, verdicts and figures as a page of Markdown.
+    table
+        The table of all runs, parquet.
+    pictures
+        The figures, with what some of them lack.
+    """
+
+    data: StudyData
+    report: Path
+    summary: Path
+    table: Path
+    pictures: tuple[Picture, ...]
+
+
+class Reproduction:
+    """A study that is to be run into a folder.
+
+    Parameters
+    ----------
+    scale
+        ``"quick"``, ``"default"`` or ``"full"``, or a `paper.Scale` of your own.
+    folder
+        Gets report.html, summary.md, table.parquet, figures/ and runs/, the results of every case.
+    jobs
+        Cases at once; one a usable core unless given.
+
+    Raises
+    ------
+    ConfigError
+        Where there is no such scale, the number of jobs is not accepted, or a newer version of drumrs made the folder.
+
+    Examples
+    --------
+    >>> from drumrs.paper.reproduction import Reproduction
+    >>> Reproduction("quick", "somewhere")
+    <Reproduction of 41 cases, 41 to be run>
+    """
+
+    def __init__(self, scale: str | Scale, folder: str | Path, jobs: int | None = None) -> None:
+        self.scale = scale if isinstance(scale, str) else "own"
+        self.folder = Path(folder)
+        check_jobs(jobs)
+        self.jobs = jobs or usable_cores()
+        self.sweep = Sweep.from_configs(cases(scale))
+        store = Store(self.runs_folder)
+        store.check_format()
+        self.waiting: tuple[Case, ...] = tuple(
+            case for case in self.sweep.cases if not store.is_settled(case)
+        )
+
+    def __repr__(self) -> str:
+        """Say how much there is to do."""
+        return f"<Reproduction of {len(self.sweep)} cases, {len(self.waiting)} to be run>"
+
+    @property
+    def runs_folder(self) -> Path:
+        """Where the results of the cases are."""
+        return self.folder / "runs"
+
+    @property
+    def cost(self) -> float:
+        """Particle-steps still to be done."""
+        return sum(case.cost for case in self.waiting)
+
+    def expected_time(self) -> float:
+        """Return how long it is going to take [s], from the speed that this machine shows in a fraction of a second."""
+        writing = _WRITING + _WRITING_CASE * len(self.sweep)
+        if not self.waiting:
+            return writing
+        together = measure_speed(min(self.jobs, len(self.waiting)))
+        # The longest case is begun first and goes no faster for being one of several.
+        longest = max(case.cost for case in self.waiting) * min(self.jobs, len(self.waiting))
+        return max(self.cost, longest) / together + writing
+
+    def run(
+        self, *, retry: bool = False, progress: bool = True, say: Callable[[str], None] | None = None
+    ) -> ReproductionResult:
+        """Run what is not finished, then judge, draw and write.
+
+        Parameters
+        ----------
+        retry
+            Whether cases that failed before are run again.
+        progress
+            Whether to show how far the runs are.
+        say
+            Called with a sentence for what comes after the runs.
+
+        Raises
+        ------
+        ConfigError
+            Where the folder cannot be written.
+        OSError
+            Where something cannot be written; finished cases are kept.
+        KeyboardInterrupt
+            After Ctrl-C; finished cases are kept, and the same call goes on.
+        """
+        began = time.perf_counter()
+        outcome = self.sweep.run(self.runs_folder, jobs=self.jobs, retry=retry, progress=progress)
+        if say is not None:
+            say("judging the claims, drawing the figures, writing the report")
+        table = measure(self.sweep, self.runs_folder)
+        buffer = io.BytesIO()
+        table.write_parquet(buffer)
+        write_whole(self.folder / "table.parquet", buffer.getvalue())
+        taken = time.perf_counter() - began
+        data = StudyData(table, self.sweep, self.runs_folder, self.scale, outcome.failures, taken)
+        page, text = self.folder / "report.html", self.folder / "summary.md"
+        pictures = write(data, page, self.folder / "figures")
+        summary.write(data, pictures, text)
+        return ReproductionResult(data, page, text, self.folder / "table.parquet", tuple(pictures))
+
+
+def measure_speed(jobs: int) -> float:
+    """Return the particle-steps a second that so many runs at once make together, measured for a moment.
+
+    Examples
+    --------
+    >>> from drumrs.paper.reproduction import measure_speed
+    >>> measure_speed(1) > 1e5
+    True
+    """
+    with ThreadPoolExecutor(jobs) as pool:
+        return sum(pool.map(_speed, range(1, jobs + 1)))
+
+
+def _speed(seed: int) -> float:
+    simulation = Simulation(baseline(_TRIAL_FILL, baffles=True), seed=seed)
+    simulation.run(duration=_SETTLING)
+    first, began = simulation.step, time.perf_counter()
+    simulation.run_until(simulation.last_step, wall_limit=_TRIAL)
+    return (simulation.step - first) * simulation.count / (time.perf_counter() - began)

@@ -1,0 +1,87 @@
+"""The cases of the study: complete, each once, within the budget, and able to start."""
+
+import math
+
+import pytest
+
+import drumrs
+from drumrs import paper
+from drumrs.errors import ConfigError
+from drumrs.paper.cases import TIME_STEP, WATCHED_FILLS
+
+
+def points(scale: str) -> list[drumrs.Config]:
+    """Return the cases of the first seed."""
+    return [config for config in paper.cases(scale) if config.run.seed == 1]
+
+
+@pytest.mark.parametrize("scale", paper.SCALES)
+def test_every_case_comes_once_and_with_every_seed(scale):
+    found = paper.cases(scale)
+    assert len({config.digest for config in found}) == len(found)
+    assert len(found) == len(points(scale)) * len(paper.SCALES[scale].seeds)
+
+
+@pytest.mark.parametrize("scale", paper.SCALES)
+def test_the_baseline_is_among_them(scale):
+    for baffles in (False, True):
+        like = drumrs.baseline(0.25, baffles=baffles)
+        same = [config for config in points(scale) if config.replace({"run": like.run.model_dump()}) == like]
+        assert len(same) == 1
+
+
+def test_the_default_is_the_papers_protocol():
+    found = paper.cases("default")
+    assert {config.run.duration for config in found} == {30.0}
+    assert {config.run.window for config in found} == {(20.0, 30.0)}
+    for baffles, highest in ((0, 0.80), (3, 0.75)):
+        fills = {c.load.fill for c in found if c.drum.baffles.count == baffles and c.load.diameter == 0.02375}
+        assert (min(fills), max(fills)) == (0.10, highest)
+        assert len({fill for fill in fills if 0.40 <= fill <= 0.50}) >= 5
+
+
+def test_the_time_step_follows_the_contact_time():
+    steps = {
+        round(0.475 / config.load.diameter, 6): config.run.time_step for config in paper.cases("default")
+    }
+    assert (min(steps), max(steps)) == (10.0, 37.0)
+    assert steps[20.0] == TIME_STEP
+    for ratio, step in steps.items():
+        assert step == pytest.approx(TIME_STEP * 20.0 / ratio)
+    # The core knows the contact times.
+    for ratio in (10.0, 37.0):
+        config = next(c for c in paper.cases("default") if math.isclose(c.load.diameter, 0.475 / ratio))
+        simulation = drumrs.Simulation(config)
+        assert simulation.collision_times["bundle"] / simulation.time_step == pytest.approx(51.5, abs=0.1)
+
+
+@pytest.mark.parametrize("scale", ["quick", "default"])
+def test_budget(scale):
+    most = {"quick": 1.3e10, "default": 5.0e11}[scale]
+    assert 0.8 * most < paper.cost(paper.cases(scale)) < most
+
+
+def test_the_densest_cases_start():
+    densest = [config for config in points("default") if config.load.fill >= 0.75]
+    assert {config.bundle_count for config in densest} == {300, 320}
+    for config in {c.load.fill + c.drum.baffles.count: c for c in densest}.values():
+        assert drumrs.Simulation(config).count == config.bundle_count
+
+
+def test_motion_is_kept_where_it_is_looked_at():
+    for scale in paper.SCALES:
+        dense = [config for config in paper.cases(scale) if config.run.frame_every < 1.0]
+        assert {(c.load.fill, c.drum.baffles.count) for c in dense} == {
+            (f, n) for f in WATCHED_FILLS for n in (0, 3)
+        }
+        assert len(dense) == 2 * len(WATCHED_FILLS) * len(paper.SCALES[scale].seeds)
+
+
+def test_cost_is_bundles_times_steps():
+    config = drumrs.baseline(0.25).replace({"run.duration": 37.0e-6})
+    assert paper.cost([config, config]) == 2 * 100 * 10
+
+
+def test_unknown_scale():
+    with pytest.raises(ConfigError, match="scale is 'large', but must be 'quick', 'default' or 'full'"):
+        paper.cases("large")
