@@ -7,7 +7,7 @@ mod common;
 use common::*;
 use drumrs::physics::contact::law::ContactLaw;
 use drumrs::physics::contact::linear::{Linear, LinearHistory};
-use drumrs::physics::contact::parameters::Tension;
+use drumrs::physics::contact::parameters::{ContactParameters, Tension};
 use drumrs::physics::vector::cross;
 use drumrs::simulation::Simulation;
 
@@ -126,6 +126,19 @@ fn friction_accounts_for_its_own_work() {
         let left =
             work - (holds.elastic_tangential - held.elastic_tangential) - response.flows.dissipated_sliding;
         assert!(left.abs() < 1e-12 * held.elastic_normal);
+    }
+}
+
+/// Where friction ends within a step, as when the force that presses is clipped to nothing, the spring's last stretch is lost. Slip
+/// against it, and beyond, brings none of it back.
+#[test]
+fn sliding_never_gives_energy() {
+    let law = linear_law(&ContactParameters { friction: 0.0, ..common::law(9.25e7) });
+    for (stretch, slip) in [(5e-7, -8e-7), (-5e-7, 8e-7), (5e-7, -3e-7), (5e-7, 3e-7)] {
+        let (response, after) = respond(&law, 1e-6, [0.0, slip], [1e-6, stretch]);
+        assert_eq!(after.tangential_displacement, 0.0);
+        let taken = response.flows.dissipated_sliding;
+        assert!(taken >= 0.0, "{stretch} {slip}: {taken}");
     }
 }
 

@@ -32,11 +32,11 @@ impl<S: Scalar> TruncatedSpring<S> {
 }
 
 /// Work of the friction force over the stretch that truncation took away: mean of the forces before and after, or the
-/// force after where sliding turned round within the step. Where the contact has ended, nothing is left after, and this is
-/// all that the spring held.
+/// force after where the bodies slid against the force before. Never below zero, since sliding goes the way of the force after.
+/// Where the contact has ended, nothing is left after, and this is all that the spring held.
 #[inline(always)]
 fn sliding_loss<S: Scalar>(stiffness: S, before: S, after: S, slid: S) -> S {
-    let turned = S::zero().exceeds(before * after);
+    let turned = S::zero().exceeds(before * slid);
     let mean = S::select(turned, after, (before + after) * S::splat(0.5));
     stiffness * (mean * slid)
 }
