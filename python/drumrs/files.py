@@ -3,6 +3,7 @@
 import errno
 import json
 import os
+import re
 import secrets
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -11,6 +12,7 @@ from typing import Any
 
 # What a write says where there is no room: disk, quota, limit of a process.
 NO_ROOM = frozenset({errno.ENOSPC, errno.EDQUOT, errno.EFBIG})
+_TEMPORARY = re.compile(r"\..+\.[0-9a-f]{8}\.tmp")
 
 
 def read_plain(path: Path) -> bytes:
@@ -55,6 +57,13 @@ def write_whole(path: str | Path, *data: bytes | memoryview) -> None:
     with replacing(path) as temporary, temporary.open("wb") as file:
         for piece in data:
             file.write(piece)
+
+
+def remove_temporaries(folder: Path) -> None:
+    """Remove the temporary files that a kill has left in a folder to which nobody else writes now."""
+    for path in folder.glob(".*.tmp"):
+        if _TEMPORARY.fullmatch(path.name):
+            path.unlink(missing_ok=True)
 
 
 @contextmanager

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from drumrs.errors import CheckpointError
-from drumrs.files import replacing
+from drumrs.files import remove_temporaries, replacing
 from drumrs.frames import FramesFile, sink_frames
 from drumrs.records import Records
 from drumrs.tables import write_table
@@ -84,7 +84,8 @@ class Parts:
 
     def remove(self) -> None:
         """Remove all parts, and what a kill left of one."""
-        for pattern in ("series-*.parquet", "frames-*.parquet", ".*.tmp"):
+        remove_temporaries(self._folder / _FOLDER)
+        for pattern in ("series-*.parquet", "frames-*.parquet"):
             # The first ones first: where a kill leaves the others, what lies before them is in the run's tables.
             for path in sorted((self._folder / _FOLDER).glob(pattern)):
                 path.unlink()

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from drumrs.errors import UnstableError
+from drumrs.files import remove_temporaries
 from drumrs.frames import Frames, FramesFile, thinned
 from drumrs.output import complete, draw
 from drumrs.parts import PART_SIZE, Parts
@@ -38,6 +39,7 @@ class RunFolder:
         # Tables of another run must not pass for the beginning of this one.
         for name in ("summary.json", UNSTABLE, _CHECKPOINT, "series.parquet", "frames.parquet"):
             (self.path / name).unlink(missing_ok=True)
+        remove_temporaries(self.path)
         self._parts.remove()
 
     def load(self, threads: int) -> Simulation:
@@ -51,7 +53,8 @@ class RunFolder:
         return Simulation.load(self.path / _CHECKPOINT, threads, with_records=False)
 
     def restore(self, simulation: Simulation) -> None:
-        """Give a simulation of `load` its series, and drop what was recorded after its checkpoint."""
+        """Give a simulation of `load` its series, and drop what was recorded after its checkpoint, or half written."""
+        remove_temporaries(self.path)
         self._parts.restore(simulation.records)
 
     def flush(self, simulation: Simulation) -> None:
