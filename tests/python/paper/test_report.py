@@ -215,7 +215,7 @@ def test_provenance_names_versions_and_times(data, text):
 
 
 def test_citation_is_that_of_the_repository(text):
-    cited = (Path(__file__).parents[2] / "CITATION.cff").read_text(encoding="utf-8")
+    cited = (Path(__file__).parents[3] / "CITATION.cff").read_text(encoding="utf-8")
     for title in re.findall(r'^ *title: "(.*)"$', cited, re.MULTILINE) or [""]:
         assert title in text
     assert f"version: {drumrs.__version__}\n" in cited

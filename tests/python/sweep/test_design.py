@@ -154,7 +154,7 @@ def test_study_file(tmp_path):
 
 
 def test_the_study_of_the_readme_is_one(tmp_path):
-    readme = (Path(__file__).parents[2] / "README.md").read_text(encoding="utf-8")
+    readme = (Path(__file__).parents[3] / "README.md").read_text(encoding="utf-8")
     (study,) = re.findall(r"```toml\n(.*?)```", readme, re.DOTALL)
     path = tmp_path / "study.toml"
     path.write_text(study)

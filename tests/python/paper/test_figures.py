@@ -13,7 +13,7 @@ from drumrs.paper import plots
 from drumrs.paper.curves import Results
 from drumrs.paper.figures import points
 from drumrs.sweep import Case
-from test_figures import made_up
+from synthetic import made_up
 from worlds import world
 
 FROM_TABLE = ["F4", "F5", "F6", "F7", "F8", "F9", "speed", "restitution"]

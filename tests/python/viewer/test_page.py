@@ -9,7 +9,7 @@ import pytest
 
 from drumrs.frames import Frames
 from drumrs.viewer import Player, assets
-from test_viewer import series_of
+from synthetic import series_of
 
 RADIUS = 0.2
 LATER = 0.5  # seconds: long enough to see time pass, whatever else the machine does

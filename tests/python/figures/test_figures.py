@@ -7,22 +7,9 @@ import pytest
 from drumrs import figures
 from drumrs.figures import history, shared
 from drumrs.frames import Frames
+from synthetic import made_up
 
 TRIANGLE = np.array([[0.98, -0.2], [0.8, 0.0], [0.98, 0.2]])
-
-
-def made_up(count: int = 12, frames: int = 3, **scene) -> Frames:
-    random = np.random.default_rng(1)
-    times = 0.1 * np.arange(frames)
-    return Frames(
-        times=times,
-        drum_angles=2.0 * times,
-        positions=random.uniform(-0.6, 0.6, (frames, count, 2)),
-        angles=random.uniform(0.0, 6.0, (frames, count)),
-        speeds=random.uniform(0.0, 2.0, (frames, count)),
-        radii=np.full(count, 0.05),
-        **scene,
-    )
 
 
 SCENES = {

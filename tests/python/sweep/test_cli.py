@@ -150,7 +150,7 @@ def test_a_job_array_shares_the_cases(drum, study, tmp_path):
 
 
 def test_the_slurm_script_runs_its_part(drum, study, tmp_path):
-    script = Path(__file__).parents[2] / "examples" / "05_slurm_array.sh"
+    script = Path(__file__).parents[3] / "examples" / "05_slurm_array.sh"
     command = tmp_path / "bin" / "drumrs"
     command.parent.mkdir()
     command.write_text(f'#!/bin/sh\nexec {sys.executable} -m drumrs "$@"\n')
@@ -166,7 +166,7 @@ def test_the_slurm_script_runs_its_part(drum, study, tmp_path):
 
 
 def test_the_study_of_the_slurm_script_is_one(tmp_path):
-    script = Path(__file__).parents[2] / "examples" / "05_slurm_array.sh"
+    script = Path(__file__).parents[3] / "examples" / "05_slurm_array.sh"
     study = re.search(r"<<'TOML'\n(.*?)\nTOML", script.read_text(), re.DOTALL)
     (tmp_path / "study.toml").write_text(study.group(1))
     assert len(read_study(tmp_path / "study.toml")) == 60

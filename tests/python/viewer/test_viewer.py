@@ -15,6 +15,7 @@ from drumrs import viewer
 from drumrs.frames import Frames
 from drumrs.viewer import curves
 from drumrs.viewer.recording import recording
+from synthetic import series_of
 
 SCRIPT = re.compile(r'<script type="application/json">(.*?)</script>', re.DOTALL)
 
@@ -73,19 +74,6 @@ def test_a_load_at_rest_has_a_scale():
     frames = frames_of(drum_radius=0.3)
     still = Frames(**{**vars(frames), "speeds": np.zeros_like(frames.speeds)})
     assert recording(still, None, "", None)["speed_scale"] == 1.0
-
-
-def series_of(power: float, rows: int = 301) -> pl.DataFrame:
-    time = 0.01 * np.arange(rows)
-    energies = ("kinetic_translation", "kinetic_rotation", "elastic_normal", "elastic_tangential")
-    flows = {"work_drum": power, "dissipated_normal": 0.6 * power, "dissipated_sliding": 0.4 * power}
-    return pl.DataFrame(
-        {
-            "time": time,
-            **{name: rate * time for name, rate in flows.items()},
-            **{name: np.full(rows, 2.0) for name in energies},
-        }
-    )
 
 
 def test_curves_are_exact_means():

@@ -11,9 +11,9 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 
 import drumrs
+from documents import documents, mutations, outcome, toml
 from drumrs.config import Config, parse_settings
 from drumrs.errors import ConfigError
-from hostile_documents import documents, mutations, outcome, toml
 
 LONG = os.environ.get("HYPOTHESIS_PROFILE") == "hostile"
 HOSTILE = settings(
