@@ -5,7 +5,9 @@ from typing import TYPE_CHECKING
 
 from drumrs.config import Config
 from drumrs.errors import ConfigError
+from drumrs.files import read_object
 from drumrs.frames import Frames
+from drumrs.result import UNSTABLE, ended_unstable
 from drumrs.viewer.page import Player
 from drumrs.viewer.recording import MOST_PLACES
 
@@ -35,7 +37,7 @@ def read(path: str | Path) -> Player:
     config = _read_config(path)
     if config is None:
         return Player(frames, series, title=_name(path))
-    return Player(frames, series, title=config.title, window=config.run.averaging_window)
+    return Player.of(config, frames, series, _how_it_ended(path))
 
 
 def default_page(path: str | Path) -> Path:
@@ -86,6 +88,12 @@ def _read_config(path: Path) -> Config | None:
     stem = path.name.removesuffix(_FRAMES).rstrip(".")
     file = path.with_name(f"{stem or 'config'}.toml")
     return Config.read(file) if file.is_file() else None
+
+
+def _how_it_ended(path: Path) -> str:
+    """Return what is to be said of the end of a run: nothing where it went well."""
+    ended = read_object(path.with_name(UNSTABLE)) if path.name == _FRAMES else None
+    return ended_unstable(ended["time"]) if ended is not None and "time" in ended else ""
 
 
 def _name(path: Path) -> str:

@@ -156,6 +156,22 @@ def test_a_result_shows_itself(finished):
     assert len(data["baffles"]) == 3
 
 
+def test_titles_tell_what_was_simulated(tmp_path):
+    state = drumrs.State([[0.0, 0.0], [0.1, 0.0], [0.0, -0.1]], radii=[0.01, 0.02, 0.02])
+    config = drumrs.baseline().replace({"run.duration": 0.02})
+    simulation = drumrs.Simulation(config, state=state)
+    simulation.run()
+    result = simulation.result()
+    # 4 (0.01² + 0.02² + 0.02²)/0.475², where the configuration had 100 bundles and 25 %.
+    title = "3 bundles (1.6 % fill), no baffles, 54 rpm, seed 1"
+    assert drumrs.player(result).title == title
+    drumrs.save(result, tmp_path)
+    assert result.config.bundle_count == drumrs.Config.read(tmp_path / "config.toml").bundle_count == 3
+    assert drumrs.load(tmp_path).summary.bundle_count == 3
+    assert viewer.read(tmp_path).title == title
+    assert f"<title>{title}</title>" in (tmp_path / "player.html").read_text(encoding="utf-8")
+
+
 def test_view_writes_the_page_and_opens_it(finished, drum, monkeypatch):
     opened = []
     monkeypatch.setattr("webbrowser.open", opened.append)
