@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from drumrs.figures.shared import INK, drumrs_style, line_colors, new_figure
+from drumrs.figures import INK, drumrs_style, line_colors, new_figure
 from drumrs.verification.evidence import Panel, Trace
 
 if TYPE_CHECKING:

@@ -11,7 +11,7 @@ from drumrs.errors import ConfigError
 from drumrs.files import write_whole
 from drumrs.frames import Frames
 from drumrs.viewer.bundle import module
-from drumrs.viewer.recording import recording
+from drumrs.viewer.recording import pack
 
 if TYPE_CHECKING:
     import polars as pl
@@ -23,6 +23,7 @@ _PAGE = """<!doctype html>
 <head>
 <meta charset="utf-8">
 <meta name="viewport" content="width=device-width, initial-scale=1">
+<meta name="generator" content="drumrs">
 <meta name="color-scheme" content="light dark">
 <title>{title}</title>
 <style>
@@ -125,7 +126,7 @@ class Player:
         start
             Time to show first [s]; the first frame unless given.
         """
-        data = json.dumps(recording(self._frames, self._series, self.title, self.window), allow_nan=False)
+        data = json.dumps(pack(self._frames, self._series, self.title, self.window), allow_nan=False)
         # A title may hold any text, but none that would end the script.
         safe = data.replace("<", "\\u003c")
         attributes = " autoplay" if autoplay else ""

@@ -10,7 +10,7 @@ import pytest
 
 from drumrs.frames import Frames
 from drumrs.viewer import Player, module, script
-from drumrs.viewer.recording import recording
+from drumrs.viewer.recording import pack
 from synthetic import series_of
 
 RADIUS = 0.2
@@ -361,7 +361,7 @@ Object.assign(window, {{ recording, one, two, told }});
 
 @pytest.fixture
 def embedded(show) -> Shown:
-    data = json.dumps(recording(scene(), series_of(7.0), "", None))
+    data = json.dumps(pack(scene(), series_of(7.0), "", None))
     return show(EMBEDDED.format(data=data, module=module("player.js", "recording.js")))
 
 
