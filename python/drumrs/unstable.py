@@ -9,6 +9,7 @@ from drumrs.config import Config
 from drumrs.errors import ConfigError, UnstableError
 from drumrs.files import read_object, write_whole
 from drumrs.frames import Frames
+from drumrs.pictures import attempt
 from drumrs.result import UNSTABLE, Summary
 from drumrs.simulation import Simulation
 
@@ -72,12 +73,15 @@ class UnstableRun:
         return Player(self.frames, self.series, title=title, window=self.config.run.averaging_window)
 
     def save_end(self, folder: Path) -> list[Path]:
-        """Write player.html and, last, unstable.json, beside the tables; return their paths."""
-        page = self.player().save(folder / "player.html")
+        """Write unstable.json and player.html, beside the tables; return the paths of what was written."""
         summary = asdict(self.summary) if self.summary is not None else None
         told = {"error": self.error, "step": self.step, "time": self.time, "summary": summary}
         write_whole(folder / UNSTABLE, f"{json.dumps(told, indent=2)}\n".encode())
-        return [page, folder / UNSTABLE]
+        page = folder / "player.html"
+        page.unlink(missing_ok=True)
+        with attempt(page):
+            return [folder / UNSTABLE, self.player().save(page)]
+        return [folder / UNSTABLE]
 
 
 def _summary(simulation: Simulation) -> Summary | None:

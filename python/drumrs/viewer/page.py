@@ -2,21 +2,18 @@
 
 import html
 import json
-from functools import cache
-from importlib.resources import files
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from drumrs.errors import ConfigError
 from drumrs.files import write_whole
 from drumrs.frames import Frames
+from drumrs.viewer.bundle import module
 from drumrs.viewer.recording import recording
 
 if TYPE_CHECKING:
     import polars as pl
 
-# In the order in which they use each other; together they are one module, whose names stay inside.
-_SCRIPTS = ("color.js", "recording.js", "coloring.js", "plot.js", "stage.js", "player.js")
 _NOTEBOOK_HEIGHT = 700  # CSS pixels
 
 _PAGE = """<!doctype html>
@@ -33,7 +30,7 @@ body {{ max-width: 1240px; margin: 0 auto; padding: 12px; background: Canvas; }}
 </head>
 <body>
 {player}
-{assets}
+{script}
 </body>
 </html>
 """
@@ -95,7 +92,7 @@ class Player:
         return f"<Player of {self._frames.count} bundles, {len(self._frames)} frames>"
 
     def element(self, *, autoplay: bool = False, start: float | None = None) -> str:
-        """Return the player as an HTML element; the page needs `assets` once, anywhere.
+        """Return the player as an HTML element; the page needs `script` once, anywhere.
 
         Parameters
         ----------
@@ -107,18 +104,17 @@ class Player:
         data = json.dumps(recording(self._frames, self._series, self._title, self.window), allow_nan=False)
         # A title may hold any text, but none that would end the script.
         safe = data.replace("<", "\\u003c")
-        script = f'<script type="application/json">{safe}</script>'
         attributes = " autoplay" if autoplay else ""
         if start is not None:
             attributes += f' start="{start:g}"'
-        return f"<drumrs-player{attributes}>{script}</drumrs-player>"
+        return f'<drumrs-player{attributes}><script type="application/json">{safe}</script></drumrs-player>'
 
     def page(self, *, autoplay: bool = True) -> str:
         """Return the player as a whole HTML page."""
         return _PAGE.format(
             title=html.escape(self._title or "drumrs"),
             player=self.element(autoplay=autoplay),
-            assets=assets(),
+            script=script(),
         )
 
     def save(self, path: str | Path) -> Path:
@@ -141,22 +137,13 @@ class Player:
         )
 
 
-@cache
-def assets() -> str:
-    """Return the template and script that all players of a page share.
+def script() -> str:
+    """Return the script that all players of a page share, as an HTML element.
 
     Examples
     --------
-    >>> from drumrs.viewer import assets
-    >>> assets().startswith('<template id="drumrs-player">')
+    >>> from drumrs.viewer import script
+    >>> script().startswith('<script type="module">')
     True
     """
-    folder = files(__package__ or "drumrs.viewer")
-    markup, style, *scripts = (
-        folder.joinpath(name).read_text(encoding="utf-8") for name in ("player.html", "player.css", *_SCRIPTS)
-    )
-    script = "\n".join(scripts)
-    return (
-        f'<template id="drumrs-player">\n<style>\n{style}</style>\n{markup}</template>\n'
-        f'<script type="module">\n{script}</script>'
-    )
+    return f'<script type="module">\n{module("element.js")}</script>'
