@@ -1,5 +1,8 @@
 """What is made of a result: its folder with tables, pictures and a player."""
 
+import json
+from collections.abc import Callable, Mapping
+from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -7,7 +10,8 @@ from drumrs.config import Config
 from drumrs.files import write_whole
 from drumrs.frames import Frames
 from drumrs.pictures import attempt
-from drumrs.result import UNSTABLE, Result, Summary, write_tables
+from drumrs.result import UNSTABLE, Result, Summary, ended_unstable, write_tables
+from drumrs.unstable import UnstableRun
 
 if TYPE_CHECKING:
     import polars as pl
@@ -18,8 +22,13 @@ if TYPE_CHECKING:
 PICTURES = ("time_series.png", "snapshots.png", "player.html")
 
 
-def player(result: Result) -> "Player":
+def player(run: Result | UnstableRun) -> "Player":
     """Return a run as a player: shown by a notebook, or written as one HTML file with its `save`.
+
+    Parameters
+    ----------
+    run
+        A finished run, or one that ended unstable, whose end is the last frame.
 
     Examples
     --------
@@ -28,13 +37,10 @@ def player(result: Result) -> "Player":
     >>> drumrs.player(drumrs.run(config, progress=False))
     <Player of 40 bundles, 3 frames>
     """
-    return _player(result.config, result.series, result.frames)
-
-
-def _player(config: Config, series: "pl.DataFrame", frames: Frames) -> "Player":
     from drumrs.viewer import Player
 
-    return Player(frames, series, title=config.title, window=config.run.averaging_window)
+    note = ended_unstable(run.time) if isinstance(run, UnstableRun) else ""
+    return Player.of(run.config, run.frames, run.series, note)
 
 
 def save(result: Result, folder: str | Path, *, pictures: bool = True) -> list[Path]:
@@ -75,6 +81,14 @@ def complete(folder: Path, summary: Summary) -> Path:
     return folder / "summary.json"
 
 
+def save_unstable(run: UnstableRun, folder: Path) -> list[Path]:
+    """Write unstable.json and player.html, beside the tables; return the paths of what was written."""
+    summary = asdict(run.summary) if run.summary is not None else None
+    told = {"error": run.error, "step": run.step, "time": run.time, "summary": summary}
+    write_whole(folder / UNSTABLE, f"{json.dumps(told, indent=2)}\n".encode())
+    return [folder / UNSTABLE, *_make(folder, {"player.html": lambda path: player(run).save(path)})]
+
+
 def draw(
     folder: Path, config: Config, summary: Summary, series: "pl.DataFrame", shown: Frames, pictured: Frames
 ) -> list[Path]:
@@ -102,7 +116,7 @@ def draw(
         Where one of them could not be made; the others are there.
     """
     start, end = window = config.run.averaging_window
-    fill = f"fill {100.0 * summary.fill:.0f} %"
+    fill = f"fill {100.0 * summary.fill:.3g} %"
 
     def draw_time_series(path: Path) -> None:
         from drumrs import figures
@@ -116,13 +130,20 @@ def draw(
         figures.write(figures.snapshots([figures.View(pictured, index, fill) for index in indices]), path)
 
     def write_player(path: Path) -> None:
-        _player(config, series, shown).save(path)
+        from drumrs.viewer import Player
 
-    drawings = {"time_series.png": draw_time_series}
+        Player.of(config, shown, series).save(path)
+
+    drawings: dict[str, Callable[[Path], object]] = {"time_series.png": draw_time_series}
     if len(pictured):
         drawings["snapshots.png"] = draw_snapshots
     if len(shown):
         drawings["player.html"] = write_player
+    return _make(folder, drawings)
+
+
+def _make(folder: Path, drawings: Mapping[str, Callable[[Path], object]]) -> list[Path]:
+    """Make pictures by name of their file, each for itself; return the files written."""
     written = []
     for name, make in drawings.items():
         # A picture of an earlier run must not pass for one of this.

@@ -35,8 +35,10 @@ def attempt(picture: str | Path) -> Iterator[Attempt]:
     --------
     >>> import warnings
     >>> from drumrs.pictures import attempt
-    >>> with warnings.catch_warnings(record=True) as told, attempt("drum.png") as made:
-    ...     raise ValueError("no font")
+    >>> with warnings.catch_warnings(record=True) as told:
+    ...     warnings.simplefilter("always")
+    ...     with attempt("drum.png") as made:
+    ...         raise ValueError("no font")
     >>> str(told[0].message), made.failure
     ('drum.png could not be made (ValueError: no font); the numbers are complete', 'ValueError: no font')
     """

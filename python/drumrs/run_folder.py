@@ -8,7 +8,7 @@ import numpy as np
 from drumrs.errors import UnstableError
 from drumrs.files import remove_temporaries
 from drumrs.frames import Frames, FramesFile, thinned
-from drumrs.output import PICTURES, complete, draw
+from drumrs.output import PICTURES, complete, draw, save_unstable
 from drumrs.parts import PART_SIZE, Parts
 from drumrs.pictures import attempt
 from drumrs.result import UNSTABLE, Summary, write_tables
@@ -80,11 +80,11 @@ class RunFolder:
         return summary, written
 
     def conclude_unstable(self, simulation: Simulation, error: UnstableError) -> None:
-        """Write what `UnstableRun.save_end` writes."""
+        """Write what `save_unstable` writes."""
         series = simulation.series
         self._write_tables(simulation, series)
         frames = _shown(FramesFile.of(self.path / "frames.parquet"))
-        UnstableRun.of(simulation, error, series, frames).save_end(self.path)
+        save_unstable(UnstableRun.of(simulation, error, series, frames), self.path)
         self._parts.remove()
 
     def _write_tables(self, simulation: Simulation, series: "pl.DataFrame") -> list[Path]:

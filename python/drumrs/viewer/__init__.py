@@ -1,6 +1,7 @@
 """The player: a run as one HTML page that needs nothing else, for a browser, a notebook or a report.
 
-`recording` turns frames and series into what the page reads, `page` puts pages together, `source` finds a run's files.
+`recording` turns frames and series into what the page reads, `page` puts pages together, `folder` finds a run
+and `source` reads it.
 In the browser, player.js is a player in any element of a page. Of its parts, stage.js draws the drum, plot.js curves,
 panel.js has their legend, controls.js buttons and keys, color.js what colors stand for; recording.js holds the frames
 and takes more of them while a run goes on. element.js is the element of the pages written here. `module` joins files
@@ -8,7 +9,8 @@ into one module for other pages and widgets. Nothing here sees a simulation.
 """
 
 from drumrs.viewer.bundle import module
+from drumrs.viewer.folder import find
 from drumrs.viewer.page import Player, script
 from drumrs.viewer.source import default_page, read
 
-__all__ = ["Player", "default_page", "module", "read", "script"]
+__all__ = ["Player", "default_page", "find", "module", "read", "script"]

@@ -2,9 +2,11 @@
 
 import html
 import json
+import math
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Self
 
+from drumrs.config import Config
 from drumrs.errors import ConfigError
 from drumrs.files import write_whole
 from drumrs.frames import Frames
@@ -57,6 +59,8 @@ class Player:
 
     Attributes
     ----------
+    title
+        What is written over the player.
     window
         Interval of the averages [s], `None` where there is none.
 
@@ -84,8 +88,28 @@ class Player:
             )
         self._frames = frames
         self._series = series
-        self._title = title
+        self.title = title
         self.window = window
+
+    @classmethod
+    def of(cls, config: Config, frames: Frames, series: "pl.DataFrame | None" = None, note: str = "") -> Self:
+        """Return the player of a run, with a title that says what was simulated.
+
+        Parameters
+        ----------
+        config
+            The configuration.
+        frames, series
+            What was recorded. Number of bundles and fill are those of the frames: a given start may have others than
+            the configuration.
+        note
+            Added to the title.
+        """
+        fill = math.fsum((2.0 * frames.radii) ** 2) / config.drum.diameter**2
+        title = config.title_of(frames.count, fill)
+        return cls(
+            frames, series, title=f"{title}: {note}" if note else title, window=config.run.averaging_window
+        )
 
     def __repr__(self) -> str:
         """Say what would be shown."""
@@ -101,7 +125,7 @@ class Player:
         start
             Time to show first [s]; the first frame unless given.
         """
-        data = json.dumps(recording(self._frames, self._series, self._title, self.window), allow_nan=False)
+        data = json.dumps(recording(self._frames, self._series, self.title, self.window), allow_nan=False)
         # A title may hold any text, but none that would end the script.
         safe = data.replace("<", "\\u003c")
         attributes = " autoplay" if autoplay else ""
@@ -112,7 +136,7 @@ class Player:
     def page(self, *, autoplay: bool = True) -> str:
         """Return the player as a whole HTML page."""
         return _PAGE.format(
-            title=html.escape(self._title or "drumrs"),
+            title=html.escape(self.title or "drumrs"),
             player=self.element(autoplay=autoplay),
             script=script(),
         )

@@ -78,5 +78,5 @@ def players(data: StudyData) -> list[Player]:
         config = case.config
         with attempt(f"the player of {config.title}"):
             frames, series = data.sweep.frames(case, data.folder), data.sweep.series(case, data.folder)
-            found.append(Player(frames, series, title=config.title, window=config.run.averaging_window))
+            found.append(Player.of(config, frames, series))
     return found
