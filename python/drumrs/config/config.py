@@ -8,13 +8,13 @@ from typing import Any, Self
 
 from pydantic import model_validator
 
-from drumrs.config import fields
-from drumrs.config.boundary import core_config
-from drumrs.config.document import to_toml
+from drumrs.config import types
 from drumrs.config.layers import merge, nest, read_toml
-from drumrs.config.models import Tables
-from drumrs.config.report import relation
+from drumrs.config.messages import relation
 from drumrs.config.softening import layer, softening
+from drumrs.config.tables import Tables
+from drumrs.config.to_core import core_config
+from drumrs.config.toml_writer import to_toml
 from drumrs.errors import ConfigError
 
 
@@ -38,10 +38,10 @@ class Config(Tables):
                 f"drum.diameter = {self.drum.diameter}"
             )
         one = (self.load.diameter / self.drum.diameter) ** 2
-        if self.load.fill is not None and not one / 2.0 < self.load.fill <= one * fields.GREATEST_COUNT:
+        if self.load.fill is not None and not one / 2.0 < self.load.fill <= one * types.GREATEST_COUNT:
             raise relation(
                 f"load.fill is {self.load.fill}, but must be between {one / 2.0:.4g} and "
-                f"{one * fields.GREATEST_COUNT:.4g}: one bundle of diameter {self.load.diameter} fills {one:.4g} "
+                f"{one * types.GREATEST_COUNT:.4g}: one bundle of diameter {self.load.diameter} fills {one:.4g} "
                 f"of a drum of diameter {self.drum.diameter}"
             )
         return self
