@@ -87,7 +87,7 @@ def test_a_backend_of_another_environment(tmp_path):
     done = subprocess.run(
         [sys.executable, "-m", "drumrs", "run", *SHORT, "--out", "out"],
         cwd=tmp_path,
-        env={**os.environ, "MPLBACKEND": "module://no_such_package.backend"},
+        env={**os.environ, "MPLBACKEND": "module://matplotlib_inline.backend_inline"},
         capture_output=True,
         text=True,
         check=False,
