@@ -43,14 +43,14 @@ export const MODES = {
     value: (recording, k, scene) => scene.bundles[k].speed,
   },
   height: {
-    label: "Height at the marked time",
+    label: "Height at marked time",
     unit: "mm",
     factor: 1000,
     marked: true,
     value: (recording, k, scene, mark) => recording.position(mark, k)[1],
   },
   distance: {
-    label: "Distance from the axis at the marked time",
+    label: "Distance from axis at marked time",
     unit: "mm",
     factor: 1000,
     marked: true,
