@@ -3,6 +3,7 @@
 import json
 import os
 import random
+import re
 import resource
 import shutil
 import signal
@@ -176,9 +177,11 @@ def written(path) -> int:
 
 
 def ended(child: subprocess.Popen) -> tuple[int, str]:
-    """Return status and complaint of a child, but for what --softer says."""
+    """Return status and complaint of a child, but for what --softer says and for lines of progress."""
     _, complaint = child.communicate()
-    return child.returncode, "".join(line for line in complaint.splitlines() if "--softer" not in line)
+    return child.returncode, "".join(
+        line for line in complaint.splitlines() if not re.search(r"--softer|: \d+%, ", line)
+    )
 
 
 @pytest.mark.parametrize("blow", [signal.SIGKILL, signal.SIGINT])

@@ -6,8 +6,8 @@ import drumrs
 from drumrs.cli.options import Seed, Settings, check_folder
 from drumrs.cli.tables import print_paths, print_table
 from drumrs.config import Config, merge, nest, parse_settings
-from drumrs.protocol import run_side_by_side
 from drumrs.result import Result
+from drumrs.runs import run_side_by_side
 
 
 def baseline(

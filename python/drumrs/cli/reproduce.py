@@ -61,7 +61,7 @@ def _say(sentence: str) -> None:
 
 
 def _announce(reproduction: "Reproduction") -> None:
-    from drumrs.pages.provenance import format_duration
+    from drumrs.progress import format_duration
 
     count, waiting = len(reproduction.sweep), len(reproduction.waiting)
     done = f", {count - waiting} of them settled already" if waiting < count else ""

@@ -13,10 +13,9 @@ from drumrs.config import Config
 from drumrs.config.softening import softening
 from drumrs.errors import ConfigError, UnstableError
 from drumrs.limits import require_disk
-from drumrs.precision import Goal, pursue
-from drumrs.progress import board
-from drumrs.protocol import announce, finish
+from drumrs.precision import Goal, run_until_precise
 from drumrs.run_folder import RunFolder
+from drumrs.runs import packing, run_to_end
 from drumrs.simulation import Simulation
 from drumrs.unstable import refuse_to_repeat
 
@@ -80,7 +79,8 @@ def run(
         goal = _goal(until, limit, config.run.duration)
         if out is not None:
             check_folder(out)
-        simulation = Simulation(config, threads=threads, in_memory=out is None)
+        with packing(config, show=True):
+            simulation = Simulation(config, threads=threads, in_memory=out is None)
         folder = _open_folder(out, simulation)
     try:
         reached = _finish(simulation, folder, goal)
@@ -151,12 +151,11 @@ def _finish(simulation: Simulation, folder: RunFolder | None, goal: Goal | None)
     hint = f"go on with: drumrs run --resume {folder.path} {words}".rstrip() if folder is not None else ""
     hint = hint or "nothing is kept without --out"
     try:
-        with board(show=True) as shown:
-            if goal is not None:
-                return pursue(simulation, goal, shown, folder)
-            finish(simulation, announce(shown, simulation), folder)
-            return ""
+        if goal is not None:
+            return run_until_precise(simulation, goal, folder)
+        run_to_end(simulation, folder)
     except MemoryError as error:
         raise MemoryError(f"out of memory at t = {simulation.time:.3f} s: {error}; {hint}") from None
     except KeyboardInterrupt:
         raise KeyboardInterrupt(f"interrupted at t = {simulation.time:.3f} s; {hint}") from None
+    return ""

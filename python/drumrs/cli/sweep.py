@@ -1,4 +1,4 @@
-"""`drumrs sweep`: the cases of a study file, run once each."""
+"""`drumrs sweep`: the cases of a sweep file, run once each."""
 
 import sys
 from collections.abc import Iterator
@@ -11,7 +11,7 @@ from drumrs.cli.options import WHOLE, Jobs, check_folder
 from drumrs.cli.tables import print_paths
 from drumrs.errors import ConfigError
 from drumrs.result import number, with_error
-from drumrs.sweep import Outcome, Sweep, read_study
+from drumrs.sweep import Outcome, Sweep, read_sweep
 
 _FAILED = 1
 _MOST_ROWS = 40
@@ -28,9 +28,9 @@ def sweep(
     retry: Annotated[bool, Parameter(negative="")] = False,
     seeds: Annotated[int | None, WHOLE] = None,
 ) -> int:
-    """Run the cases of a study file that are not finished yet, and write the table of all that are.
+    """Run the cases of a sweep file that are not finished yet, and write the table of all that are.
 
-    STUDY.toml has `[base]`, keys of `drumrs config` laid over the baseline; `[axes]`, a list of values for each key to
+    SWEEP.toml has `[base]`, keys of `drumrs config` laid over the baseline; `[axes]`, a list of values for each key to
     vary, every combination of which is a case; and `seeds`, a list of seeds or their number. The same command goes on
     after Ctrl-C, a power cut or a change of the study; what is finished is not simulated again. Of every case the
     series is kept, by `run.sample_every`, and the frames where `run.frame_every` is smaller than `run.duration`.
@@ -48,7 +48,7 @@ def sweep(
     seeds
         Number of seeds for every combination, instead of the file's: 0 … N − 1.
     """
-    planned = read_study(study, seeds)
+    planned = read_sweep(study, seeds)
     part = _shard(shard)
     check_folder(out)
     outcome = planned.run(out, jobs=jobs, shard=part, retry=retry)

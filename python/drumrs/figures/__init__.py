@@ -2,7 +2,7 @@
 
 from drumrs.figures.curves import Labels, curves
 from drumrs.figures.history import time_series
-from drumrs.figures.shared import svg, write
+from drumrs.figures.shared import drumrs_style, svg, write
 from drumrs.figures.snapshots import View, snapshot, snapshots
 
-__all__ = ["Labels", "View", "curves", "snapshot", "snapshots", "svg", "time_series", "write"]
+__all__ = ["Labels", "View", "curves", "drumrs_style", "snapshot", "snapshots", "svg", "time_series", "write"]

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from drumrs.config import baseline
 from drumrs.files import write_whole
+from drumrs.jobs import job_count
 from drumrs.paper.cases import cases
 from drumrs.paper.data import StudyData
 from drumrs.paper.measure import measure
@@ -16,7 +17,6 @@ from drumrs.paper.report import Picture, summary, write
 from drumrs.paper.scales import Scale
 from drumrs.simulation import Simulation
 from drumrs.sweep import Case, Sweep
-from drumrs.sweep.crew import check_jobs, usable_cores
 from drumrs.sweep.store import Store
 
 # What the speed is measured on: a load that costs as much a particle-step as those of the study on average, once it
@@ -80,8 +80,7 @@ class Reproduction:
     def __init__(self, scale: str | Scale, folder: str | Path, jobs: int | None = None) -> None:
         self.scale = scale if isinstance(scale, str) else "own"
         self.folder = Path(folder)
-        check_jobs(jobs)
-        self.jobs = jobs or usable_cores()
+        self.jobs = job_count(jobs)
         self.sweep = Sweep.from_configs(cases(scale))
         store = Store(self.runs_folder)
         store.check_format()

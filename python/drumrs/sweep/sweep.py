@@ -11,7 +11,7 @@ from drumrs.frames import Frames
 from drumrs.sweep import design, table
 from drumrs.sweep.case import Case
 from drumrs.sweep.columns import SEED, differing, parameters
-from drumrs.sweep.engine import Order, Outcome, run_cases
+from drumrs.sweep.scheduler import Outcome, RunOptions, run_cases
 from drumrs.sweep.store import Store
 
 if TYPE_CHECKING:
@@ -157,7 +157,7 @@ class Sweep:
         retry
             Whether cases that failed before are run again.
         progress
-            Whether to show progress: a bar in a terminal or notebook, else a line a minute on standard error.
+            Whether to show progress, as a `drumrs.Task` does.
 
         Returns
         -------
@@ -174,7 +174,7 @@ class Sweep:
             After Ctrl-C, within a second; what is finished is kept.
         """
         self._folder = Path(folder)
-        return run_cases(self.cases, self._folder, Order(executor, jobs, shard, retry, progress))
+        return run_cases(self.cases, self._folder, RunOptions(executor, jobs, shard, retry, progress))
 
     def table(self, folder: str | Path | None = None) -> "pl.LazyFrame":
         """Scan the results: one row a finished case, sorted by parameters and seed.

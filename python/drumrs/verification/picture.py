@@ -7,12 +7,14 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure
 
-from drumrs.figures.shared import INK, drumrs_style
+from drumrs.figures import drumrs_style
 from drumrs.verification.evidence import Panel, Trace
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+# What stands for several lines: nearly black.
+_INK = "0.15"
 _SIZE = (5.0, 3.1)
 _MARKERS = ("o", "s", "^", "D", "v", "P", "X", "*")
 # More points than this are drawn small.
@@ -33,7 +35,7 @@ def agreement(panel: Panel) -> Figure:
         colors = mpl.rcParams["axes.prop_cycle"].by_key()["color"]
         looks = zip(cycle(colors), cycle(_MARKERS), strict=False)
         for trace in panel.traces:
-            _draw(axes, trace, *(next(looks) if np.size(trace.x) else (INK, "")))
+            _draw(axes, trace, *(next(looks) if np.size(trace.x) else (_INK, "")))
         axes.set(xlabel=panel.x, ylabel=panel.y)
         if panel.logarithmic:
             axes.set(xscale="log", yscale="log")
