@@ -9,6 +9,7 @@ from pathlib import Path
 
 from drumrs.config import baseline
 from drumrs.files import write_whole
+from drumrs.folders import claim, require_own
 from drumrs.jobs import job_count
 from drumrs.paper.cases import cases
 from drumrs.paper.data import StudyData
@@ -24,6 +25,8 @@ from drumrs.sweep.store import Store
 _TRIAL_FILL = 0.5
 _SETTLING = 0.3  # simulated seconds
 _TRIAL = 0.25  # seconds of the wall clock
+# What a reproduction writes into its folder.
+_FILES = ("report.html", "summary.md", "table.parquet", "figures", "runs")
 # Reading results, drawing and writing the report: so long at least, and so long for each case [s].
 _WRITING, _WRITING_CASE = 6.0, 0.1
 
@@ -82,6 +85,7 @@ class Reproduction:
         self.folder = Path(folder)
         self.jobs = job_count(jobs)
         self.sweep = Sweep.from_configs(cases(scale))
+        require_own(self.folder, "reproduction", _FILES)
         store = Store(self.runs_folder)
         store.check_format()
         self.waiting: tuple[Case, ...] = tuple(
@@ -136,6 +140,7 @@ class Reproduction:
             After Ctrl-C; finished cases are kept, and the same call goes on.
         """
         began = time.perf_counter()
+        claim(self.folder, "reproduction", f"the paper's study ({self.scale})", "")
         outcome = self.sweep.run(self.runs_folder, jobs=self.jobs, retry=retry, progress=progress)
         if say is not None:
             say("judging the claims, drawing the figures, writing the report")

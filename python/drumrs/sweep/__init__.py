@@ -1,9 +1,9 @@
 """Sweeps: many cases, each simulated once, kept in a folder, taken up again after any break.
 
-`case` names a case, `design` turns axes and rows into cases, `store` keeps their results in a folder, in the `sealed`
-files that know whose they are; `worker` runs one case anywhere, `executors` are who runs them, `scheduler` hands them out;
-`columns` and `table` put the results side by side, `sweep_file` reads what `drumrs sweep` is given, and `sweep` is the
-face of it all. Nothing here knows what is made of the results.
+`case` names a case, `design` turns axes and rows into cases, `store` keeps their results in a folder, in `sealed` files
+that know whose they are. `worker` runs one case anywhere, `executors` says where, `scheduler` hands the cases out.
+`columns` and `table` put the results side by side, `sweep_file` reads what `drumrs sweep` is given, and `sweep` is what
+users see of all this. Nothing here knows what is made of the results.
 """
 
 from drumrs.sweep.case import Case
