@@ -121,7 +121,7 @@ def test_a_damaged_marker_does_not_give_a_run_away(result, folder):
 
 
 def test_results_of_several_kinds_do_not_share_a_folder(drum, folder, tmp_path):
-    from drumrs.paper.reproduction import Reproduction
+    from drumrs.paper import Reproduction
 
     sweep = drumrs.Sweep(CONFIG, seeds=1)
     sweep.run(tmp_path / "sweep", progress=False)
@@ -135,7 +135,7 @@ def test_results_of_several_kinds_do_not_share_a_folder(drum, folder, tmp_path):
 
 
 def test_a_table_of_the_users_is_not_overwritten(tmp_path):
-    from drumrs.paper.reproduction import Reproduction
+    from drumrs.paper import Reproduction
 
     (tmp_path / "table.parquet").write_text("mine")
     sweep = drumrs.Sweep(CONFIG, seeds=1)

@@ -53,7 +53,8 @@ def test_lines_come_even_where_nothing_is_told(capsys):
     assert all(re.fullmatch(r"packing: \d+ s taken", line) for line in lines)
 
 
-def test_what_is_soon_over_says_nothing(capsys, short):
+def test_what_is_soon_over_says_nothing(capsys, short, monkeypatch):
+    monkeypatch.setattr(progress, "_FIRST_PAUSES", (10.0,))
     drumrs.run(short.replace({"run.duration": 0.01, "run.frame_every": 0.01}))
     assert capsys.readouterr().err == ""
 

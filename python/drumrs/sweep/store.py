@@ -87,6 +87,10 @@ class Store:
                 "a newer drumrs made it"
             )
 
+    def ids(self) -> set[str]:
+        """Return the ids of all finished cases in the folder, those of other sweeps included."""
+        return {path.name.partition(".")[0] for path in self.folder.glob("*.facts.json")}
+
     def require_own(self) -> None:
         """Refuse a folder of something else, or one with a table that drumrs did not write."""
         require_own(self.folder, "sweep", [TABLE])

@@ -9,7 +9,7 @@ from drumrs.config import Config
 from drumrs.errors import ConfigError
 from drumrs.frames import Frames
 from drumrs.sweep import design, table
-from drumrs.sweep.case import Case
+from drumrs.sweep.case import Case, short_ids
 from drumrs.sweep.columns import SEED, differing, parameters
 from drumrs.sweep.scheduler import Outcome, RunOptions, run_cases
 from drumrs.sweep.store import Store
@@ -130,6 +130,18 @@ class Sweep:
         """Return what tells a case from the others: the values of `varied`."""
         values = {**parameters(case.config), SEED: case.seed}
         return {name: values[name] for name in self.varied()}
+
+    def short_ids(self, folder: str | Path | None = None) -> dict[str, str]:
+        """Return the beginning of each case's id by id, as long as tells it from all cases in the folder.
+
+        `drumrs view FOLDER/ID` takes such a beginning.
+
+        Parameters
+        ----------
+        folder
+            Where the results are; that of the last `run` unless given.
+        """
+        return short_ids((case.id for case in self.cases), self._store(folder).ids())
 
     def run(
         self,

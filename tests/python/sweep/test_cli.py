@@ -69,13 +69,15 @@ def test_a_sweep_prints_and_writes_its_table(drum, sweep_file, tmp_path):
     out = tmp_path / "out"
     status, printed, complaint = drum("sweep", sweep_file, "--out", out, "--jobs", "2")
     assert (status, complaint) == (0, "")
-    assert printed.splitlines()[0].split() == ["baffles.count", "load.fill", "seed", "W/kg", "N/T"]
+    assert printed.splitlines()[0].split() == ["case", "baffles.count", "load.fill", "seed", "W/kg", "N/T"]
     assert len(printed.splitlines()) == 1 + 8 + 1
     assert printed.splitlines()[-1] == f"wrote {out / 'table.parquet'}"
     table = pl.read_parquet(out / "table.parquet")
     assert table.select("drum.baffles.count", "load.fill", "seed").rows() == [
         (count, fill, seed) for count in (0, 3) for fill in (0.05, 0.1) for seed in (0, 1)
     ]
+    shown = [line.split()[0] for line in printed.splitlines()[1:-1]]
+    assert [case[:8] for case in table["case"]] == shown
     assert drum("sweep", sweep_file, "--out", out, "--seeds", "3")[0] == 0
     assert pl.read_parquet(out / "table.parquet").height == 12
 
