@@ -4,7 +4,8 @@
 >>> len(paper.cases("default")) > 300
 True
 
-`Reproduction` runs it all. Nothing else here runs a simulation: `cases` says what to run, the rest reads tables and frames.
+`Reproduction` runs it all. Nothing else here runs a simulation: `cases` says what to run, and everything else reads
+tables and frames.
 """
 
 from drumrs.paper.cases import cases, cost
