@@ -15,9 +15,11 @@ from drumrs import errors
 from drumrs.config import Config, baseline
 from drumrs.errors import CheckpointError, ConfigError, DrumrsError, DrumrsWarning, UnstableError
 from drumrs.frames import Frames
+from drumrs.jobs import job_count
 from drumrs.output import player, save
-from drumrs.protocol import run
+from drumrs.progress import Task
 from drumrs.result import Result, Summary, load
+from drumrs.runs import run
 from drumrs.simulation import Simulation, info, quantities, units
 from drumrs.state import State
 from drumrs.sweep import Case, Sweep
@@ -40,12 +42,14 @@ __all__ = [
     "State",
     "Summary",
     "Sweep",
+    "Task",
     "UnstableError",
     "Verification",
     "__version__",
     "baseline",
     "errors",
     "info",
+    "job_count",
     "load",
     "player",
     "quantities",
