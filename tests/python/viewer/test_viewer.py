@@ -312,6 +312,16 @@ def test_view_refuses_a_damaged_series(finished, drum, tmp_path):
     assert "series.parquet' is damaged, but must be the series that drumrs wrote" in err
 
 
+def test_view_overwrites_pages_of_its_own_only(finished, drum, tmp_path):
+    page = tmp_path / "page.html"
+    assert [drum("view", finished, "--out", page)[0] for _ in range(2)] == [0, 0]
+    page.write_text("<h1>Notes</h1>")
+    status, _, err = drum("view", finished, "--out", page)
+    assert status == 2
+    assert f"--out is {str(page)!r}, but must be a new file or a page of drumrs" in err
+    assert page.read_text() == "<h1>Notes</h1>"
+
+
 def test_view_refuses_a_page_that_cannot_be_written(finished, drum, tmp_path):
     status, _, err = drum("view", finished, "--out", tmp_path / "none" / "page.html")
     assert status == 2
