@@ -95,4 +95,9 @@ def test_a_backend_of_another_environment(tmp_path):
         check=False,
     )
     assert done.returncode == 0, done.stderr
-    assert {path.name for path in (tmp_path / "out").iterdir()} == {*NUMBERS, *PICTURES, MARK, "checkpoint.bin"}
+    assert {path.name for path in (tmp_path / "out").iterdir()} == {
+        *NUMBERS,
+        *PICTURES,
+        MARK,
+        "checkpoint.bin",
+    }

@@ -83,8 +83,13 @@ export class Coloring {
   // Where the two ends of the scale lie.
   range(scene) {
     if (this.mode.range) return this.mode.range(this.recording);
-    const values = scene.bundles.map((_, k) => this.value(k, scene));
-    return [Math.min(...values), Math.max(...values)];
+    let [lowest, highest] = [Infinity, -Infinity];
+    for (let k = 0; k < scene.bundles.length; k++) {
+      const value = this.value(k, scene);
+      lowest = Math.min(lowest, value);
+      highest = Math.max(highest, value);
+    }
+    return [lowest, highest];
   }
 
   // What each bundle is filled with, and whether it is light: { fill, light }.

@@ -425,6 +425,20 @@ def test_a_recording_grows_while_it_is_shown(embedded):
     assert ask("two.time") == 4.0
 
 
+def test_a_large_load_has_colors(show):
+    shown = show(f"""<!doctype html><script type="module">{module("color.js", "recording.js")}
+      const radii = new Float32Array(300000).fill(0.01);
+      radii[7] = 0.02;
+      const frame = {{ time: 0, drumAngle: 0, positions: new Float32Array(600000), angles: radii, speeds: radii }};
+      const recording = new Recording({{ radii, drumRadius: 1, reach: 1, frames: [frame] }});
+      const coloring = new Coloring(recording);
+      coloring.name = "size";
+      window.range = coloring.range(recording.scene(0));
+      window.greatest = recording.greatestRadius;
+    </script>""")
+    assert shown.page.evaluate("[...range, greatest]") == pytest.approx([0.02, 0.04, 0.02])
+
+
 def test_a_notebook_frame_plays(show):
     shown = show(f"<!doctype html>{Player(scene())._repr_html_()}")
     inside = shown.page.frame_locator("iframe").locator("drumrs-player")
