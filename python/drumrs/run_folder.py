@@ -8,8 +8,9 @@ import numpy as np
 from drumrs.errors import UnstableError
 from drumrs.files import remove_temporaries
 from drumrs.frames import Frames, FramesFile, thinned
-from drumrs.output import complete, draw
+from drumrs.output import PICTURES, complete, draw, save_unstable
 from drumrs.parts import PART_SIZE, Parts
+from drumrs.pictures import attempt
 from drumrs.result import UNSTABLE, Summary, write_tables
 from drumrs.simulation import Simulation, units
 from drumrs.unstable import UnstableRun
@@ -36,8 +37,8 @@ class RunFolder:
     def clear(self) -> None:
         """Make the folder where there is none, and remove what an earlier run recorded there or goes on from."""
         self.path.mkdir(parents=True, exist_ok=True)
-        # Tables of another run must not pass for the beginning of this one.
-        for name in ("summary.json", UNSTABLE, _CHECKPOINT, "series.parquet", "frames.parquet"):
+        # Tables and pictures of another run must not pass for those of this one.
+        for name in ("summary.json", UNSTABLE, _CHECKPOINT, "series.parquet", "frames.parquet", *PICTURES):
             (self.path / name).unlink(missing_ok=True)
         remove_temporaries(self.path)
         self._parts.remove()
@@ -72,17 +73,18 @@ class RunFolder:
         summary, series = simulation.summary(), simulation.series
         written = self._write_tables(simulation, series)
         file = FramesFile.of(self.path / "frames.parquet")
-        drawn = draw(self.path, simulation.config, summary, series, *_pictured(file, simulation))
-        told = complete(self.path, summary)
+        written.append(complete(self.path, summary))
         self._parts.remove()
-        return summary, [*written, told, *drawn]
+        with attempt(f"pictures in {self.path}"):
+            written += draw(self.path, simulation.config, summary, series, *_pictured(file, simulation))
+        return summary, written
 
     def conclude_unstable(self, simulation: Simulation, error: UnstableError) -> None:
-        """Write what `UnstableRun.save_end` writes."""
+        """Write what `save_unstable` writes."""
         series = simulation.series
         self._write_tables(simulation, series)
         frames = _shown(FramesFile.of(self.path / "frames.parquet"))
-        UnstableRun.of(simulation, error, series, frames).save_end(self.path)
+        save_unstable(UnstableRun.of(simulation, error, series, frames), self.path)
         self._parts.remove()
 
     def _write_tables(self, simulation: Simulation, series: "pl.DataFrame") -> list[Path]:

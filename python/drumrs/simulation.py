@@ -83,6 +83,8 @@ class Simulation(HasRecords):
         if state is None and not config.drum.rim:
             raise ConfigError("drum.rim is false, but must be true where no initial state is given")
         arrays = None if state is None else state.arrays()
+        if arrays is not None and len(arrays["positions"]) != config.bundle_count:
+            config = config.replace({"load.count": len(arrays["positions"])})
         try:
             core = _core.Simulation(config.to_core_json(), config.run.seed, threads, arrays)
         except ConfigError as error:
@@ -207,7 +209,7 @@ class Simulation(HasRecords):
 
     @property
     def config(self) -> Config:
-        """The configuration, seed included."""
+        """The configuration, with the seed, and with the number of bundles where the start was given."""
         return self._config
 
     @property

@@ -6,6 +6,7 @@ import drumrs
 from drumrs.cli.options import Seed, Settings, check_folder
 from drumrs.cli.tables import print_paths, print_table
 from drumrs.config import Config, merge, nest, parse_settings
+from drumrs.pictures import attempt
 from drumrs.protocol import run_side_by_side
 from drumrs.result import Result
 
@@ -35,13 +36,16 @@ def baseline(
         path for name, result in results.items() for path in drumrs.save(result, out / name.replace(" ", "_"))
     ]
     print_table({name: result.summary for name, result in results.items()})
-    print_paths([_draw_together(results, out), *(path for path in written if path.suffix == ".png")])
+    print_paths([*_draw_together(results, out), *(path for path in written if path.suffix == ".png")])
 
 
-def _draw_together(results: dict[str, Result], out: Path) -> Path:
-    from drumrs import figures
-
-    views = [figures.View(result.frames, -1, name) for name, result in results.items()]
+def _draw_together(results: dict[str, Result], out: Path) -> list[Path]:
     path = out / "baseline.png"
-    figures.write(figures.snapshots(views), path)
-    return path
+    path.unlink(missing_ok=True)
+    with attempt(path):
+        from drumrs import figures
+
+        views = [figures.View(result.frames, -1, name) for name, result in results.items()]
+        figures.write(figures.snapshots(views), path)
+        return [path]
+    return []

@@ -84,8 +84,8 @@ def _print_verdicts(done: "ReproductionResult") -> None:
         line = f"{verdict.claim:<3}  {shown}  {escape(verdict.statement)}"
         console.print(line, no_wrap=True, overflow="ellipsis")
     for picture in done.pictures:
-        if picture.missing:
-            sys.stdout.write(f"not drawn: {picture.figure.number}, for want of {picture.missing}\n")
+        if picture.reason:
+            sys.stdout.write(f"{picture.figure.number} is not drawn. {picture.reason}\n")
 
 
 def _tell_failures(done: "ReproductionResult") -> int:

@@ -3,19 +3,19 @@
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from drumrs.energies import held_by_contacts, shown_losses
-from drumrs.figures.shared import Array, drumrs_style, label_lines
+from drumrs.figures.shared import Array, drumrs_style, label_lines, new_figure
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     import polars as pl
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 
-def time_series(series: "pl.DataFrame", window: tuple[float, float] | None = None) -> Figure:
+def time_series(series: "pl.DataFrame", window: tuple[float, float] | None = None) -> "Figure":
     """Draw a run's history: power, energies, residual of the energy ledger, center of mass.
 
     Parameters
@@ -34,7 +34,7 @@ def time_series(series: "pl.DataFrame", window: tuple[float, float] | None = Non
     columns = {name: series[name].to_numpy() for name in series.columns}
     begin, end = float(columns["time"][0]), float(columns["time"][-1])
     with drumrs_style():
-        figure = Figure(figsize=(11.0, 5.6))
+        figure = new_figure(11.0, 5.6)
         grid = figure.subplots(2, 2, sharex=True)
         for axes, draw in zip(grid.flat, panels, strict=True):
             draw(axes, columns)

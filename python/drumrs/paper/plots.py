@@ -7,17 +7,17 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from drumrs.figures.curves import Labels, curves, say_above
 from drumrs.figures.history import mean_rate
-from drumrs.figures.shared import Array, drumrs_style
+from drumrs.figures.shared import Array, drumrs_style, new_figure
 from drumrs.figures.snapshots import View, snapshots
 from drumrs.frames import Frames
 
 if TYPE_CHECKING:
     import polars as pl
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 _FILL = "fill N d²/D² [%]"
 _POWER = "drum power [W per m of depth]"
@@ -28,7 +28,7 @@ _FRICTION = "coefficient of friction μ"
 _LONG = 2.0
 
 
-def snapshots_of_fills(frames: Mapping[str, Frames], index: int = -1) -> Figure:
+def snapshots_of_fills(frames: Mapping[str, Frames], index: int = -1) -> "Figure":
     """Draw F2 or F3: the last frame of each fill in a row, lettered as in the paper.
 
     Parameters
@@ -44,7 +44,7 @@ def snapshots_of_fills(frames: Mapping[str, Frames], index: int = -1) -> Figure:
     )
 
 
-def power_against_fill(points: "pl.DataFrame") -> Figure:
+def power_against_fill(points: "pl.DataFrame") -> "Figure":
     """Draw F4: drum power against fill, without and with baffles; shaded is where the paper has the peak."""
     figure = curves(points, Labels(_FILL, _POWER, x_scale=100.0))
     figure.axes[0].axvspan(40.0, 50.0, color="0.93", zorder=0, linewidth=0)
@@ -52,12 +52,12 @@ def power_against_fill(points: "pl.DataFrame") -> Figure:
     return figure
 
 
-def specific_power_against_fill(points: "pl.DataFrame") -> Figure:
+def specific_power_against_fill(points: "pl.DataFrame") -> "Figure":
     """Draw F5: specific power against fill, without and with baffles."""
     return curves(points, Labels(_FILL, _SPECIFIC, x_scale=100.0))
 
 
-def ratio_against_fill(points: "pl.DataFrame", other: "pl.DataFrame") -> Figure:
+def ratio_against_fill(points: "pl.DataFrame", other: "pl.DataFrame") -> "Figure":
     """Draw F6: N/T against fill, without and with baffles.
 
     Parameters
@@ -70,22 +70,22 @@ def ratio_against_fill(points: "pl.DataFrame", other: "pl.DataFrame") -> Figure:
     return _two_readings(points, other, Labels(_FILL, _RATIO, x_scale=100.0))
 
 
-def specific_power_against_size(points: "pl.DataFrame") -> Figure:
+def specific_power_against_size(points: "pl.DataFrame") -> "Figure":
     """Draw F7: specific power against D/d at 40 % fill, without and with baffles."""
     return curves(points, Labels("drum over bundle diameter D/d", _SPECIFIC))
 
 
-def specific_power_against_friction(points: "pl.DataFrame") -> Figure:
+def specific_power_against_friction(points: "pl.DataFrame") -> "Figure":
     """Draw F8: specific power against friction without baffles, at three fills."""
     return curves(points, Labels(_FRICTION, _SPECIFIC))
 
 
-def ratio_against_friction(points: "pl.DataFrame", other: "pl.DataFrame") -> Figure:
+def ratio_against_friction(points: "pl.DataFrame", other: "pl.DataFrame") -> "Figure":
     """Draw F9: N/T against friction without baffles, at three fills; `other` as in `ratio_against_fill`."""
     return _two_readings(points, other, Labels(_FRICTION, _RATIO))
 
 
-def specific_power_against_speed(points: "pl.DataFrame", centrifuging: float) -> Figure:
+def specific_power_against_speed(points: "pl.DataFrame", centrifuging: float) -> "Figure":
     """Draw specific power against the drum's speed, without and with baffles.
 
     Parameters
@@ -102,7 +102,7 @@ def specific_power_against_speed(points: "pl.DataFrame", centrifuging: float) ->
     return figure
 
 
-def specific_power_against_restitution(points: "pl.DataFrame") -> Figure:
+def specific_power_against_restitution(points: "pl.DataFrame") -> "Figure":
     """Draw specific power against restitution, without and with baffles."""
     return curves(points, Labels("coefficient of restitution e", _SPECIFIC))
 
@@ -122,7 +122,7 @@ def _say_below(axes: "Axes", x: float, text: str, beside: float = 0.0) -> None:
     )
 
 
-def _two_readings(points: "pl.DataFrame", other: "pl.DataFrame", labels: Labels) -> Figure:
+def _two_readings(points: "pl.DataFrame", other: "pl.DataFrame", labels: Labels) -> "Figure":
     figure = curves(points, labels)
     axes = figure.axes[0]
     x, y = labels.x_scale * other["x"].to_numpy(), other["mean"].to_numpy()
@@ -133,7 +133,7 @@ def _two_readings(points: "pl.DataFrame", other: "pl.DataFrame", labels: Labels)
 
 def drift_over_time(
     runs: Mapping[str, Sequence["pl.DataFrame"]], mass: Mapping[str, float], window: tuple[float, float]
-) -> Figure:
+) -> "Figure":
     """Draw how loads wander: running means of specific power and of N/T over each run, seed by seed.
 
     Parameters
@@ -146,7 +146,7 @@ def drift_over_time(
         Interval of the averages [s], shaded.
     """
     with drumrs_style():
-        figure = Figure(figsize=(8.4, 4.6))
+        figure = new_figure(8.4, 4.6)
         grid = figure.subplots(2, len(runs), sharex=True, sharey="row", squeeze=False)
         for column, (drum, series) in enumerate(runs.items()):
             power, ratio = grid[0, column], grid[1, column]

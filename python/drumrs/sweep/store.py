@@ -18,7 +18,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from drumrs.analysis import statistics
-from drumrs.config.report import show
+from drumrs.config.messages import show
 from drumrs.errors import ConfigError
 from drumrs.files import NO_ROOM, read_object, write_whole
 from drumrs.frames import Frames

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from drumrs.config import Config, read_toml_file
-from drumrs.config.report import dotted_keys, show
+from drumrs.config.messages import dotted_keys, show
 from drumrs.errors import ConfigError
 from drumrs.sweep.sweep import Sweep
 

@@ -87,8 +87,8 @@ def _figures(drawn: list[Picture]) -> Iterator[str]:
     for picture in drawn:
         figure = picture.figure
         yield ""
-        if picture.missing:
-            yield f"{figure.number}, {figure.title}: not drawn, for want of {picture.missing}."
+        if picture.reason:
+            yield f"{figure.number}, {figure.title}: not drawn. {picture.reason}"
             continue
         yield f"![{figure.title}](figures/{figure.number}.png)"
         yield ""
