@@ -30,8 +30,6 @@ from sybil.parsers.markdown import CodeBlockParser, SkipParser
 from sybil.parsers.rest import DocTestParser
 from sybil.region import Lexeme
 
-os.environ.setdefault("MPLBACKEND", "Agg")
-
 import drumrs
 from drumrs.cli.app import app, run_command
 

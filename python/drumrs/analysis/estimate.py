@@ -53,11 +53,11 @@ class Estimate:
 
     def interval(self, level: float = LEVEL) -> Interval:
         """Return Student's interval, which holds the true mean with probability `level`."""
-        from scipy import stats
+        from scipy import special
 
         if not self.error:
             return Interval(self.mean, 0.0)
-        return Interval(self.mean, float(stats.t.ppf(0.5 + 0.5 * level, self.freedom)) * self.error)
+        return Interval(self.mean, float(special.stdtrit(self.freedom, 0.5 + 0.5 * level)) * self.error)
 
     def __sub__(self, other: "Estimate") -> "Estimate":
         """Return the difference of two independent means."""

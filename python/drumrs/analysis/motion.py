@@ -183,7 +183,8 @@ def _nearest(points: Array) -> NDArray[np.intp]:
     from scipy.spatial import KDTree
 
     # The nearest to a point is the point itself.
-    nearest: NDArray[np.intp] = KDTree(points).query(points, k=[2])[1][:, 0]
+    _, indices = KDTree(points).query(points, k=2)
+    nearest: NDArray[np.intp] = np.asarray(indices)[:, 1]
     return nearest
 
 

@@ -95,11 +95,11 @@ def disagreement(values: Sequence[float], errors: Sequence[float | None]) -> flo
     float
         1 where there is one seed only, or an error is not known or 0.
     """
-    from scipy import stats
+    from scipy import special
 
     if len(values) <= 1 or any(not error for error in errors):
         return 1.0
     weights = [1.0 / (error or 1.0) ** 2 for error in errors]
     mean = math.fsum(w * value for w, value in zip(weights, values, strict=True)) / math.fsum(weights)
     squares = math.fsum(w * (value - mean) ** 2 for w, value in zip(weights, values, strict=True))
-    return float(stats.chi2.sf(squares, len(values) - 1))
+    return float(special.chdtrc(len(values) - 1, squares))
