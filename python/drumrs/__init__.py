@@ -8,7 +8,6 @@
 All values are in SI units and per meter of drum depth, but for rpm and degrees in configurations.
 """
 
-from importlib import import_module
 from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
 
@@ -66,5 +65,7 @@ def __getattr__(name: str) -> Any:
     if name == "QUANTITIES":
         return quantities()
     if name in {"Verification", "verify"}:
-        return getattr(import_module("drumrs.verification"), name)
+        from drumrs import verification
+
+        return verification.verify if name == "verify" else verification.Verification
     raise AttributeError(f"module 'drumrs' has no attribute {name!r}")
