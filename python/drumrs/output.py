@@ -20,9 +20,6 @@ if TYPE_CHECKING:
 
     from drumrs.viewer import Player
 
-# What `draw` writes.
-PICTURES = ("time_series.png", "snapshots.png", "player.html")
-
 
 def player(run: Result | UnstableRun) -> "Player":
     """Return a run as a player: shown by a notebook, or written as one HTML file with its `save`.
