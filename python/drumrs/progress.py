@@ -15,7 +15,7 @@ from typing import Any, ClassVar, Self
 
 _HOUR, _MINUTE = 3600.0, 60.0
 # Pauses between lines where there is no terminal, the first ones and all others [s].
-_FIRST_PAUSES, _LATER_PAUSES = (1.0, 9.0, 20.0, 30.0), 60.0
+_FIRST_PAUSES, _LATER_PAUSES = (1.0, 2.0, 7.0, 20.0, 30.0), 60.0
 # Time between two updates of a notebook's cell [s].
 _REFRESH = 0.2
 
