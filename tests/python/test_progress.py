@@ -15,7 +15,7 @@ from drumrs.progress import ProgressDisplay, Task
 def soon(monkeypatch):
     """Let lines come every few milliseconds."""
     monkeypatch.setattr(progress, "_FIRST_PAUSES", (0.01,))
-    monkeypatch.setattr(progress, "_LATER_PAUSES", 0.01)
+    monkeypatch.setattr(progress, "_PAUSE", 0.01)
 
 
 @pytest.fixture
