@@ -7,8 +7,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from drumrs.config import Config
-from drumrs.files import write_whole
+from drumrs.files import remove_temporaries, write_whole
+from drumrs.folders import RUN_FILES, claim, is_claimed, require_own, require_unused
 from drumrs.frames import Frames
+from drumrs.parts import Parts
 from drumrs.pictures import attempt
 from drumrs.result import UNSTABLE, Result, Summary, ended_unstable, write_tables
 from drumrs.unstable import UnstableRun
@@ -43,7 +45,7 @@ def player(run: Result | UnstableRun) -> "Player":
     return Player.of(run.config, run.frames, run.series, note)
 
 
-def save(result: Result, folder: str | Path, *, pictures: bool = True) -> list[Path]:
+def save(result: Result, folder: str | Path, *, pictures: bool = True, force: bool = False) -> list[Path]:
     """Write config.toml, series.parquet, frames.parquet and summary.json, then pictures and a player.
 
     Parameters
@@ -51,14 +53,24 @@ def save(result: Result, folder: str | Path, *, pictures: bool = True) -> list[P
     result
         The run; `load` reads it again.
     folder
-        Created where it does not exist.
+        Created where it does not exist. It is this run's: one that holds another run, or files of these names that
+        drumrs did not write, is refused.
     pictures
         Whether to draw snapshots.png and time_series.png, and to write player.html, which plays the run.
+    force
+        Whether to replace another run in the folder.
 
     Returns
     -------
     list of Path
         The files written.
+
+    Raises
+    ------
+    ConfigError
+        Where the folder is not accepted.
+    OSError
+        Where it cannot be written.
 
     Warns
     -----
@@ -66,12 +78,63 @@ def save(result: Result, folder: str | Path, *, pictures: bool = True) -> list[P
         Where a picture or the player could not be made; everything else is there.
     """
     folder = Path(folder)
-    folder.mkdir(parents=True, exist_ok=True)
+    require_folder(folder, result.config, force=force, way="force=True")
+    claim_folder(folder, result.config)
     config, summary, series, frames = result.config, result.summary, result.series, result.frames
     written = write_tables(folder, config, series, result.units)
     frames.save(folder / "frames.parquet")
     written += [folder / "frames.parquet", complete(folder, summary)]
     return [*written, *(draw(folder, config, summary, series, frames, frames) if pictures else [])]
+
+
+def require_folder(
+    folder: Path, config: Config, *, force: bool, way: str = "--force", option: str = "folder"
+) -> None:
+    """Refuse a folder for a run that holds another one, or files that drumrs did not write.
+
+    Parameters
+    ----------
+    folder
+        Where the run's results are to be written; it need not exist.
+    config
+        What the run is of; the same run may be written again.
+    force
+        Whether another run is to be replaced.
+    way
+        How to ask for that.
+    option
+        What the user called the folder.
+
+    Raises
+    ------
+    ConfigError
+        Where the folder is not accepted.
+    """
+    require_own(folder, "run", RUN_FILES, option)
+    if not force:
+        require_unused(folder, "run", digest=config.digest, force=way, option=option)
+
+
+def claim_folder(folder: Path, config: Config) -> None:
+    """Make a run's folder, and remove what another run left there.
+
+    Raises
+    ------
+    OSError
+        Where it cannot be written.
+    """
+    if not is_claimed(folder, "run", config.digest):
+        clear_folder(folder)
+    claim(folder, "run", config.title, config.digest)
+
+
+def clear_folder(folder: Path) -> None:
+    """Remove what a run has left in its folder: nothing of it must pass for a part of another run."""
+    for name in RUN_FILES:
+        if not (folder / name).is_dir():
+            (folder / name).unlink(missing_ok=True)
+    remove_temporaries(folder)
+    Parts(folder).remove()
 
 
 def complete(folder: Path, summary: Summary) -> Path:

@@ -5,13 +5,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from drumrs.config import Config
 from drumrs.errors import UnstableError
-from drumrs.files import remove_temporaries
+from drumrs.files import remove_temporaries, write_whole
+from drumrs.folders import claim
 from drumrs.frames import Frames, FramesFile, thinned
-from drumrs.output import PICTURES, complete, draw, save_unstable
+from drumrs.output import claim_folder, clear_folder, complete, draw, save_unstable
 from drumrs.parts import PART_SIZE, Parts
 from drumrs.pictures import attempt
-from drumrs.result import UNSTABLE, Summary, write_tables
+from drumrs.result import Summary, write_tables
 from drumrs.simulation import Simulation, units
 from drumrs.unstable import UnstableRun
 
@@ -34,14 +36,17 @@ class RunFolder:
         self.path = path
         self._parts = Parts(path)
 
-    def clear(self) -> None:
-        """Make the folder where there is none, and remove what an earlier run recorded there or goes on from."""
-        self.path.mkdir(parents=True, exist_ok=True)
-        # Tables and pictures of another run must not pass for those of this one.
-        for name in ("summary.json", UNSTABLE, _CHECKPOINT, "series.parquet", "frames.parquet", *PICTURES):
-            (self.path / name).unlink(missing_ok=True)
-        remove_temporaries(self.path)
-        self._parts.remove()
+    def begin(self, config: Config) -> None:
+        """Make the folder that of a new run, which has recorded nothing yet.
+
+        Raises
+        ------
+        OSError
+            Where it cannot be written.
+        """
+        clear_folder(self.path)
+        claim_folder(self.path, config)
+        write_whole(self.path / "config.toml", config.to_toml().encode())
 
     def load(self, threads: int) -> Simulation:
         """Return the simulation of the last checkpoint; its frames stay in the folder.
@@ -91,6 +96,8 @@ class RunFolder:
         self._parts.append(simulation.records)
         path = self.path / "frames.parquet"
         known = {column: units(column) for column in series.columns}
+        # A run that went on beyond its duration is that of another configuration now.
+        claim(self.path, "run", simulation.config.title, simulation.config.digest)
         written = write_tables(self.path, simulation.config, series, known)
         self._parts.merge_frames(path, simulation.records)
         return [*written, path]

@@ -40,7 +40,7 @@ app = App(
         "- `drumrs run --set 'run.window=[5, 15]' --set run.duration=15 --seed 2 --json`\n"
         "- `drumrs run --resume out` goes on after Ctrl-C or a power cut\n"
         "- `drumrs view out` plays the run in the browser\n"
-        "- `drumrs sweep study.toml --out out/study` runs many cases\n"
+        "- `drumrs sweep sweep.toml --out out/sweep` runs many cases\n"
         "- `drumrs verify` holds drumrs against formulas and its own promises"
     ),
     version=drumrs.__version__,

@@ -10,6 +10,7 @@ from matplotlib.collections import EllipseCollection, LineCollection, PolyCollec
 from matplotlib.colors import Colormap, Normalize
 from matplotlib.patches import Circle, FancyArrowPatch
 
+from drumrs.figures import labels
 from drumrs.figures.shared import INK, STEEL, Array, drumrs_style, new_figure
 from drumrs.frames import Frames
 
@@ -76,7 +77,7 @@ def snapshots(views: Sequence[View]) -> "Figure":
         row = figure.subplots(1, len(views), squeeze=False)[0]
         for axes, view in zip(row, views, strict=True):
             discs = _draw_view(axes, view, norm)
-        figure.colorbar(discs, ax=list(row), label="speed of the bundles [m/s]", shrink=0.8, pad=0.02)
+        figure.colorbar(discs, ax=list(row), label=labels.SPEED, shrink=0.8, pad=0.02)
     return figure
 
 

@@ -14,7 +14,7 @@ from small_study import SMALL
 TINY = replace(
     SMALL, duration=0.2, window=(0.1, 0.2), fills=(0.05,), fills_with_baffles=(0.05,), frictions=(0.0, 0.5)
 )
-FILES = {"report.html", "summary.md", "table.parquet", "figures", "runs"}
+FILES = {"drumrs-reproduction.json", "report.html", "summary.md", "table.parquet", "figures", "runs"}
 
 
 @pytest.fixture
@@ -29,7 +29,7 @@ def test_one_command_does_it_all_and_goes_on(drum, tmp_path):
     count = len(paper.cases("quick"))
     status, printed, told = drum("reproduce", "--quick", "--out", out, "--jobs", "1")
     assert status == 0
-    assert re.search(rf"quick study: {count} cases, \S+ particle-steps to do, about \d+ s on 1 core ", told)
+    assert re.search(rf"quick study: {count} cases, \S+ particle-steps to do, about \d+ s on 1 core\n", told)
     assert {path.name for path in out.iterdir()} == FILES
     assert re.findall(r"^ ?(C\d+) +(?:holds|does not hold|undecided) ", printed, re.MULTILINE) == [
         f"C{k}" for k in range(1, 15)

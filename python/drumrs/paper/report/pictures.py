@@ -5,7 +5,6 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
-from drumrs import figures
 from drumrs.paper.cases import BASELINE_FILL
 from drumrs.paper.data import StudyData
 from drumrs.paper.figures import FIGURES, PaperFigure
@@ -50,6 +49,8 @@ def draw(data: StudyData, folder: Path) -> list[Picture]:
 def _draw(figure: PaperFigure, data: StudyData, folder: Path) -> Picture:
     paths = [folder / f"{figure.number}{ending}" for ending in _KINDS]
     with attempt(f"figure {figure.number}") as made:
+        from drumrs import figures
+
         try:
             drawn = figure.draw(data)
         except MissingError as missing:
