@@ -18,12 +18,14 @@ from drumrs.errors import CheckpointError, ConfigError, DrumrsError, DrumrsWarni
 from drumrs.frames import Frames
 from drumrs.output import player, save
 from drumrs.protocol import run
+from drumrs.registry import Quantity, quantity
 from drumrs.result import Result, Summary, load
-from drumrs.simulation import Simulation, info, quantities, units
+from drumrs.simulation import Simulation, info
 from drumrs.state import State
 from drumrs.sweep import Case, Sweep
 
 if TYPE_CHECKING:
+    from drumrs.glossary import quantities
     from drumrs.verification import Verification, verify
 
 __version__ = version("drumrs")
@@ -36,6 +38,7 @@ __all__ = [
     "DrumrsError",
     "DrumrsWarning",
     "Frames",
+    "Quantity",
     "Result",
     "Simulation",
     "State",
@@ -50,17 +53,17 @@ __all__ = [
     "load",
     "player",
     "quantities",
+    "quantity",
     "run",
     "save",
-    "units",
     "verify",
 ]
 
 
 def __getattr__(name: str) -> Any:
-    """Make `drumrs.QUANTITIES`, the columns of a bare drum's series, and load the verification, on demand."""
-    if name == "QUANTITIES":
-        return quantities()
+    """Load on demand what most scripts do without: the table of quantities, and the verification."""
+    if name == "quantities":
+        return import_module("drumrs.glossary").quantities
     if name in {"Verification", "verify"}:
         return getattr(import_module("drumrs.verification"), name)
     raise AttributeError(f"module 'drumrs' has no attribute {name!r}")

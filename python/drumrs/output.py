@@ -53,7 +53,7 @@ def save(result: Result, folder: str | Path, *, pictures: bool = True) -> list[P
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     config, summary, series, frames = result.config, result.summary, result.series, result.frames
-    written = write_tables(folder, config, series, result.units)
+    written = write_tables(folder, config, series)
     frames.save(folder / "frames.parquet")
     drawn = draw(folder, config, summary, series, frames, frames) if pictures else []
     return [*written, folder / "frames.parquet", complete(folder, summary), *drawn]

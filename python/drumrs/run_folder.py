@@ -11,7 +11,7 @@ from drumrs.frames import Frames, FramesFile, thinned
 from drumrs.output import complete, draw
 from drumrs.parts import PART_SIZE, Parts
 from drumrs.result import UNSTABLE, Summary, write_tables
-from drumrs.simulation import Simulation, units
+from drumrs.simulation import Simulation
 from drumrs.unstable import UnstableRun
 
 if TYPE_CHECKING:
@@ -88,8 +88,7 @@ class RunFolder:
     def _write_tables(self, simulation: Simulation, series: "pl.DataFrame") -> list[Path]:
         self._parts.append(simulation.records)
         path = self.path / "frames.parquet"
-        known = {column: units(column) for column in series.columns}
-        written = write_tables(self.path, simulation.config, series, known)
+        written = write_tables(self.path, simulation.config, series)
         self._parts.merge_frames(path, simulation.records)
         return [*written, path]
 

@@ -1,7 +1,7 @@
 //! Means over a window of samples, with the uncertainty of the power.
 
 use crate::error::Error;
-use crate::observe::recorder::{Series, contact_energies, is_normal, is_tangential, quantities};
+use crate::observe::recorder::{Series, contact_energies, quantities};
 use crate::physics::contact::{Flows, Stored};
 
 /// A named statistic; none where it is not defined.
@@ -26,14 +26,12 @@ pub fn summarize(series: &Series, mass: f64, start: f64, end: f64) -> Result<Vec
     let window = table.window(start, end)?;
     let time = table.change("time", window);
     let rate = |name| table.change(name, window) / time;
-    let contact_rates = |is_meant: fn(&str) -> bool| -> f64 {
-        contact_energies().filter(|name| is_meant(name)).map(rate).sum()
-    };
-    let (normal, tangential) = (contact_rates(is_normal), contact_rates(is_tangential));
-    let power = rate("work_drum");
+    let ratio = |above: f64, below: f64| (below != 0.0).then(|| above / below);
+    let (normal, tangential) = (rate("normal_work"), rate("tangential_work"));
+    let power = rate("drum_work");
     let motion = rate("kinetic_translation") + rate("kinetic_rotation") + rate("gravitational");
-    let by_ledger = motion + contact_rates(|_| true) + rate("numerical");
-    let powers = [power, by_ledger, rate("balance_work")];
+    let by_ledger = motion + contact_energies().map(rate).sum::<f64>() + rate("numerical");
+    let powers = [power, by_ledger, rate("moment_balance_work")];
     let spread = Spread::of(&table.interval_powers(window), table.interval(window));
     let mean = |name| table.mean(name, window);
     let residual = table.column("energy_residual");
@@ -42,18 +40,16 @@ pub fn summarize(series: &Series, mass: f64, start: f64, end: f64) -> Result<Vec
         ("window_end", Some(table.column("time")[window.last])),
         ("drum_torque", Some(table.exact_mean("drum_torque", window))),
         ("drum_power", Some(power)),
-        ("specific_power", Some(power / mass)),
-        ("specific_power_error", spread.map(|spread| spread.error / mass)),
+        ("drum_specific_power", Some(power / mass)),
+        ("drum_specific_power_error", spread.map(|spread| spread.error / mass)),
         ("correlation_time", spread.map(|spread| spread.correlation_time)),
+        ("work_ratio", ratio(normal, tangential)),
+        ("dissipation_ratio", ratio(rate("dissipated_normal"), rate("dissipated_sliding"))),
         ("normal_power", Some(normal)),
         ("tangential_power", Some(tangential)),
-        ("normal_tangential_ratio", (tangential != 0.0).then(|| normal / tangential)),
-        ("work_normal_power", Some(rate("work_normal"))),
-        ("work_tangential_power", Some(rate("work_tangential"))),
         ("numerical_power", Some(rate("numerical"))),
-        ("power_torque", Some(powers[0])),
-        ("power_ledger", Some(powers[1])),
-        ("power_balance", Some(powers[2])),
+        ("energy_balance_power", Some(powers[1])),
+        ("moment_balance_power", Some(powers[2])),
         ("power_disagreement", Some(disagreement(powers, table.stored(window) / time))),
         ("center_of_mass_x", Some(mean("center_of_mass_x"))),
         ("center_of_mass_y", Some(mean("center_of_mass_y"))),
@@ -82,7 +78,7 @@ struct Table<'a> {
 
 impl Table<'_> {
     fn column(&self, name: &str) -> Vec<f64> {
-        let index = quantities().position(|quantity| quantity.0 == name);
+        let index = quantities().position(|column| column.name == name);
         self.series.column(index.expect("the summary asks for recorded quantities only"))
     }
 

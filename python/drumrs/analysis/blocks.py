@@ -110,7 +110,7 @@ def rate_with_error(series: "pl.DataFrame", column: str, window: tuple[float, fl
     series
         Table of a run, one row a sample.
     column
-        A running integral such as ``"work_drum"`` [J/m].
+        A running integral such as ``"drum_work"`` [J/m].
     window
         Start and end [s]; they snap to the samples nearest to them.
 
@@ -128,8 +128,8 @@ def rate_with_error(series: "pl.DataFrame", column: str, window: tuple[float, fl
     --------
     >>> import polars as pl
     >>> from drumrs.analysis import rate_with_error
-    >>> series = pl.DataFrame({"time": [0.0, 1.0, 2.0], "work_drum": [0.0, 3.0, 4.0]})
-    >>> rate_with_error(series, "work_drum", (0.0, 2.0))
+    >>> series = pl.DataFrame({"time": [0.0, 1.0, 2.0], "drum_work": [0.0, 3.0, 4.0]})
+    >>> rate_with_error(series, "drum_work", (0.0, 2.0))
     Mean(value=2.0, error=None)
     """
     steps = Stretch.of(series, window)

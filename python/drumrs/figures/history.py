@@ -5,8 +5,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from drumrs.energies import held_by_contacts, shown_losses
+from drumrs.energies import energies_to_show, powers_to_show
 from drumrs.figures.shared import Array, drumrs_style, label_lines
+from drumrs.registry import quantity
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -60,9 +61,9 @@ def _over_the_window(axes: "Axes") -> dict[str, Any]:
 def _power(axes: "Axes", columns: dict[str, Array]) -> None:
     time = columns["time"]
     long = _averaging_time(time)
-    axes.set_title(f"Power of the drum and losses, means over {long:.2g} s [W/m]")
+    axes.set_title(f"Power of the drum and losses, means over {long:.2g} s [{quantity('drum_power').unit}]")
     steady = [0.0]
-    for name, label in {"work_drum": "drum", **shown_losses(columns)}.items():
+    for name, label in powers_to_show(columns).items():
         middle, power = _thinned(*mean_rate(time, columns[name], long))
         axes.plot(middle, power, label=label)
         steady.extend(power[len(power) // 10 :][np.isfinite(power[len(power) // 10 :])])
@@ -73,14 +74,9 @@ def _power(axes: "Axes", columns: dict[str, Array]) -> None:
 
 
 def _energies(axes: "Axes", columns: dict[str, Array]) -> None:
-    axes.set_title("Energy stored [J/m]")
+    axes.set_title(f"Energy stored [{quantity('kinetic_energy').unit}]")
     axes.set_yscale("log")
-    stored = {
-        "translation": columns["kinetic_translation"],
-        "rotation": columns["kinetic_rotation"],
-        **held_by_contacts(columns),
-    }
-    for label, values in stored.items():
+    for label, values in energies_to_show(columns).items():
         time, smooth = _thinned(columns["time"], values)
         axes.plot(time, np.where(smooth > 0.0, smooth, np.nan), label=label)
 

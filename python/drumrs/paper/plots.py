@@ -14,15 +14,16 @@ from drumrs.figures.history import mean_rate
 from drumrs.figures.shared import Array, drumrs_style
 from drumrs.figures.snapshots import View, snapshots
 from drumrs.frames import Frames
+from drumrs.registry import quantity
 
 if TYPE_CHECKING:
     import polars as pl
     from matplotlib.axes import Axes
 
 _FILL = "fill N d²/D² [%]"
-_POWER = "drum power [W per m of depth]"
-_SPECIFIC = "specific power [W/kg]"
-_RATIO = "N/T, normal over tangential power"
+_POWER = quantity("drum_power").label
+_SPECIFIC = quantity("drum_specific_power").label
+_RATIO = f"{quantity('dissipation_ratio').label} N/T"
 _FRICTION = "coefficient of friction μ"
 # Running means over that long [s]: some two turns of the drum.
 _LONG = 2.0
@@ -127,7 +128,7 @@ def _two_readings(points: "pl.DataFrame", other: "pl.DataFrame", labels: Labels)
     axes = figure.axes[0]
     x, y = labels.x_scale * other["x"].to_numpy(), other["mean"].to_numpy()
     axes.plot(x, y, "x", color="black", markersize=6.5, markeredgewidth=0.6, zorder=4)
-    say_above(axes, "× by work of the contact forces, else by dissipation")
+    say_above(axes, f"×: {quantity('work_ratio').label}")
     return figure
 
 
@@ -152,13 +153,13 @@ def drift_over_time(
             power, ratio = grid[0, column], grid[1, column]
             power.set_title(drum)
             for one in series:
-                power.plot(*_running(one, "work_drum", scale=mass[drum]), linewidth=1.0)
+                power.plot(*_running(one, "drum_work", scale=mass[drum]), linewidth=1.0)
                 ratio.plot(*_running(one, "dissipated_normal", "dissipated_sliding"), linewidth=1.0)
             ratio.set_xlabel("time [s]")
         for axes in grid.flat:
             axes.axvspan(*window, color="0.94", zorder=0, linewidth=0)
         grid[0, 0].set_ylabel(_SPECIFIC)
-        grid[1, 0].set_ylabel("N/T")
+        grid[1, 0].set_ylabel(_RATIO)
         _say_below(grid[0, 0], sum(window) / 2.0, "averages")
     return figure
 

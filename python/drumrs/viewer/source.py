@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 from drumrs.config import Config
 from drumrs.errors import ConfigError
 from drumrs.frames import Frames
+from drumrs.result import read_series
 from drumrs.viewer.page import Player
 from drumrs.viewer.recording import MOST_PLACES
 
@@ -70,13 +71,12 @@ def _read_frames(path: Path) -> Frames:
 
 
 def _read_series(path: Path) -> "pl.DataFrame | None":
-    import polars as pl
     from polars.exceptions import PanicException, PolarsError
 
     if not path.is_file():
         return None
     try:
-        return pl.read_parquet(path)
+        return read_series(path)
     except (PolarsError, PanicException, OSError):
         raise ConfigError(f"{str(path)!r} is damaged, but must be the series that drumrs wrote") from None
 
