@@ -60,7 +60,10 @@ def test_results_are_those_of_a_run(finished):
         assert row[name] == known[name], name
     assert case.load_mass == pytest.approx(drumrs.Simulation(case.config).masses.sum(), rel=1e-12)
     found = statistics(result.series, case.config.run.averaging_window, case.load_mass)
-    assert {name: row[name] for name in found} == pytest.approx(found, rel=1e-9)
+    # What the summary tells, too, may differ in its last bits.
+    assert {name for name, value in found.items() if value is None} == {name for name in found if row[name] is None}
+    known = {name: value for name, value in found.items() if value is not None}
+    assert {name: row[name] for name in known} == pytest.approx(known, rel=1e-9)
 
 
 def test_a_row_tells_the_whole_configuration(tmp_path):
