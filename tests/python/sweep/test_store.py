@@ -61,7 +61,9 @@ def test_results_are_those_of_a_run(finished):
     assert case.load_mass == pytest.approx(drumrs.Simulation(case.config).masses.sum(), rel=1e-12)
     found = statistics(result.series, case.config.run.averaging_window, case.load_mass)
     # What the summary tells, too, may differ in its last bits.
-    assert {name for name, value in found.items() if value is None} == {name for name in found if row[name] is None}
+    assert {name for name, value in found.items() if value is None} == {
+        name for name in found if row[name] is None
+    }
     known = {name: value for name, value in found.items() if value is not None}
     assert {name: row[name] for name in known} == pytest.approx(known, rel=1e-9)
 
@@ -240,9 +242,9 @@ def test_a_newer_folder_is_refused(copy, drum, mark):
     for use in (lambda: sweep.run(folder, progress=False), lambda: sweep.table(folder)):
         with pytest.raises(ConfigError, match="a newer drumrs made it"):
             use()
-    study = folder.parent / "study.toml"
-    study.write_text("seeds = 1")
-    status, _, complaint = drum("sweep", study, "--out", folder)
+    path = folder.parent / "sweep.toml"
+    path.write_text("seeds = 1")
+    status, _, complaint = drum("sweep", path, "--out", folder)
     assert (status, complaint.count("\n")) == (2, 1)
     assert {path.name: path.read_bytes() for path in folder.iterdir()} == before
 
