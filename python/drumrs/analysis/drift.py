@@ -68,7 +68,7 @@ class StateSwitching:
     significance: float
 
 
-def drift(series: "pl.DataFrame", window: tuple[float, float], column: str = "work_drum") -> Drift | None:
+def drift(series: "pl.DataFrame", window: tuple[float, float], column: str = "drum_work") -> Drift | None:
     """Test whether a rate drifts within a window.
 
     A straight line is fitted to the means over the longest blocks of which eight remain, and its slope compared with
@@ -93,7 +93,7 @@ def drift(series: "pl.DataFrame", window: tuple[float, float], column: str = "wo
     >>> import numpy as np, polars as pl
     >>> from drumrs.analysis import drift
     >>> time = np.linspace(0.0, 10.0, 501)
-    >>> warming = pl.DataFrame({"time": time, "work_drum": time + 0.1 * time**2 + 0.01 * np.sin(40.0 * time)})
+    >>> warming = pl.DataFrame({"time": time, "drum_work": time + 0.1 * time**2 + 0.01 * np.sin(40.0 * time)})
     >>> drift(warming, (0.0, 10.0)).drifting
     True
     """
