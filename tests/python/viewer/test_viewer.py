@@ -105,7 +105,7 @@ def test_curves_show_the_terms_that_act():
     power, energies = curves.panels_of_series(acting)
     assert [line.name for line in power.lines[3:]] == ["dissipated tangential", "dissipated rolling"]
     assert power.lines[4].values == pytest.approx(2.0)
-    assert [line.name for line in energies.lines[2:]] == ["contacts", "adhesion (−)"]
+    assert [line.name for line in energies.lines[2:]] == ["elastic", "adhesion (−)"]
     assert [float(line.values.mean()) for line in energies.lines[2:]] == pytest.approx([7.0, 1.5])
 
 
