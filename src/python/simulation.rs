@@ -4,6 +4,7 @@
 //! threads may look at it, or stop it, between two slices of a run. Every slice leaves it up to date: looking never moves
 //! anything, and where slices end does not show in a bit.
 
+use std::borrow::Cow;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc;
 use std::thread;
@@ -19,7 +20,7 @@ use super::fair_lock::FairLock;
 use super::fork_guard::Entered;
 use crate::error::Error;
 use crate::io::config::SimulationConfig;
-use crate::observe::recorder::{Column, columns};
+use crate::observe::recorder::columns;
 use crate::observe::summary::summarize;
 use crate::physics::particles::Particles;
 use crate::simulation::Simulation as Core;
@@ -296,8 +297,12 @@ impl Simulation {
     fn series<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let table = self.with(py, |core| {
             let names = columns(core.drum().baffle_count(), core.drum().wall_count());
-            let column = |(index, (name, ..)): (usize, Column)| Ok((name, core.series().try_column(index)?));
-            names.into_iter().enumerate().map(column).collect::<Result<Vec<_>, Error>>()
+            let values = (0..names.len()).map(|index| core.series().try_column(index));
+            names
+                .into_iter()
+                .zip(values)
+                .map(|(column, values)| Ok((column.name, values?)))
+                .collect::<Result<Vec<_>, Error>>()
         });
         let series = PyDict::new(py);
         for (name, values) in table.map_err(|error| to_python(py, &error))? {
@@ -378,9 +383,14 @@ impl Simulation {
         Ok(summary)
     }
 
+    /// The columns of the series: name, symbol, unit, reading, formula, meaning.
     #[staticmethod]
-    #[pyo3(signature = (baffles = 0, walls = 0))]
-    fn quantities(baffles: usize, walls: usize) -> Vec<Column> {
-        columns(baffles, walls)
+    fn columns(baffles: usize, walls: usize) -> Vec<[String; 6]> {
+        let told = columns(baffles, walls).into_iter();
+        told.map(|c| {
+            [c.name, c.symbol, c.unit.into(), c.reading.name().into(), c.formula, c.meaning]
+                .map(Cow::into_owned)
+        })
+        .collect()
     }
 }

@@ -21,8 +21,10 @@ if TYPE_CHECKING:
 
     import polars as pl
 
-FORMAT = 1
+FORMAT = 2
 _KEY = "drumrs"
+# What the seal says of the version that wrote the file.
+_VERSIONS = ("format", "physics_version")
 _MAGIC = b"PAR1"
 # What stands before the digest in the file.
 _DIGEST = b'"sha256": "'
@@ -88,8 +90,9 @@ def read_sealed(path: Path, case: Case, content: str) -> io.BytesIO:
         raise ConfigError(f"{str(path)!r} was not written by drumrs")
     for name, wanted in _claims(case, content).items():
         if seal.get(name) != wanted:
+            whose = "another version of drumrs wrote it" if name in _VERSIONS else "it is another's file"
             raise ConfigError(
-                f"{str(path)!r} has {name} {seal.get(name)!r}, but must have {wanted!r}: it is another's file"
+                f"{str(path)!r} has {name} {seal.get(name)!r}, but must have {wanted!r}: {whose}"
             )
     if not digest or seal.get("sha256") != digest.decode(errors="replace"):
         raise ConfigError(f"{str(path)!r} is damaged: its digest does not match")
