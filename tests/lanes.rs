@@ -93,3 +93,17 @@ proptest! {
         compare::<FullLaw>(&parameters, &told)?;
     }
 }
+
+#[test]
+fn lanes_and_numbers_have_the_same_bits() {
+    let values = [1.5, -0.0, f64::NAN, -2.25, 0.0, 1e-300];
+    for a in values {
+        for b in values {
+            let (x, y) = (F64x4::splat(a), F64x4::splat(b));
+            let same = |lanes: F64x4, number: f64| lanes.to_array()[2].to_bits() == number.to_bits();
+            assert!(same(Scalar::larger(x, y), Scalar::larger(a, b)), "{a} {b}");
+            assert!(same(Scalar::smaller(x, y), Scalar::smaller(a, b)), "{a} {b}");
+            assert!(same(x.within(x.exceeds(y)), a.within(a.exceeds(b))), "{a} {b}");
+        }
+    }
+}

@@ -33,6 +33,13 @@ pub fn hilbert_order(positions: &[Vec2]) -> Vec<u32> {
     keyed.into_iter().map(|key| key as u32).collect()
 }
 
+/// Where each particle is, once particle `order[k]` is at place `k`.
+pub fn places(order: &[u32]) -> Vec<u32> {
+    let mut places = vec![0; order.len()];
+    (0..).zip(order).for_each(|(place, &particle)| places[particle as usize] = place);
+    places
+}
+
 /// Cells along a side of the square that the curve fills: fine enough for 10⁸ particles.
 const SIDE: u32 = 1 << 16;
 

@@ -3,6 +3,7 @@
 //!
 //! Layout: magic (8 bytes), version (u32, little endian), SHA-256 of the rest (32 bytes), the rest in postcard.
 
+use std::borrow::Cow;
 use std::fs::{self, File};
 use std::io::Write;
 use std::path::Path;
@@ -28,28 +29,16 @@ pub const FORMAT_VERSION: u32 = 5;
 const MOST_STEPS: u64 = 1 << 53;
 const HEADER: usize = MAGIC.len() + 4 + 32;
 
-/// What is written: borrowed, since the records may be larger than all the rest.
-#[derive(Serialize)]
-struct SnapshotRef<'a> {
+/// What a checkpoint holds: borrowed where it is written, since the records may be larger than all the rest.
+#[derive(Serialize, Deserialize)]
+struct Snapshot<'a> {
     physics_version: u32,
     config: String,
     seed: u64,
-    state: &'a State,
+    state: Cow<'a, State>,
     engine: EngineState,
-    rows: &'a [f64],
-    frames: &'a Frames,
-}
-
-/// What is read: the same fields.
-#[derive(Deserialize)]
-struct Snapshot {
-    physics_version: u32,
-    config: String,
-    seed: u64,
-    state: State,
-    engine: EngineState,
-    rows: Vec<f64>,
-    frames: Frames,
+    rows: Cow<'a, [f64]>,
+    frames: Cow<'a, Frames>,
 }
 
 fn refuse(reason: impl Into<String>) -> Error {
@@ -66,14 +55,14 @@ impl Simulation {
         if let Some(failure) = self.failure() {
             return Err(failure.clone());
         }
-        let snapshot = SnapshotRef {
+        let snapshot = Snapshot {
             physics_version: PHYSICS_VERSION,
             config: self.config().to_json(),
             seed: self.seed(),
-            state: self.state(),
+            state: Cow::Borrowed(self.state()),
             engine: self.engine_state(),
-            rows: self.records().untaken_rows(),
-            frames: self.frames(),
+            rows: self.records().untaken_rows().into(),
+            frames: Cow::Borrowed(self.frames()),
         };
         let refused = |error: postcard::Error| refuse(error.to_string());
         let size = HEADER + postcard::experimental::serialized_size(&snapshot).map_err(refused)?;
@@ -103,9 +92,9 @@ impl Simulation {
         let drum = check(&snapshot.state, &snapshot.engine, &config)?;
         let mut records = Records::new(&drum);
         records.series.prepend(&snapshot.rows)?;
-        records.frames = snapshot.frames;
+        records.frames = snapshot.frames.into_owned();
         check_records(&snapshot.state, &records, snapshot.rows.len())?;
-        Self::resume(config, snapshot.seed, threads, snapshot.state, &snapshot.engine, records)
+        Self::resume(config, snapshot.seed, threads, snapshot.state.into_owned(), &snapshot.engine, records)
     }
 
     /// Writes a checkpoint under a temporary name and renames it, so that `path` always holds a whole one.
@@ -149,7 +138,7 @@ fn write_whole(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
     renamed
 }
 
-fn read(bytes: &[u8]) -> Result<Snapshot, Error> {
+fn read(bytes: &[u8]) -> Result<Snapshot<'_>, Error> {
     if bytes.len() < HEADER || !bytes.starts_with(MAGIC) {
         return Err(refuse("it is not a drumrs checkpoint, or cut short"));
     }

@@ -17,13 +17,11 @@ use crate::simulation::initial_state::InitialState;
 
 /// Vectors as an array of shape (n, 2).
 pub fn vectors<'py>(py: Python<'py>, vectors: &[Vec2]) -> Bound<'py, PyArray2<f64>> {
-    let flat: Vec<f64> = vectors.iter().flat_map(|v| [v.x, v.y]).collect();
-    let array = Array2::from_shape_vec((vectors.len(), 2), flat);
-    array.expect("two numbers a vector").into_pyarray(py)
+    table_of_rows(py, vectors.iter().flat_map(|v| [v.x, v.y]).collect(), 2)
 }
 
 /// Rows of `width` values as an array of shape (rows, width).
-pub fn table_of_rows(py: Python<'_>, values: Vec<f64>, width: usize) -> Bound<'_, PyArray2<f64>> {
+pub fn table_of_rows<T: Element>(py: Python<'_>, values: Vec<T>, width: usize) -> Bound<'_, PyArray2<T>> {
     let rows = values.len().checked_div(width).unwrap_or(0);
     Array2::from_shape_vec((rows, width), values).expect("whole rows").into_pyarray(py)
 }
@@ -37,8 +35,8 @@ pub fn frames(py: Python<'_>, frames: Frames, count: usize) -> PyResult<Bound<'_
     table.set_item("time", frames.times.into_pyarray(py))?;
     table.set_item("drum_angle", frames.drum_angles.into_pyarray(py))?;
     table.set_item("positions", frame_positions(py, frames.positions, count))?;
-    table.set_item("angles", frame_values(py, frames.angles, count))?;
-    table.set_item("speeds", frame_values(py, frames.speeds, count))?;
+    table.set_item("angles", table_of_rows(py, frames.angles, count))?;
+    table.set_item("speeds", table_of_rows(py, frames.speeds, count))?;
     Ok(table)
 }
 
@@ -65,12 +63,6 @@ fn copied<T: Element + Copy>(table: &Bound<'_, PyDict>, key: &str) -> Result<Vec
     memory::reserve(&mut copy, values.len(), "putting frames back")?;
     copy.extend_from_slice(values);
     Ok(copy)
-}
-
-/// Values as an array of shape (frames, particles).
-fn frame_values(py: Python<'_>, values: Vec<f32>, count: usize) -> Bound<'_, PyArray2<f32>> {
-    let rows = values.len().checked_div(count).unwrap_or(0);
-    Array2::from_shape_vec((rows, count), values).expect("whole frames").into_pyarray(py)
 }
 
 /// Positions as an array of shape (frames, particles, 2).
@@ -157,8 +149,7 @@ pub fn contact_table<'py>(py: Python<'py>, records: &[ContactRecord]) -> PyResul
         records: &[ContactRecord],
         value: fn(&ContactRecord) -> [f64; N],
     ) -> Bound<'py, PyArray2<f64>> {
-        let flat: Vec<f64> = records.iter().flat_map(value).collect();
-        Array2::from_shape_vec((records.len(), N), flat).expect("N numbers a record").into_pyarray(py)
+        table_of_rows(py, records.iter().flat_map(value).collect(), N)
     }
     let ids = |value: fn(&ContactRecord) -> u32| records.iter().map(value).collect::<Vec<_>>();
     let floats = |value: fn(&ContactRecord) -> f64| records.iter().map(value).collect::<Vec<_>>();

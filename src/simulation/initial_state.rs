@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use rand::{Rng, SeedableRng};
+use rand::SeedableRng;
 use rand_pcg::Pcg64Mcg;
 
 use crate::engine::contacts::ContactRecord;
@@ -11,6 +11,7 @@ use crate::error::Error;
 use crate::io::config::{MOST_BUNDLES, SimulationConfig};
 use crate::physics::drum::Drum;
 use crate::physics::energy::SurfaceLoad;
+use crate::physics::load::packing::unit;
 use crate::physics::particles::Particles;
 use crate::physics::vector::{Rotation, Vec2, cross};
 
@@ -122,15 +123,8 @@ pub fn require_inside(drum: &Drum, particles: &Particles, rotation: Rotation) ->
 /// # Errors
 /// `Error::StartOverlap` naming the two that overlap most.
 pub fn require_apart(contacts: &Lists, particles: &Particles, drum: &Drum) -> Result<(), Error> {
-    let radius = |place: u32| particles.radii[place as usize];
     let name = |place: u32| particles.ids[place as usize];
-    let pairs = contacts.pairs.iter().map(|record| {
-        (record.overlap / radius(record.particle).min(radius(record.other)), record.key(), true)
-    });
-    let walls =
-        contacts.walls.iter().map(|record| (record.overlap / radius(record.particle), record.key(), false));
-    let deepest = pairs.chain(walls).max_by(|a, b| a.0.total_cmp(&b.0));
-    match deepest {
+    match contacts.deepest(&particles.radii) {
         Some((ratio, (particle, other), is_pair)) if ratio > START_OVERLAP_LIMIT => {
             let (one, other) = if is_pair {
                 let (one, other) = (name(particle), name(other));
@@ -180,8 +174,7 @@ pub fn packed(config: &SimulationConfig, positions: Vec<Vec2>, seed: u64) -> Par
         // A stream of its own, so that the speed does not change where the bundles lie.
         let mut random = Pcg64Mcg::seed_from_u64(!seed);
         for velocity in &mut particles.velocities {
-            let unit = (random.next_u64() >> 11) as f64 * (1.0 / (1_u64 << 53) as f64);
-            let (sin, cos) = libm::sincos(std::f64::consts::TAU * unit);
+            let (sin, cos) = libm::sincos(std::f64::consts::TAU * unit(&mut random));
             *velocity = Vec2::new(cos, sin) * load.start_speed;
         }
     }

@@ -87,10 +87,8 @@ impl Simulation {
         let mut contacts = initial_state::matching(&initial.contacts, &particles, &derived.drum, rotation);
         if memory_order::is_due(particles.len(), 0) {
             let order = memory_order::hilbert_order(&particles.positions);
-            let mut places = vec![0; order.len()];
-            (0..).zip(&order).for_each(|(place, &particle)| places[particle as usize] = place);
             particles.reorder(&order);
-            relabel(&mut contacts, &places);
+            relabel(&mut contacts, &memory_order::places(&order));
         }
         if contacts != Lists::default() {
             let found = Self::contacts_at_start(&config, &derived, &mut particles.clone(), rotation)?;

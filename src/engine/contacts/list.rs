@@ -71,7 +71,7 @@ pub struct ContactList<L: ContactLaw> {
     /// The law between the bodies, and their radii.
     pub parameters: ListParameters<L>,
     /// By contact, its place in the list of neighbors.
-    neighbors: Vec<u32>,
+    pub neighbors: Vec<u32>,
     /// What they are with.
     pub kind: ListKind,
     /// The bodies of a vacant lane.
@@ -98,11 +98,6 @@ impl<L: ContactLaw> ContactList<L> {
         self.neighbors.len()
     }
 
-    /// Number of blocks.
-    pub fn blocks(&self) -> usize {
-        self.blocks.len()
-    }
-
     /// Whether there are none.
     #[inline]
     pub fn is_empty(&self) -> bool {
@@ -114,24 +109,6 @@ impl<L: ContactLaw> ContactList<L> {
     pub fn key(&self, index: usize) -> (u32, u32) {
         let ids = &self.ids[index / LANES];
         (at_offset(ids.own[index % LANES]), self.kind.decode(ids.other[index % LANES]))
-    }
-
-    /// The overlap of contact `index` [m].
-    #[inline]
-    pub fn overlap(&self, index: usize) -> f64 {
-        self.blocks[index / LANES].state.overlap[index % LANES]
-    }
-
-    /// The place of contact `index` in the list of neighbors, to write to.
-    #[inline]
-    pub fn neighbor_mut(&mut self, index: usize) -> &mut u32 {
-        &mut self.neighbors[index]
-    }
-
-    /// The place of contact `index` in the list of neighbors.
-    #[inline]
-    pub fn neighbor(&self, index: usize) -> u32 {
-        self.neighbors[index]
     }
 
     /// Contact `index`.
@@ -251,28 +228,13 @@ impl<L: ContactLaw> ContactList<L> {
         self.put(last, &ContactRecord { particle, other, ..ContactRecord::default() }, &parameters);
         let neighbor = self.neighbors.swap_remove(index);
         if last.is_multiple_of(LANES) {
-            self.pop_block();
+            self.ids.pop();
+            self.blocks.pop();
+            self.other_moments.pop();
+            if let ListParameters::Each(blocks) = &mut self.parameters {
+                blocks.pop();
+            }
         }
         (key, neighbor)
-    }
-
-    fn pop_block(&mut self) {
-        self.ids.pop();
-        self.blocks.pop();
-        self.other_moments.pop();
-        if let ListParameters::Each(blocks) = &mut self.parameters {
-            blocks.pop();
-        }
-    }
-
-    /// Forgets all contacts.
-    pub fn clear(&mut self) {
-        self.ids.clear();
-        self.blocks.clear();
-        self.other_moments.clear();
-        self.neighbors.clear();
-        if let ListParameters::Each(blocks) = &mut self.parameters {
-            blocks.clear();
-        }
     }
 }

@@ -5,14 +5,14 @@ use std::marker::PhantomData;
 use wide::f64x2;
 
 use super::reactions::RemoteReactions;
-use crate::engine::motion::{CHUNK_FLAT, MotionView, at_offset};
+use crate::engine::motion::{MotionView, at_offset};
 use crate::engine::parallel::CHUNK;
 
 /// The sums of forces and moments of one chunk's particles. Every particle meets its contacts in the order of their lists.
 #[derive(Debug)]
 pub struct ChunkSums<'a, V> {
     chunk: u32,
-    force: &'a mut [f64; CHUNK_FLAT],
+    force: &'a mut [[f64; 2]; CHUNK],
     torque: &'a mut [f64; CHUNK],
     remote: &'a mut RemoteReactions,
     view: PhantomData<V>,
@@ -22,7 +22,7 @@ impl<'a, V: MotionView> ChunkSums<'a, V> {
     /// Of a chunk, to which these forces [N/m] and moments [N m/m] belong; `remote` is for particles of later chunks.
     pub fn new(
         chunk: u32,
-        force: &'a mut [f64; CHUNK_FLAT],
+        force: &'a mut [[f64; 2]; CHUNK],
         torque: &'a mut [f64; CHUNK],
         remote: &'a mut RemoteReactions,
     ) -> Self {
@@ -33,25 +33,20 @@ impl<'a, V: MotionView> ChunkSums<'a, V> {
     #[inline(always)]
     pub fn subtract(&mut self, own: u32, force: f64x2, moment: f64) {
         // A lane without a contact may refer to a place beyond all particles; it brings nothing to whichever this takes it for.
-        self.change(own, moment, |sum| sum - force);
+        let i = at_offset(own) as usize % CHUNK;
+        self.force[i] = (f64x2::new(self.force[i]) - force).to_array();
+        self.torque[i] += moment;
     }
 
     /// Adds force and moment of a contact to the particle at offset `other`, which may be another chunk's.
     #[inline(always)]
     pub fn add(&mut self, other: u32, force: f64x2, moment: f64) {
-        if V::ONE_CHUNK || other / CHUNK_FLAT as u32 == self.chunk {
-            self.change(other, moment, |sum| sum + force);
-        } else {
-            self.remote.send(at_offset(other), force.to_array(), moment);
+        let particle = at_offset(other);
+        if !V::ONE_CHUNK && particle / CHUNK as u32 != self.chunk {
+            return self.remote.send(particle, force.to_array(), moment);
         }
-    }
-
-    #[inline(always)]
-    fn change(&mut self, offset: u32, moment: f64, change: impl FnOnce(f64x2) -> f64x2) {
-        // An offset as an index into the forces of its chunk; even.
-        let x = offset as usize & (CHUNK_FLAT - 2);
-        let sum = change(f64x2::new([self.force[x], self.force[x + 1]]));
-        [self.force[x], self.force[x + 1]] = sum.to_array();
-        self.torque[x / 2] += moment;
+        let i = particle as usize % CHUNK;
+        self.force[i] = (f64x2::new(self.force[i]) + force).to_array();
+        self.torque[i] += moment;
     }
 }

@@ -6,9 +6,9 @@ use super::pairs::GroupGeometry;
 use super::reactions::RemoteReactions;
 use super::totals::Totals;
 use super::{Bodies, StepInputs, outlines, pairs, walls};
-use crate::engine::contacts::{ContactList, ContactRecord, ListKind, ListParameters, NOT_LISTED};
-use crate::engine::motion::{CHUNK_FLAT, MotionView, far, inside};
-use crate::engine::pair_list::{ChunkNeighbors, NearLimits, Opened};
+use crate::engine::contacts::{ContactList, ListKind, ListParameters};
+use crate::engine::motion::{MotionView, far, inside};
+use crate::engine::pair_list::{ChunkNeighbors, Opened};
 use crate::engine::parallel::CHUNK;
 use crate::engine::simd::{ALL_LANES, LANES};
 use crate::physics::contact::law::ContactLaw;
@@ -120,11 +120,9 @@ impl<L: ContactLaw> Chunk<L> {
         [&self.pairs, &self.rim, &self.outlines]
     }
 
-    /// Forgets all contacts.
-    pub fn clear(&mut self) {
-        self.pairs.clear();
-        self.rim.clear();
-        self.outlines.clear();
+    /// The same, to change.
+    pub fn lists_mut(&mut self) -> [&mut ContactList<L>; 3] {
+        [&mut self.pairs, &mut self.rim, &mut self.outlines]
     }
 
     /// Links the contacts to neighbors that have been searched for anew.
@@ -134,29 +132,17 @@ impl<L: ContactLaw> Chunk<L> {
         self.outlines.link(&mut neighbors.features);
     }
 
-    /// Adds a contact with another particle as it is, at the end of its list.
-    pub fn insert_pair(&mut self, record: &ContactRecord, bodies: &Bodies) {
-        self.pairs.insert(record, NOT_LISTED, bodies);
-    }
-
-    /// Adds a contact with the drum.
-    pub fn insert_wall(&mut self, record: &ContactRecord, bodies: &Bodies) {
-        let list = if record.other == RIM { &mut self.rim } else { &mut self.outlines };
-        list.insert(record, NOT_LISTED, bodies);
-    }
-
     /// One step of the contacts; `force` and `torque` are those of the chunk's particles.
     pub fn evaluate<V: MotionView>(
         &mut self,
         neighbors: &mut ChunkNeighbors,
-        limits: NearLimits,
         motion: V,
         inputs: &StepInputs,
-        (force, torque): (&mut [f64; CHUNK_FLAT], &mut [f64; CHUNK]),
+        (force, torque): (&mut [[f64; 2]; CHUNK], &mut [f64; CHUNK]),
     ) {
         let Self { pairs, rim, outlines, totals, remote, surfaces, scratch } = self;
         if neighbors.horizon.is_over() {
-            neighbors.refresh(motion, inputs, limits);
+            neighbors.refresh(motion, inputs);
         }
         remote.clear();
         let chunk = neighbors.particles.start / CHUNK as u32;

@@ -18,7 +18,7 @@ impl<L: ContactLaw> ContactList<L> {
         for index in 0..self.len() {
             let place = neighbors.place_of(self.key(index));
             neighbors.open(place);
-            *self.neighbor_mut(index) = place;
+            self.neighbors[index] = place;
         }
     }
 
@@ -48,9 +48,10 @@ impl<L: ContactLaw> ContactList<L> {
     #[cold]
     fn close_in(&mut self, blocks: &[u32], neighbors: &mut Neighbors) {
         for &block in blocks.iter().rev() {
+            let block = block as usize;
             for lane in (0..LANES).rev() {
-                let index = LANES * block as usize + lane;
-                if index < self.len() && self.overlap(index) == 0.0 {
+                let index = LANES * block + lane;
+                if index < self.len() && self.blocks[block].state.overlap[lane] == 0.0 {
                     let (key, place) = self.remove(index);
                     neighbors.release(key, place);
                 }

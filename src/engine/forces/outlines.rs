@@ -3,12 +3,12 @@
 use super::accumulate::ChunkSums;
 use super::chunk::Scratch;
 use super::totals::Totals;
-use super::walls::{ContactGeometry, FourBodies, advance};
+use super::walls::{ContactGeometry, advance};
 use super::{StepInputs, SurfaceLoad};
 use crate::engine::contacts::ContactList;
-use crate::engine::motion::{MotionView, offset};
+use crate::engine::motion::{MotionView, at_offset, offset};
 use crate::engine::pair_list::Neighbors;
-use crate::engine::simd::{F64x4, LANES, Vec2x4, lanes};
+use crate::engine::simd::{F64x4, LANES, Vec2x4, lanes, vectors};
 use crate::physics::contact::law::ContactLaw;
 use crate::physics::drum::RIM;
 use crate::physics::scalar::Scalar;
@@ -49,31 +49,30 @@ pub fn evaluate<L: ContactLaw, V: MotionView>(
 ) {
     find_spots(list, neighbors, motion, inputs, scratch);
     let Scratch { spots, ended, .. } = scratch;
-    ended.clear(list.blocks());
+    ended.clear(list.blocks.len());
     let mut open_totals = totals.open();
     let speed = F64x4::splat(inputs.angular_velocity);
     for (index, spots) in spots.chunks(LANES).enumerate() {
         let parameters = list.block_parameters(index);
         let (block, ids) = (&mut list.blocks[index], &list.ids[index]);
-        let bodies = FourBodies::gather(ids, motion);
+        let position = vectors(|lane| motion.position(ids.own[lane]));
         let spot = |lane: usize| spots.get(lane).copied().unwrap_or_default();
         let overlap = lanes(|lane| spot(lane).overlap);
         let normal = Vec2x4 { x: lanes(|lane| spot(lane).normal.x), y: lanes(|lane| spot(lane).normal.y) };
         let arm = parameters.1.radius - overlap.larger(F64x4::ZERO);
-        let point = bodies.position.plus(normal.scaled(arm));
+        let point = position.plus(normal.scaled(arm));
         let surface_rates = [speed * point.cross(normal), speed * point.dot(normal)];
         let geometry = ContactGeometry { normal, overlap, arm, surface_rates };
         let totals = &mut open_totals;
-        let reaction =
-            advance::<L, V, true>(block, ids, &bodies, &geometry, &parameters, inputs, sums, totals);
-        let moments = (reaction.moment - bodies.position.cross(reaction.force)).to_array();
-        for (lane, force) in reaction.force.to_array().into_iter().enumerate().take(spots.len()) {
+        let step = advance::<L, V, true>(block, ids, &geometry, &parameters, motion, inputs, sums, totals);
+        let moments = (step.moment - position.cross(step.force)).to_array();
+        for (lane, force) in step.force.to_array().into_iter().enumerate().take(spots.len()) {
             let surface = &mut surfaces[inputs.drum.surface_of(ids.other[lane])];
             let [x, y] = force.to_array();
             surface.force -= Vec2::new(x, y);
             surface.moment += moments[lane];
         }
-        ended.note(index, reaction.touching);
+        ended.note(index, step.touching);
     }
     totals.close(&open_totals, 1.0);
     list.close(ended, neighbors);
@@ -94,17 +93,14 @@ fn find_spots<L: ContactLaw>(
         let spot = spot.or_else(|| transfer_history(list, index, neighbors, motion, inputs));
         spots.push(spot.unwrap_or_default());
     }
-    for block in 0..neighbors.near.blocks().len() {
-        let touches = |lane: &usize| {
-            let (particle, feature) = neighbors.near.key(block, *lane);
+    neighbors.near.take_where(opened, |near| {
+        let touches = |&lane: &usize| {
+            let (particle, feature) = (at_offset(near.own[lane]), near.other[lane]);
             feature != RIM
                 && Spot::of(particle, feature, motion, inputs).is_some_and(|spot| spot.overlap > 0.0)
         };
-        let touching = (0..LANES).filter(touches).fold(0, |bits, lane| bits | 1 << lane);
-        if touching != 0 {
-            neighbors.near.take(block, touching, opened);
-        }
-    }
+        (0..LANES).filter(touches).fold(0, |bits, lane| bits | 1 << lane)
+    });
     // A history may have passed to a feature in the meantime.
     opened.retain(|&(_, place)| neighbors.is_apart(place as usize));
     if !opened.is_empty() {
@@ -136,7 +132,7 @@ fn transfer_history<L: ContactLaw>(
             .filter(|spot| spot.overlap > 0.0)?;
         Some((place, spot))
     })?;
-    neighbors.release((particle, feature), list.neighbor(index));
+    neighbors.release((particle, feature), list.neighbors[index]);
     neighbors.open(successor as u32);
     list.pass_to(index, neighbors.pairs()[successor].1, successor as u32);
     Some(spot)

@@ -4,11 +4,8 @@ pub mod verlet;
 
 use std::ops::Range;
 
-use crate::engine::parallel::{CHUNK, Chunked, chunk_count};
+use crate::engine::parallel::CHUNK;
 use crate::physics::particles::Particles;
-
-/// Numbers in the flat force array of a chunk.
-pub const CHUNK_FLAT: usize = 2 * CHUNK;
 
 /// A place far from everything: its distance from any particle is finite, and no contact.
 const FAR: f64 = 1e150;
@@ -59,6 +56,23 @@ impl<'a> MotionArrays<'a> {
         }
     }
 
+    /// Those of each chunk; the first of these particles is the first of all.
+    pub fn chunks(self) -> impl Iterator<Item = Self> + Send {
+        let vectors = self.position.chunks_mut(CHUNK).zip(self.velocity.chunks_mut(CHUNK));
+        let angles = self.angle.chunks_mut(CHUNK).zip(self.angular_velocity.chunks_mut(CHUNK));
+        let forces = self.force.chunks_mut(CHUNK).zip(self.torque.chunks_mut(CHUNK));
+        let chunks = vectors.zip(angles).zip(forces).enumerate();
+        chunks.map(|(chunk, (((position, velocity), (angle, angular_velocity)), (force, torque)))| Self {
+            first: CHUNK * chunk,
+            position,
+            velocity,
+            angle,
+            angular_velocity,
+            force,
+            torque,
+        })
+    }
+
     fn copy_from(&mut self, other: &MotionArrays) {
         self.position.copy_from_slice(other.position);
         self.velocity.copy_from_slice(other.velocity);
@@ -66,34 +80,6 @@ impl<'a> MotionArrays<'a> {
         self.angle.copy_from_slice(other.angle);
         self.angular_velocity.copy_from_slice(other.angular_velocity);
         self.torque.copy_from_slice(other.torque);
-    }
-}
-
-impl Chunked for MotionArrays<'_> {
-    fn chunks(&self) -> usize {
-        chunk_count(self.position.len())
-    }
-
-    fn split(self, chunks: usize) -> (Self, Self) {
-        let middle = chunks * CHUNK;
-        let (position, more_position) = self.position.split_at_mut(middle);
-        let (velocity, more_velocity) = self.velocity.split_at_mut(middle);
-        let (angle, more_angle) = self.angle.split_at_mut(middle);
-        let (angular_velocity, more_angular_velocity) = self.angular_velocity.split_at_mut(middle);
-        let (force, more_force) = self.force.split_at_mut(middle);
-        let (torque, more_torque) = self.torque.split_at_mut(middle);
-        (
-            Self { first: self.first, position, velocity, angle, angular_velocity, force, torque },
-            Self {
-                first: self.first + middle,
-                position: more_position,
-                velocity: more_velocity,
-                angle: more_angle,
-                angular_velocity: more_angular_velocity,
-                force: more_force,
-                torque: more_torque,
-            },
-        )
     }
 }
 
@@ -158,18 +144,6 @@ impl Arrays {
     }
 }
 
-/// Arrays that hold what moves of a load.
-pub trait MovingArrays {
-    /// How contacts read them.
-    type View<'a>: MotionView
-    where
-        Self: 'a;
-    /// How the particles move, to read; forces and torques by chunk, to write to.
-    fn lend(&mut self) -> (Self::View<'_>, ChunkForces<'_>);
-    /// The arrays of some of the particles.
-    fn part(&mut self, range: Range<usize>) -> MotionArrays<'_>;
-}
-
 impl<const N: usize, const M: usize, const H: usize, const ONE_CHUNK: bool> FlatArrays<N, M, H, ONE_CHUNK> {
     fn new(count: usize, inside: f64) -> Self {
         // Zeros take no memory until they are written to.
@@ -206,22 +180,19 @@ impl<const N: usize, const M: usize, const H: usize, const ONE_CHUNK: bool> Flat
         let count = particles.len();
         MotionArrays::of(particles).position.copy_from_slice(self.part(0..count).position);
     }
-}
 
-impl<const N: usize, const M: usize, const H: usize, const ONE_CHUNK: bool> MovingArrays
-    for FlatArrays<N, M, H, ONE_CHUNK>
-{
-    type View<'a> = FlatView<'a, N, M, H, ONE_CHUNK>;
-
+    /// How the particles move, to read; forces and torques by chunk, to write to.
     #[inline(always)]
-    fn lend(&mut self) -> (Self::View<'_>, ChunkForces<'_>) {
+    pub fn lend(&mut self) -> (FlatView<'_, N, M, H, ONE_CHUNK>, ChunkForces<'_>) {
         let ([position, velocity, force], [_, angular_velocity, torque]) = self.split();
-        let forces = ChunkForces { force: force.as_chunks_mut().0, torque: torque.as_chunks_mut().0 };
+        let force = force.as_chunks_mut().0.as_chunks_mut().0;
+        let forces = ChunkForces { force, torque: torque.as_chunks_mut().0 };
         (FlatView { position, velocity, angular_velocity }, forces)
     }
 
+    /// The arrays of some of the particles.
     #[inline(always)]
-    fn part(&mut self, range: Range<usize>) -> MotionArrays<'_> {
+    pub fn part(&mut self, range: Range<usize>) -> MotionArrays<'_> {
         let flat = 2 * range.start..2 * range.end;
         let ([position, velocity, force], [angle, angular_velocity, torque]) = self.split();
         MotionArrays {
@@ -249,7 +220,7 @@ fn three<const N: usize>(numbers: &mut [f64]) -> [&mut [f64; N]; 3] {
 #[derive(Debug)]
 pub struct ChunkForces<'a> {
     /// Forces [N/m].
-    pub force: &'a mut [[f64; CHUNK_FLAT]],
+    pub force: &'a mut [[[f64; 2]; CHUNK]],
     /// Torques [N m/m].
     pub torque: &'a mut [[f64; CHUNK]],
 }

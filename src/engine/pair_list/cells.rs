@@ -40,7 +40,7 @@ impl CellGrid {
         (self.origin, self.inverse_size) = (low, 1.0 / size);
         let mut cells = std::mem::take(&mut self.cells);
         cells.resize(positions.len(), 0);
-        threads.set_each(&mut cells, &|i| self.cell_of(positions[i]));
+        threads.set_each(&mut cells, |i| self.cell_of(positions[i]));
         self.cells = cells;
         self.sort(positions);
     }

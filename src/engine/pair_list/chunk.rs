@@ -9,7 +9,7 @@ use crate::engine::contacts::ListKind;
 use crate::engine::forces::StepInputs;
 use crate::engine::motion::{MotionView, far, inside, offset};
 use crate::engine::parallel::CHUNK;
-use crate::engine::simd::{ALL_LANES, F64x4, LANES, Vec2x4, greatest, lanes, rows};
+use crate::engine::simd::{ALL_LANES, F64x4, LANES, Vec2x4, greatest, lanes, vectors};
 use crate::physics::drum::RIM;
 use crate::physics::scalar::Scalar;
 use crate::physics::vector::Vec2;
@@ -31,18 +31,13 @@ pub struct ChunkNeighbors {
     pub horizon: Horizon,
     /// No particle of the chunk moves farther in a step, as seen from the drum [m].
     pub longest_displacement: f64,
-}
-
-/// What the near lists are made from, apart from the step's inputs.
-#[derive(Debug, Clone, Copy)]
-pub struct NearLimits {
     /// 1 / (distance + reach) for the farthest and largest pair of the list of neighbors, and slightly less [1/m].
-    pub inverse_sum: f64,
+    inverse_sum: f64,
 }
 
 impl ChunkNeighbors {
     /// For chunk `index` of `count` particles.
-    pub fn new(index: usize, count: usize) -> Self {
+    pub fn new(index: usize, count: usize, inverse_sum: f64) -> Self {
         let first = (index * CHUNK) as u32;
         let particles = first..(count.min((index + 1) * CHUNK)) as u32;
         Self {
@@ -52,19 +47,19 @@ impl ChunkNeighbors {
             watched: Vec::new(),
             horizon: Horizon::of(STEPS),
             longest_displacement: f64::INFINITY,
+            inverse_sum,
             particles,
         }
     }
 
     /// Makes the near lists anew.
     #[inline(never)]
-    pub fn refresh(&mut self, motion: impl MotionView, inputs: &StepInputs, limits: NearLimits) {
+    pub fn refresh(&mut self, motion: impl MotionView, inputs: &StepInputs) {
         self.horizon.restart();
-        let time = f64::from(self.horizon.steps()) * inputs.time.step;
+        let time = f64::from(self.horizon.steps()) * inputs.time[0];
         let reach = Reach {
-            radius: inputs.bodies.radius,
-            radii: inputs.bodies.radii,
-            inverse_sum: F64x4::splat(limits.inverse_sum),
+            bodies: inputs.bodies,
+            inverse_sum: F64x4::splat(self.inverse_sum),
             time: F64x4::splat(time),
             budget: F64x4::splat(self.horizon.budget()),
         };
@@ -124,16 +119,15 @@ impl ChunkNeighbors {
             let (position, velocity) = gather(motion, |lane| (first + lane as u32).min(last));
             most = squared_rate(position, velocity, speed).larger(most);
         }
-        greatest(most.to_array()).sqrt() * inputs.time.step
+        greatest(most.to_array()).sqrt() * inputs.time[0]
     }
 }
 
 /// Positions and velocities of four particles.
 #[inline(always)]
 fn gather(motion: impl MotionView, particle: impl Fn(usize) -> u32) -> (Vec2x4, Vec2x4) {
-    let position = rows(|lane| motion.position(offset(particle(lane))));
-    let velocity = rows(|lane| motion.velocity(offset(particle(lane))));
-    (Vec2x4::from_rows(position), Vec2x4::from_rows(velocity))
+    let at = |lane| offset(particle(lane));
+    (vectors(|lane| motion.position(at(lane))), vectors(|lane| motion.velocity(at(lane))))
 }
 
 /// Squares of velocities as seen from a drum that turns at some speed.

@@ -1,13 +1,13 @@
-//! One straight edge of an outline, and the bridge between parry2d's vectors and ours.
-
-use parry2d::query::PointQueryWithLocation;
-use parry2d::shape::{Segment as ParrySegment, SegmentPointLocation};
+//! One straight edge of an outline.
 
 use crate::physics::vector::{Vec2, cross, dot};
 
 /// A directed straight line from its start to its end, of non-zero length.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Segment(ParrySegment);
+pub(super) struct Segment {
+    pub(super) start: Vec2,
+    pub(super) end: Vec2,
+}
 
 /// Where on a segment the closest point lies.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,38 +31,29 @@ pub(super) struct Projection {
 
 impl Segment {
     pub(super) fn new(start: Vec2, end: Vec2) -> Self {
-        Self(ParrySegment::new(to_parry(start), to_parry(end)))
-    }
-
-    #[inline]
-    pub(super) fn start(&self) -> Vec2 {
-        from_parry(self.0.a)
-    }
-
-    #[inline]
-    pub(super) fn end(&self) -> Vec2 {
-        from_parry(self.0.b)
+        Self { start, end }
     }
 
     /// From the start to the end, in full length [m].
     #[inline]
     pub(super) fn vector(&self) -> Vec2 {
-        self.end() - self.start()
+        self.end - self.start
     }
 
-    /// The point of this segment closest to `point`.
-    ///
-    /// Parry compares scalar products only, so the answer has no length scale of its own. (Its flag
-    /// `is_inside` has a tolerance; it is not used.)
+    /// The point of this segment closest to `point`. Scalar products are compared with each other only, so that the answer has
+    /// no length scale of its own.
     #[inline]
     pub(super) fn project(&self, point: Vec2) -> Projection {
-        let (projection, location) = self.0.project_local_point_and_get_location(to_parry(point), false);
-        let region = match location {
-            SegmentPointLocation::OnVertex(0) => SegmentRegion::Start,
-            SegmentPointLocation::OnVertex(_) => SegmentRegion::End,
-            SegmentPointLocation::OnEdge([_, fraction]) => SegmentRegion::Between(fraction),
-        };
-        Projection { point: from_parry(projection.point), region }
+        let along = self.vector();
+        let (way, whole) = (dot(along, point - self.start), dot(along, along));
+        if way <= 0.0 {
+            Projection { point: self.start, region: SegmentRegion::Start }
+        } else if way >= whole {
+            Projection { point: self.end, region: SegmentRegion::End }
+        } else {
+            let fraction = way / whole;
+            Projection { point: self.start + along * fraction, region: SegmentRegion::Between(fraction) }
+        }
     }
 
     /// Squared distance [m²] from `point`.
@@ -75,28 +66,28 @@ impl Segment {
     /// Positive left of the line through this segment, negative right of it, zero on it.
     #[inline]
     pub(super) fn left_of(&self, point: Vec2) -> f64 {
-        cross(self.vector(), point - self.start())
+        cross(self.vector(), point - self.start)
     }
 
     /// Whether two segments cross at a point inside both.
     #[inline]
     pub(super) fn crosses(&self, other: &Self) -> bool {
-        opposite(self.left_of(other.start()), self.left_of(other.end()))
-            && opposite(other.left_of(self.start()), other.left_of(self.end()))
+        opposite(self.left_of(other.start), self.left_of(other.end))
+            && opposite(other.left_of(self.start), other.left_of(self.end))
     }
 
     /// Whether two segments share any point at all.
     pub(super) fn meets(&self, other: &Self) -> bool {
         self.crosses(other)
-            || self.holds(other.start())
-            || self.holds(other.end())
-            || other.holds(self.start())
-            || other.holds(self.end())
+            || self.holds(other.start)
+            || self.holds(other.end)
+            || other.holds(self.start)
+            || other.holds(self.end)
     }
 
     /// Whether `point` lies on this segment.
     pub(super) fn holds(&self, point: Vec2) -> bool {
-        let (start, end) = (self.start(), self.end());
+        let Self { start, end } = *self;
         let between = |a: f64, b: f64, value: f64| a.min(b) <= value && value <= a.max(b);
         self.left_of(point) == 0.0 && between(start.x, end.x, point.x) && between(start.y, end.y, point.y)
     }
@@ -106,16 +97,6 @@ impl Segment {
 #[inline]
 fn opposite(a: f64, b: f64) -> bool {
     (a > 0.0 && b < 0.0) || (a < 0.0 && b > 0.0)
-}
-
-#[inline]
-fn to_parry(v: Vec2) -> parry2d::math::Vector {
-    parry2d::math::Vector::new(v.x, v.y)
-}
-
-#[inline]
-fn from_parry(v: parry2d::math::Vector) -> Vec2 {
-    Vec2::new(v.x, v.y)
 }
 
 #[cfg(test)]
