@@ -3,8 +3,9 @@
 //! A chunk always holds the same particles and is always worked through in the same order by one thread; sums are kept
 //! per chunk and added up in chunk order afterwards. That is why the number of threads never shows in a result.
 
-use std::ops::Range;
 use std::sync::{Arc, Mutex, PoisonError};
+
+use rayon::iter::{IndexedParallelIterator, IntoParallelIterator, ParallelIterator};
 
 use crate::error::Error;
 
@@ -151,42 +152,11 @@ fn share<W: Send>(tasks: impl Iterator<Item = W>, kernel: &(impl Fn(W) + Sync), 
         let taken = task.lock().unwrap_or_else(PoisonError::into_inner).take();
         taken.into_iter().for_each(kernel);
     };
-    in_company(0..members, &|number| {
+    // Split until each has a thread of its own, if there are as many.
+    (0..members).into_par_iter().with_max_len(1).for_each(|number| {
         own(number).iter().for_each(take);
         for other in (1..members).map(|turn| (number + turn) % members) {
             own(other).iter().rev().for_each(take);
         }
     });
-}
-
-/// Calls `work` with each of `numbers`, each on a thread of its own if there are as many.
-fn in_company(numbers: Range<usize>, work: &(impl Fn(usize) + Sync)) {
-    match numbers.len() {
-        0 => {}
-        1 => work(numbers.start),
-        len => {
-            let middle = numbers.start + len / 2;
-            rayon::join(|| in_company(numbers.start..middle, work), || in_company(middle..numbers.end, work));
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use std::sync::atomic::{AtomicUsize, Ordering};
-
-    #[test]
-    fn every_task_is_done_once_however_few_there_are() {
-        for threads in [1, 3] {
-            let threads = Threads::new(threads).unwrap();
-            for tasks in [0, 1, 2, 3, 40] {
-                let done: Vec<AtomicUsize> = (0..tasks).map(|_| AtomicUsize::new(0)).collect();
-                threads.for_each(PARALLEL_THRESHOLD, done.iter(), |task| {
-                    task.fetch_add(1, Ordering::Relaxed);
-                });
-                assert!(done.into_iter().all(|task| task.into_inner() == 1), "{tasks} tasks");
-            }
-        }
-    }
 }

@@ -155,17 +155,3 @@ pub fn differences(a: impl Fn(usize) -> [f64; 2], b: impl Fn(usize) -> [f64; 2])
 pub fn lanes(number: impl Fn(usize) -> f64) -> F64x4 {
     F64x4::new([number(0), number(1), number(2), number(3)])
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn rows_become_columns_and_vectors_again() {
-        let vector = |lane: usize| [lane as f64, 10.0 * lane as f64];
-        let four = vectors(vector);
-        assert_eq!(four.x.to_array(), [0.0, 1.0, 2.0, 3.0]);
-        assert_eq!(four.to_array().map(f64x2::to_array), [0, 1, 2, 3].map(vector));
-        assert_eq!(four.cross(Vec2x4 { x: four.y, y: four.x }).to_array()[1], 1.0 - 100.0);
-    }
-}

@@ -127,30 +127,3 @@ impl<A: Columns, B: Columns> Columns for (A, B) {
         }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    columns! {
-        /// Two numbers.
-        pub struct Two {
-            /// The first.
-            one,
-            /// The second.
-            other,
-        }
-    }
-
-    #[test]
-    fn records_convert_field_by_field() {
-        type Both = (Two, (Two, ()));
-        let mut record = Both::build(|index| index as f64);
-        assert_eq!(record, (Two { one: 0.0, other: 1.0 }, (Two { one: 2.0, other: 3.0 }, ())));
-        *Both::field_mut(&mut record, 2) = 7.0;
-        assert_eq!(Both::map(&record, |value: f64| value as u8).1.0, Two { one: 7, other: 3 });
-        assert_eq!((Two::NAMES, Two::MEANINGS[1]), (&["one", "other"][..], " The second."));
-        let [one, other] = [Two { one: true, ..Two::NONE }, Two { other: true, ..Two::NONE }];
-        assert_eq!((one.union(other), one.union(one)), (Two { one: true, other: true }, one));
-    }
-}

@@ -7,7 +7,7 @@ use rand_pcg::Pcg64Mcg;
 
 use crate::engine::contacts::ContactRecord;
 use crate::engine::forces::Lists;
-use crate::error::Error;
+use crate::error::{Error, require, require_finite};
 use crate::io::config::{MOST_BUNDLES, SimulationConfig};
 use crate::physics::drum::Drum;
 use crate::physics::energy::SurfaceLoad;
@@ -43,18 +43,12 @@ impl InitialState {
     /// `Error::Config` naming the field.
     pub fn particles(&self, config: &SimulationConfig, species_count: usize) -> Result<Particles, Error> {
         let count = self.positions.len();
-        if count == 0 {
-            return Err(Error::config("state.positions", "empty", "of at least one bundle"));
-        }
-        if count > MOST_BUNDLES {
-            let limit = format!("of at most {MOST_BUNDLES} bundles");
-            return Err(Error::config("state.positions", format!("of {count} bundles"), limit));
-        }
+        require(count > 0, "state.positions", "empty", "of at least one bundle")?;
+        let (found, limit) = (format!("of {count} bundles"), format!("of at most {MOST_BUNDLES} bundles"));
+        require(count <= MOST_BUNDLES, "state.positions", found, limit)?;
         let radii = self.radii.clone().unwrap_or_else(|| vec![0.5 * config.load.diameter; count]);
-        if radii.len() != count {
-            let found = format!("of length {}", radii.len());
-            return Err(Error::config("state.radii", found, format!("of length {count}")));
-        }
+        let length = |count: usize| format!("of length {count}");
+        require(radii.len() == count, "state.radii", length(radii.len()), length(count))?;
         let locked = config.load.spin_locked;
         let mut particles = Particles::at_rest(self.positions.clone(), radii, config.load.density, locked);
         if let Some(velocities) = &self.velocities {
@@ -64,10 +58,9 @@ impl InitialState {
             particles.angles.clone_from(angles);
         }
         if let Some(spins) = &self.angular_velocities {
-            if locked && spins.iter().any(|&spin| spin != 0.0) {
-                let limit = "0 while load.spin_locked is true";
-                return Err(Error::config("state.angular_velocities", "not 0", limit));
-            }
+            let limit = "0 while load.spin_locked is true";
+            let is_possible = !locked || spins.iter().all(|&spin| spin == 0.0);
+            require(is_possible, "state.angular_velocities", "not 0", limit)?;
             particles.angular_velocities.clone_from(spins);
         }
         if let Some(species) = &self.species {
@@ -77,13 +70,10 @@ impl InitialState {
             }
             particles.species.clone_from(species);
         }
-        if !self.drum_angle.is_finite() {
-            return Err(Error::config("state.drum_angle", self.drum_angle, "a finite number"));
-        }
+        require_finite("state.drum_angle", self.drum_angle)?;
         let Lists { pairs, walls } = &self.contacts;
-        if !pairs.iter().chain(walls).all(ContactRecord::is_finite) {
-            return Err(Error::config("state.contacts", "not finite", "finite"));
-        }
+        let are_finite = pairs.iter().chain(walls).all(ContactRecord::is_finite);
+        require(are_finite, "state.contacts", "not finite", "finite")?;
         particles.validate()?;
         Ok(particles)
     }

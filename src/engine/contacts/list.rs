@@ -12,7 +12,7 @@ use crate::physics::contact::law::ContactLaw;
 pub struct Ids {
     /// Offsets of bodies i.
     pub own: [u32; LANES],
-    /// Offsets of bodies j, or features of the drum.
+    /// Offsets of bodies j; features of the drum are doubled likewise.
     pub other: [u32; LANES],
 }
 
@@ -45,18 +45,6 @@ pub enum ListKind {
     PairsOfTwoMoments,
     /// Features of the drum.
     Walls,
-}
-
-impl ListKind {
-    /// Body j as a block has it.
-    pub fn encode(self, other: u32) -> u32 {
-        if self == Self::Walls { other } else { offset(other) }
-    }
-
-    /// What a block has as body j.
-    pub fn decode(self, other: u32) -> u32 {
-        if self == Self::Walls { other } else { at_offset(other) }
-    }
 }
 
 /// Contacts in the order in which they opened. Lanes after the last one are vacant: they refer to bodies that never touch.
@@ -108,7 +96,7 @@ impl<L: ContactLaw> ContactList<L> {
     #[inline]
     pub fn key(&self, index: usize) -> (u32, u32) {
         let ids = &self.ids[index / LANES];
-        (at_offset(ids.own[index % LANES]), self.kind.decode(ids.other[index % LANES]))
+        (at_offset(ids.own[index % LANES]), at_offset(ids.other[index % LANES]))
     }
 
     /// Contact `index`.
@@ -168,7 +156,7 @@ impl<L: ContactLaw> ContactList<L> {
 
     /// Appends a vacant block. Its parameters are those of a contact, so that it can be worked out.
     fn push_block(&mut self, parameters: &Of<PairParameters<L>, f64>) {
-        let (own, other) = (offset(self.vacant.0), self.kind.encode(self.vacant.1));
+        let (own, other) = (offset(self.vacant.0), offset(self.vacant.1));
         self.ids.push(Ids { own: [own; LANES], other: [other; LANES] });
         self.blocks.push(Block {
             state: ContactState::build(|_| [0.0; LANES]),
@@ -206,7 +194,7 @@ impl<L: ContactLaw> ContactList<L> {
 
     fn put_key(&mut self, index: usize, (own, other): (u32, u32)) {
         let ids = &mut self.ids[index / LANES];
-        (ids.own[index % LANES], ids.other[index % LANES]) = (offset(own), self.kind.encode(other));
+        (ids.own[index % LANES], ids.other[index % LANES]) = (offset(own), offset(other));
     }
 
     /// Lets contact `index` be with another feature of the drum, which has this place in the list of neighbors.

@@ -33,6 +33,19 @@ pub struct Chunk<L: ContactLaw> {
     scratch: Scratch,
 }
 
+/// One step of a chunk, as its lists go through it.
+pub struct ChunkStep<'a, V> {
+    /// How the particles move.
+    pub motion: V,
+    /// What is the same for all contacts.
+    pub inputs: &'a StepInputs<'a>,
+    /// Where forces go.
+    pub sums: ChunkSums<'a, V>,
+    /// What the ledger is told.
+    pub totals: &'a mut Totals,
+    pub scratch: &'a mut Scratch,
+}
+
 /// Written before it is read; kept, since making it takes time.
 #[derive(Debug, Clone, Default)]
 pub struct Scratch {
@@ -120,11 +133,6 @@ impl<L: ContactLaw> Chunk<L> {
         [&self.pairs, &self.rim, &self.outlines]
     }
 
-    /// The same, to change.
-    pub fn lists_mut(&mut self) -> [&mut ContactList<L>; 3] {
-        [&mut self.pairs, &mut self.rim, &mut self.outlines]
-    }
-
     /// Links the contacts to neighbors that have been searched for anew.
     pub fn link(&mut self, neighbors: &mut ChunkNeighbors) {
         self.pairs.link(&mut neighbors.pairs);
@@ -146,13 +154,13 @@ impl<L: ContactLaw> Chunk<L> {
         }
         remote.clear();
         let chunk = neighbors.particles.start / CHUNK as u32;
-        let sums = &mut ChunkSums::<V>::new(chunk, force, torque, remote);
-        pairs::evaluate(pairs, &mut neighbors.pairs, motion, inputs, sums, totals, scratch);
-        surfaces[0] = walls::evaluate_rim(rim, &mut neighbors.rim, motion, inputs, sums, totals, scratch);
+        let sums = ChunkSums::new(chunk, force, torque, remote);
+        let step = &mut ChunkStep { motion, inputs, sums, totals, scratch };
+        pairs::evaluate(pairs, &mut neighbors.pairs, step);
+        surfaces[0] = walls::evaluate_rim(rim, &mut neighbors.rim, step);
         if inputs.drum.surface_count() > 1 {
             surfaces[1..].fill(SurfaceLoad::default());
-            let features = &mut neighbors.features;
-            outlines::evaluate(outlines, features, motion, inputs, sums, totals, surfaces, scratch);
+            outlines::evaluate(outlines, &mut neighbors.features, step, surfaces);
         }
     }
 }

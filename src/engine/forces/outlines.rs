@@ -1,8 +1,6 @@
 //! Contacts of particles with edges and vertices of outlines, four at a time.
 
-use super::accumulate::ChunkSums;
-use super::chunk::Scratch;
-use super::totals::Totals;
+use super::chunk::{ChunkStep, Scratch};
 use super::walls::{ContactGeometry, advance};
 use super::{StepInputs, SurfaceLoad};
 use crate::engine::contacts::ContactList;
@@ -36,21 +34,19 @@ impl Spot {
 
 /// One step of the contacts with outlines: those that open, then all, then those that end. Adds what outlines do to the load to
 /// `surfaces`.
-#[allow(clippy::too_many_arguments)]
 pub fn evaluate<L: ContactLaw, V: MotionView>(
     list: &mut ContactList<L>,
     neighbors: &mut Neighbors,
-    motion: V,
-    inputs: &StepInputs,
-    sums: &mut ChunkSums<V>,
-    totals: &mut Totals,
+    step: &mut ChunkStep<V>,
     surfaces: &mut [SurfaceLoad],
-    scratch: &mut Scratch,
 ) {
-    find_spots(list, neighbors, motion, inputs, scratch);
-    let Scratch { spots, ended, .. } = scratch;
-    ended.clear(list.blocks.len());
-    let mut open_totals = totals.open();
+    find_spots(list, neighbors, step);
+    let Some(mut totals) = step.open(list, neighbors) else { return };
+    let ChunkStep { motion, inputs, sums, scratch: Scratch { spots, ended, .. }, .. } = &mut *step;
+    let motion = *motion;
+    for (particle, feature) in (spots.len()..list.len()).map(|index| list.key(index)) {
+        spots.push(Spot::of(particle, feature, motion, inputs).unwrap_or_default());
+    }
     let speed = F64x4::splat(inputs.angular_velocity);
     for (index, spots) in spots.chunks(LANES).enumerate() {
         let parameters = list.block_parameters(index);
@@ -63,29 +59,28 @@ pub fn evaluate<L: ContactLaw, V: MotionView>(
         let point = position.plus(normal.scaled(arm));
         let surface_rates = [speed * point.cross(normal), speed * point.dot(normal)];
         let geometry = ContactGeometry { normal, overlap, arm, surface_rates };
-        let totals = &mut open_totals;
-        let step = advance::<L, V, true>(block, ids, &geometry, &parameters, motion, inputs, sums, totals);
-        let moments = (step.moment - position.cross(step.force)).to_array();
-        for (lane, force) in step.force.to_array().into_iter().enumerate().take(spots.len()) {
-            let surface = &mut surfaces[inputs.drum.surface_of(ids.other[lane])];
+        let forces =
+            advance::<L, V, true>(block, ids, &geometry, &parameters, motion, inputs, sums, &mut totals);
+        let moments = (forces.moment - position.cross(forces.force)).to_array();
+        for (lane, force) in forces.force.to_array().into_iter().enumerate().take(spots.len()) {
+            let surface = &mut surfaces[inputs.drum.surface_of(at_offset(ids.other[lane]))];
             let [x, y] = force.to_array();
             surface.force -= Vec2::new(x, y);
             surface.moment += moments[lane];
         }
-        ended.note(index, step.touching);
+        ended.note(index, forces.touching);
     }
-    totals.close(&open_totals, 1.0);
-    list.close(ended, neighbors);
+    step.close(list, neighbors, &totals, 1.0);
 }
 
-/// Where each contact meets the drum, the new ones last.
-fn find_spots<L: ContactLaw>(
+/// Where each contact meets the drum, and which neighbors have begun to touch.
+fn find_spots<L: ContactLaw, V: MotionView>(
     list: &mut ContactList<L>,
     neighbors: &mut Neighbors,
-    motion: impl MotionView,
-    inputs: &StepInputs,
-    Scratch { opened, spots, .. }: &mut Scratch,
+    step: &mut ChunkStep<V>,
 ) {
+    let (motion, inputs) = (step.motion, step.inputs);
+    let Scratch { opened, spots, .. } = &mut *step.scratch;
     spots.clear();
     for index in 0..list.len() {
         let (particle, feature) = list.key(index);
@@ -95,7 +90,7 @@ fn find_spots<L: ContactLaw>(
     }
     neighbors.near.take_where(opened, |near| {
         let touches = |&lane: &usize| {
-            let (particle, feature) = (at_offset(near.own[lane]), near.other[lane]);
+            let (particle, feature) = (at_offset(near.own[lane]), at_offset(near.other[lane]));
             feature != RIM
                 && Spot::of(particle, feature, motion, inputs).is_some_and(|spot| spot.overlap > 0.0)
         };
@@ -103,14 +98,6 @@ fn find_spots<L: ContactLaw>(
     });
     // A history may have passed to a feature in the meantime.
     opened.retain(|&(_, place)| neighbors.is_apart(place as usize));
-    if !opened.is_empty() {
-        let first = list.len();
-        list.open(opened, neighbors, &inputs.bodies);
-        spots.extend((first..list.len()).map(|index| {
-            let (particle, feature) = list.key(index);
-            Spot::of(particle, feature, motion, inputs).unwrap_or_default()
-        }));
-    }
 }
 
 /// Passes the history of a contact to the neighboring feature of the outline when a particle rolls from one to the other.

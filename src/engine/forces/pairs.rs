@@ -4,12 +4,11 @@
 //! scattering. The root of one block then overlaps with the work on others; in one stage each block waits for its own.
 
 use super::accumulate::ChunkSums;
-use super::chunk::{Ended, Scratch};
-use super::totals::Totals;
-use super::{StepInputs, block};
+use super::chunk::{ChunkStep, Scratch};
+use super::{Totals, block};
 use crate::engine::contacts::{Block, ContactList, Geometry, Ids, ListParameters, PairParameters};
 use crate::engine::motion::{MotionView, at_offset};
-use crate::engine::pair_list::{NearBlock, Neighbors, Opened};
+use crate::engine::pair_list::{NearBlock, Neighbors};
 use crate::engine::simd::{F64x4, LANES, Vec2x4, differences, lanes};
 use crate::physics::columns::{Columns, Of};
 use crate::physics::contact::RelativeMotion;
@@ -42,74 +41,33 @@ impl Default for GroupGeometry {
 pub fn evaluate<L: ContactLaw, V: MotionView>(
     list: &mut ContactList<L>,
     neighbors: &mut Neighbors,
-    motion: V,
-    inputs: &StepInputs,
-    sums: &mut ChunkSums<V>,
-    totals: &mut Totals,
-    scratch: &mut Scratch,
+    step: &mut ChunkStep<V>,
 ) {
-    let Scratch { opened, ended, group, .. } = scratch;
-    find_touching(neighbors, motion, inputs, opened);
-    if !opened.is_empty() {
-        list.open(opened, neighbors, &inputs.bodies);
-    }
-    if list.is_empty() {
-        return;
-    }
-    ended.clear(list.blocks.len());
-    let (time, mut lanes) = (inputs.time, totals.open());
+    find_touching(neighbors, step);
+    let Some(mut totals) = step.open(list, neighbors) else { return };
     let ContactList { ids, blocks, other_moments, parameters, .. } = list;
-    let moments = other_moments.as_mut_slice();
     let unit = match parameters {
         ListParameters::Same(same) => {
             let own = PairParameters::<L>::map(same, F64x4::splat);
-            if moments.is_empty() {
-                run::<L, V, false, false>(
-                    ids,
-                    blocks,
-                    moments,
-                    |_| own,
-                    motion,
-                    time,
-                    sums,
-                    &mut lanes,
-                    group,
-                    ended,
-                );
+            if other_moments.is_empty() {
+                run::<L, V, false, false>(ids, blocks, other_moments, |_| own, step, &mut totals);
             } else {
-                run::<L, V, true, false>(
-                    ids,
-                    blocks,
-                    moments,
-                    |_| own,
-                    motion,
-                    time,
-                    sums,
-                    &mut lanes,
-                    group,
-                    ended,
-                );
+                run::<L, V, true, false>(ids, blocks, other_moments, |_| own, step, &mut totals);
             }
             same.1.radius.min(same.1.other_radius)
         }
         ListParameters::Each(each) => {
             let of = |block: usize| PairParameters::<L>::map(&each[block], F64x4::new);
-            run::<L, V, true, true>(ids, blocks, moments, of, motion, time, sums, &mut lanes, group, ended);
+            run::<L, V, true, true>(ids, blocks, other_moments, of, step, &mut totals);
             1.0
         }
     };
-    totals.close(&lanes, unit);
-    list.close(ended, neighbors);
+    step.close(list, neighbors, &totals, unit);
 }
 
 /// Takes the pairs that touch out of the near list.
-fn find_touching(
-    neighbors: &mut Neighbors,
-    motion: impl MotionView,
-    inputs: &StepInputs,
-    opened: &mut Vec<Opened>,
-) {
-    let bodies = inputs.bodies;
+fn find_touching<V: MotionView>(neighbors: &mut Neighbors, step: &mut ChunkStep<V>) {
+    let (motion, bodies, opened) = (step.motion, step.inputs.bodies, &mut step.scratch.opened);
     let squared_distance = |near: &NearBlock| {
         let (own, other) = (|lane: usize| near.own[lane], |lane: usize| near.other[lane]);
         let apart = differences(|lane| motion.position(own(lane)), |lane| motion.position(other(lane)));
@@ -129,20 +87,17 @@ fn find_touching(
 
 /// One pass over a list. With `BOTH`, moments on bodies j are kept apart from those on bodies i; with `MIXED`, radii differ,
 /// and depths are ratios.
-#[allow(clippy::too_many_arguments)]
 #[inline(never)]
 fn run<L: ContactLaw, V: MotionView, const BOTH: bool, const MIXED: bool>(
     ids: &[Ids],
     blocks: &mut [Block<L>],
     other_moments: &mut [[f64; LANES]],
     parameters: impl Fn(usize) -> Of<PairParameters<L>, F64x4>,
-    motion: V,
-    time: [f64; 2],
-    sums: &mut ChunkSums<V>,
+    step: &mut ChunkStep<V>,
     totals: &mut Totals<F64x4>,
-    GroupGeometry(geometries): &mut GroupGeometry,
-    ended: &mut Ended,
 ) {
+    let ChunkStep { sums, scratch: Scratch { group: GroupGeometry(geometries), ended, .. }, .. } = step;
+    let (motion, time) = (step.motion, step.inputs.time);
     for (group, (blocks, ids)) in blocks.chunks_mut(GROUP).zip(ids.chunks(GROUP)).enumerate() {
         let first = GROUP * group;
         contact_geometries(|block| parameters(first + block).1, ids, motion, geometries);

@@ -130,14 +130,11 @@ impl<L: ContactLaw> Pass<L> {
         }
     }
 
-    /// Adds the reactions on a chunk's particles, in the order of the chunks that sent them, and moves the particles on.
-    fn gather_and_advance(&self, mut own: MotionArrays, integrator: Option<&Verlet>, sums: &mut DriftSums) {
+    /// Adds the reactions on a chunk's particles, in the order of the chunks that sent them.
+    fn gather(&self, own: &mut MotionArrays) {
         let chunk = own.first / CHUNK;
         for &sender in &self.senders[chunk] {
-            self.chunks[sender as usize].remote.gather(chunk, &mut own);
-        }
-        if let Some(verlet) = integrator {
-            *sums = verlet.advance::<WHOLE>(own);
+            self.chunks[sender as usize].remote.gather(chunk, own);
         }
     }
 }
@@ -152,6 +149,11 @@ impl<L: ContactLaw> ForcePass for Pass<L> {
         sums: &mut [DriftSums],
         threads: &Threads,
     ) {
+        let advance = |own: MotionArrays, sums: &mut DriftSums| {
+            if let Some(verlet) = integrator {
+                *sums = verlet.advance::<WHOLE>(own);
+            }
+        };
         with_arrays!(arrays, arrays => if threads.serve(self.count) {
             let (motion, forces) = arrays.lend();
             // The arrays are longer than the load.
@@ -161,7 +163,10 @@ impl<L: ContactLaw> ForcePass for Pass<L> {
                 chunk.evaluate(neighbors, motion, inputs, own);
             });
             let chunks = arrays.part(0..self.count).chunks().zip(sums);
-            threads.for_each(self.count, chunks, |(own, sums)| self.gather_and_advance(own, integrator, sums));
+            threads.for_each(self.count, chunks, |(mut own, sums)| {
+                self.gather(&mut own);
+                advance(own, sums);
+            });
         } else {
             // Chunk after chunk, and each is moved on while it is in the cache.
             for (index, sums) in sums.iter_mut().enumerate() {
@@ -169,8 +174,9 @@ impl<L: ContactLaw> ForcePass for Pass<L> {
                 let own = (&mut forces.force[index], &mut forces.torque[index]);
                 self.chunks[index].evaluate(&mut list.chunks[index], motion, inputs, own);
                 let first = index * CHUNK;
-                let own = arrays.part(first..self.count.min(first + CHUNK));
-                self.gather_and_advance(own, integrator, sums);
+                let mut own = arrays.part(first..self.count.min(first + CHUNK));
+                self.gather(&mut own);
+                advance(own, sums);
             }
         });
         self.add_up();
@@ -253,7 +259,7 @@ impl<L: ContactLaw> ForcePass for Pass<L> {
 
     fn drain(&mut self) -> Lists {
         let lists = self.contacts();
-        for list in self.chunks.iter_mut().flat_map(Chunk::lists_mut) {
+        for list in self.chunks.iter_mut().flat_map(|own| [&mut own.pairs, &mut own.rim, &mut own.outlines]) {
             while !list.is_empty() {
                 list.remove(list.len() - 1);
             }

@@ -4,12 +4,11 @@ use wide::f64x2;
 
 use super::accumulate::ChunkSums;
 use super::block::{self, BlockForces};
-use super::chunk::{Ended, Scratch};
-use super::totals::Totals;
-use super::{StepInputs, SurfaceLoad};
+use super::chunk::{ChunkStep, Scratch};
+use super::{StepInputs, SurfaceLoad, Totals};
 use crate::engine::contacts::{Block, ContactList, Ids, ListParameters, PairParameters};
 use crate::engine::motion::{MotionView, at_offset};
-use crate::engine::pair_list::{Neighbors, Opened};
+use crate::engine::pair_list::Neighbors;
 use crate::engine::simd::{F64x4, LANES, Vec2x4, lanes, sum, vectors};
 use crate::physics::columns::{Columns, Of};
 use crate::physics::contact::RelativeMotion;
@@ -35,48 +34,29 @@ pub struct ContactGeometry {
 pub fn evaluate_rim<L: ContactLaw, V: MotionView>(
     list: &mut ContactList<L>,
     neighbors: &mut Neighbors,
-    motion: V,
-    inputs: &StepInputs,
-    sums: &mut ChunkSums<V>,
-    totals: &mut Totals,
-    scratch: &mut Scratch,
+    step: &mut ChunkStep<V>,
 ) -> SurfaceLoad {
-    let Scratch { opened, ended, .. } = scratch;
-    find_touching_rim(neighbors, motion, inputs, opened);
-    if !opened.is_empty() {
-        list.open(opened, neighbors, &inputs.bodies);
-    }
-    if list.is_empty() {
-        return SurfaceLoad::default();
-    }
-    ended.clear(list.blocks.len());
+    find_touching_rim(neighbors, step);
+    let Some(mut totals) = step.open(list, neighbors) else { return SurfaceLoad::default() };
     let ContactList { ids, blocks, parameters, .. } = list;
-    let mut lanes = totals.open();
     let (load, unit) = match parameters {
         ListParameters::Same(same) => {
             let own = PairParameters::<L>::map(same, F64x4::splat);
-            let load = rim_pass::<L, V, false>(ids, blocks, |_| own, motion, inputs, sums, &mut lanes, ended);
-            (load, same.1.radius)
+            (rim_pass::<L, V, false>(ids, blocks, |_| own, step, &mut totals), same.1.radius)
         }
         ListParameters::Each(each) => {
             let of = |block: usize| PairParameters::<L>::map(&each[block], F64x4::new);
-            (rim_pass::<L, V, true>(ids, blocks, of, motion, inputs, sums, &mut lanes, ended), 1.0)
+            (rim_pass::<L, V, true>(ids, blocks, of, step, &mut totals), 1.0)
         }
     };
-    totals.close(&lanes, unit);
-    list.close(ended, neighbors);
+    step.close(list, neighbors, &totals, unit);
     load
 }
 
 /// Takes the particles that touch the rim out of the near list.
-fn find_touching_rim(
-    neighbors: &mut Neighbors,
-    motion: impl MotionView,
-    inputs: &StepInputs,
-    opened: &mut Vec<Opened>,
-) {
-    let Some(rim) = inputs.drum.radius() else { return };
-    let bodies = inputs.bodies;
+fn find_touching_rim<V: MotionView>(neighbors: &mut Neighbors, step: &mut ChunkStep<V>) {
+    let (motion, bodies, opened) = (step.motion, step.inputs.bodies, &mut step.scratch.opened);
+    let Some(rim) = step.inputs.drum.radius() else { return };
     let same = bodies.radius.map(|radius| F64x4::splat((rim - radius) * (rim - radius)));
     neighbors.near.take_where(opened, |near| {
         let position = vectors(|lane| motion.position(near.own[lane]));
@@ -90,17 +70,15 @@ fn find_touching_rim(
 
 /// One pass over the contacts with the rim.
 #[inline(always)]
-#[allow(clippy::too_many_arguments)]
 fn rim_pass<L: ContactLaw, V: MotionView, const MIXED: bool>(
     ids: &[Ids],
     blocks: &mut [Block<L>],
     parameters: impl Fn(usize) -> Of<PairParameters<L>, F64x4>,
-    motion: V,
-    inputs: &StepInputs,
-    sums: &mut ChunkSums<V>,
+    step: &mut ChunkStep<V>,
     totals: &mut Totals<F64x4>,
-    ended: &mut Ended,
 ) -> SurfaceLoad {
+    let ChunkStep { motion, inputs, sums, scratch: Scratch { ended, .. }, .. } = step;
+    let motion = *motion;
     let Some(rim) = inputs.drum.radius() else { return SurfaceLoad::default() };
     let zero = F64x4::ZERO;
     let (mut moment, mut force) = (zero, Vec2x4 { x: zero, y: zero });

@@ -28,58 +28,39 @@ pub fn at_offset(offset: u32) -> u32 {
 pub struct MotionArrays<'a> {
     /// The number of the first particle.
     pub first: usize,
-    /// Centers [m].
-    pub position: &'a mut [[f64; 2]],
-    /// Velocities [m/s].
-    pub velocity: &'a mut [[f64; 2]],
-    /// Angles [rad].
-    pub angle: &'a mut [f64],
-    /// Angular velocities [rad/s].
-    pub angular_velocity: &'a mut [f64],
-    /// Forces [N/m].
-    pub force: &'a mut [[f64; 2]],
-    /// Torques [N m/m].
-    pub torque: &'a mut [f64],
+    /// Centers [m], velocities [m/s], forces [N/m].
+    pub vectors: [&'a mut [[f64; 2]]; 3],
+    /// Angles [rad], angular velocities [rad/s], torques [N m/m].
+    pub scalars: [&'a mut [f64]; 3],
 }
 
 impl<'a> MotionArrays<'a> {
     /// Those of some particles.
     pub fn of(particles: &'a mut Particles) -> Self {
-        Self {
-            first: 0,
-            position: bytemuck::must_cast_slice_mut(&mut particles.positions),
-            velocity: bytemuck::must_cast_slice_mut(&mut particles.velocities),
-            angle: &mut particles.angles,
-            angular_velocity: &mut particles.angular_velocities,
-            force: bytemuck::must_cast_slice_mut(&mut particles.forces),
-            torque: &mut particles.torques,
-        }
+        let Particles { positions, velocities, forces, angles, angular_velocities, torques, .. } = particles;
+        let vectors = [positions, velocities, forces].map(|vectors| bytemuck::must_cast_slice_mut(vectors));
+        Self { first: 0, vectors, scalars: [angles, angular_velocities, torques].map(Vec::as_mut_slice) }
     }
 
     /// Those of each chunk; the first of these particles is the first of all.
     pub fn chunks(self) -> impl Iterator<Item = Self> + Send {
-        let vectors = self.position.chunks_mut(CHUNK).zip(self.velocity.chunks_mut(CHUNK));
-        let angles = self.angle.chunks_mut(CHUNK).zip(self.angular_velocity.chunks_mut(CHUNK));
-        let forces = self.force.chunks_mut(CHUNK).zip(self.torque.chunks_mut(CHUNK));
-        let chunks = vectors.zip(angles).zip(forces).enumerate();
-        chunks.map(|(chunk, (((position, velocity), (angle, angular_velocity)), (force, torque)))| Self {
+        let [positions, velocities, forces] = self.vectors.map(|values| values.chunks_mut(CHUNK));
+        let [angles, spins, torques] = self.scalars.map(|values| values.chunks_mut(CHUNK));
+        let chunks = positions.zip(velocities).zip(forces).zip(angles.zip(spins).zip(torques)).enumerate();
+        chunks.map(|(chunk, (((x, v), f), ((a, w), t)))| Self {
             first: CHUNK * chunk,
-            position,
-            velocity,
-            angle,
-            angular_velocity,
-            force,
-            torque,
+            vectors: [x, v, f],
+            scalars: [a, w, t],
         })
     }
 
     fn copy_from(&mut self, other: &MotionArrays) {
-        self.position.copy_from_slice(other.position);
-        self.velocity.copy_from_slice(other.velocity);
-        self.force.copy_from_slice(other.force);
-        self.angle.copy_from_slice(other.angle);
-        self.angular_velocity.copy_from_slice(other.angular_velocity);
-        self.torque.copy_from_slice(other.torque);
+        for (own, other) in self.vectors.iter_mut().zip(&other.vectors) {
+            own.copy_from_slice(other);
+        }
+        for (own, other) in self.scalars.iter_mut().zip(&other.scalars) {
+            own.copy_from_slice(other);
+        }
     }
 }
 
@@ -178,7 +159,7 @@ impl<const N: usize, const M: usize, const H: usize, const ONE_CHUNK: bool> Flat
     /// Brings the positions back to the particles.
     pub fn store_positions(&mut self, particles: &mut Particles) {
         let count = particles.len();
-        MotionArrays::of(particles).position.copy_from_slice(self.part(0..count).position);
+        MotionArrays::of(particles).vectors[0].copy_from_slice(self.part(0..count).vectors[0]);
     }
 
     /// How the particles move, to read; forces and torques by chunk, to write to.
@@ -194,15 +175,11 @@ impl<const N: usize, const M: usize, const H: usize, const ONE_CHUNK: bool> Flat
     #[inline(always)]
     pub fn part(&mut self, range: Range<usize>) -> MotionArrays<'_> {
         let flat = 2 * range.start..2 * range.end;
-        let ([position, velocity, force], [angle, angular_velocity, torque]) = self.split();
+        let (vectors, scalars) = self.split();
         MotionArrays {
             first: range.start,
-            position: position[flat.clone()].as_chunks_mut().0,
-            velocity: velocity[flat.clone()].as_chunks_mut().0,
-            force: force[flat].as_chunks_mut().0,
-            angle: &mut angle[range.clone()],
-            angular_velocity: &mut angular_velocity[range.clone()],
-            torque: &mut torque[range],
+            vectors: vectors.map(|values| values[flat.clone()].as_chunks_mut().0),
+            scalars: scalars.map(|values| &mut values[range.clone()]),
         }
     }
 }

@@ -117,7 +117,8 @@ impl Verlet {
         body: impl Fn(usize) -> BodyConstants,
         mass: f64,
     ) -> DriftSums {
-        let MotionArrays { position, velocity, angle, angular_velocity, force, torque, .. } = arrays;
+        let ([position, velocity, force], [angle, angular_velocity, torque]) =
+            (arrays.vectors, arrays.scalars);
         let (count, quads) = (position.len(), position.len() / LANES);
         // Σ x, or Σ m x where masses differ, x and y in turn; the greatest square of half a kick.
         let (mut moments, mut greatest_square) = (F64x4::ZERO, F64x4::ZERO);

@@ -5,7 +5,6 @@ use std::ops::Range;
 use super::horizon::{Horizon, STEPS};
 use super::near::Reach;
 use super::neighbors::Neighbors;
-use crate::engine::contacts::ListKind;
 use crate::engine::forces::StepInputs;
 use crate::engine::motion::{MotionView, far, inside, offset};
 use crate::engine::parallel::CHUNK;
@@ -41,9 +40,9 @@ impl ChunkNeighbors {
         let first = (index * CHUNK) as u32;
         let particles = first..(count.min((index + 1) * CHUNK)) as u32;
         Self {
-            pairs: Neighbors::new(ListKind::Pairs, (first, far(count))),
-            rim: Neighbors::new(ListKind::Walls, (inside(count), RIM)),
-            features: Neighbors::new(ListKind::Walls, (far(count), RIM)),
+            pairs: Neighbors::new((first, far(count))),
+            rim: Neighbors::new((inside(count), RIM)),
+            features: Neighbors::new((far(count), RIM)),
             watched: Vec::new(),
             horizon: Horizon::of(STEPS),
             longest_displacement: f64::INFINITY,
@@ -117,7 +116,8 @@ impl ChunkNeighbors {
         let mut most = F64x4::ZERO;
         for first in self.particles.clone().step_by(LANES) {
             let (position, velocity) = gather(motion, |lane| (first + lane as u32).min(last));
-            most = squared_rate(position, velocity, speed).larger(most);
+            let seen = Vec2x4 { x: velocity.x + position.y * speed, y: velocity.y - position.x * speed };
+            most = seen.dot(seen).larger(most);
         }
         greatest(most.to_array()).sqrt() * inputs.time[0]
     }
@@ -128,13 +128,6 @@ impl ChunkNeighbors {
 fn gather(motion: impl MotionView, particle: impl Fn(usize) -> u32) -> (Vec2x4, Vec2x4) {
     let at = |lane| offset(particle(lane));
     (vectors(|lane| motion.position(at(lane))), vectors(|lane| motion.velocity(at(lane))))
-}
-
-/// Squares of velocities as seen from a drum that turns at some speed.
-#[inline(always)]
-fn squared_rate(position: Vec2x4, velocity: Vec2x4, speed: F64x4) -> F64x4 {
-    let seen = Vec2x4 { x: velocity.x + position.y * speed, y: velocity.y - position.x * speed };
-    seen.dot(seen)
 }
 
 /// Distances are taken slightly low, which covers round-off.

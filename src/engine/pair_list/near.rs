@@ -6,7 +6,7 @@
 //! prunes its outer list to an inner one in the same way). No result depends on it, since a pair that is left out cannot
 //! touch before the list ends (`horizon`).
 
-use crate::engine::contacts::{ListKind, NOT_LISTED};
+use crate::engine::contacts::NOT_LISTED;
 use crate::engine::forces::Bodies;
 use crate::engine::motion::{MotionView, at_offset, offset};
 use crate::engine::simd::{ALL_LANES, F64x4, LANES, differences, lanes};
@@ -17,7 +17,7 @@ use crate::physics::scalar::Scalar;
 pub struct NearBlock {
     /// Offsets of bodies i.
     pub own: [u32; LANES],
-    /// Offsets of bodies j; at the drum, features.
+    /// Offsets of bodies j; features of the drum are doubled likewise.
     pub other: [u32; LANES],
     /// Their places among the neighbors.
     place: [u32; LANES],
@@ -29,7 +29,6 @@ pub struct NearBlock {
 pub struct NearList {
     blocks: Vec<NearBlock>,
     len: usize,
-    kind: ListKind,
     /// The bodies of a vacant lane.
     vacant: (u32, u32),
 }
@@ -39,8 +38,8 @@ pub type Opened = ((u32, u32), u32);
 
 impl NearList {
     /// An empty list; vacant lanes refer to the bodies `vacant`.
-    pub fn new(kind: ListKind, vacant: (u32, u32)) -> Self {
-        Self { blocks: Vec::new(), len: 0, kind, vacant }
+    pub fn new(vacant: (u32, u32)) -> Self {
+        Self { blocks: Vec::new(), len: 0, vacant }
     }
 
     /// Forgets all, keeping the memory.
@@ -54,22 +53,14 @@ impl NearList {
     pub fn push(&mut self, (own, other): (u32, u32), place: u32) {
         let lane = self.len % LANES;
         if lane == 0 {
-            let (own, other) = self.encode(self.vacant);
-            self.blocks.push(NearBlock {
-                own: [own; LANES],
-                other: [other; LANES],
-                place: [NOT_LISTED; LANES],
-            });
+            let (own, other) = (offset(self.vacant.0), offset(self.vacant.1));
+            let (own, other) = ([own; LANES], [other; LANES]);
+            self.blocks.push(NearBlock { own, other, place: [NOT_LISTED; LANES] });
         }
-        let (own, other) = self.encode((own, other));
         if let Some(block) = self.blocks.last_mut() {
-            (block.own[lane], block.other[lane], block.place[lane]) = (own, other, place);
+            (block.own[lane], block.other[lane], block.place[lane]) = (offset(own), offset(other), place);
         }
         self.len += 1;
-    }
-
-    fn encode(&self, (own, other): (u32, u32)) -> (u32, u32) {
-        (offset(own), self.kind.encode(other))
     }
 
     /// Takes out the pairs that touch, which each block tells by bits.
@@ -86,10 +77,10 @@ impl NearList {
     #[cold]
     #[inline(never)]
     fn take(&mut self, block: usize, touching: u32, opened: &mut Vec<Opened>) {
-        let vacant = self.encode(self.vacant);
+        let vacant = (offset(self.vacant.0), offset(self.vacant.1));
         for lane in (0..LANES).filter(|lane| touching >> lane & 1 == 1) {
             let block = &mut self.blocks[block];
-            let key = (at_offset(block.own[lane]), self.kind.decode(block.other[lane]));
+            let key = (at_offset(block.own[lane]), at_offset(block.other[lane]));
             opened.push((key, block.place[lane]));
             (block.own[lane], block.other[lane]) = vacant;
             block.place[lane] = NOT_LISTED;

@@ -1,7 +1,7 @@
 //! The neighbors of a chunk's particles: which pairs may touch while the list holds, whether they do, and which are near.
 
 use super::near::{NearList, Reach};
-use crate::engine::contacts::{ListKind, NOT_LISTED};
+use crate::engine::contacts::NOT_LISTED;
 use crate::engine::motion::MotionView;
 use crate::engine::simd::LANES;
 
@@ -17,8 +17,8 @@ pub struct Neighbors {
 
 impl Neighbors {
     /// None yet; vacant lanes of the near list refer to the bodies `vacant`.
-    pub fn new(kind: ListKind, vacant: (u32, u32)) -> Self {
-        Self { pairs: Vec::new(), are_apart: Vec::new(), near: NearList::new(kind, vacant) }
+    pub fn new(vacant: (u32, u32)) -> Self {
+        Self { pairs: Vec::new(), are_apart: Vec::new(), near: NearList::new(vacant) }
     }
 
     /// Forgets all, keeping the memory.
