@@ -209,11 +209,6 @@ impl Simulation {
     }
 
     #[getter]
-    fn mass(&self, py: Python<'_>) -> f64 {
-        self.with(py, |core| core.mass())
-    }
-
-    #[getter]
     fn drum_angle(&self, py: Python<'_>) -> f64 {
         self.with(py, |core| core.drum_angle())
     }
