@@ -1,4 +1,4 @@
-"""What can go wrong, as four exceptions and a warning; each message is one sentence with the value and the limit.
+"""What can go wrong, as four exceptions and two warnings; each message is one sentence with the value and the limit.
 
 The core raises the same classes, by importing this module: so every error pickles, whichever side it comes from.
 """
@@ -30,3 +30,7 @@ class CheckpointError(DrumrsError, ValueError):
 
 class DrumrsWarning(UserWarning):
     """Something that a configuration does and that its author may not expect; said at the start, with ways out."""
+
+
+class PictureWarning(DrumrsWarning):
+    """A picture, a player or a plot of a page that could not be made; names it, and why. The numbers are complete."""

@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from drumrs.config.fields import GREATEST_SPECIES
-from drumrs.config.report import show
+from drumrs.config.messages import show
+from drumrs.config.types import GREATEST_SPECIES
 from drumrs.errors import ConfigError
 
 _FLOATS = ("positions", "velocities", "angles", "angular_velocities", "radii")

@@ -1,12 +1,14 @@
 """Validated, frozen configurations: keys and defaults, layers, TOML and JSON in and out.
 
-Imports nothing else of drumrs but its errors. `fields` holds the types of values and the words for their limits,
-`models` the tables, `root` the whole; `layers` lays tables over each other, `report` words refusals, `document`
-writes TOML, `boundary` translates for the compiled core.
+Imports nothing else of drumrs but its errors. `types` holds the types of values and their limits in words, `tables`
+the tables of keys, `config` the whole configuration; `layers` merges tables, `messages` words what is refused,
+`toml_writer` writes TOML with comments, `to_core` translates for the compiled core.
 """
 
+from drumrs.config.config import Config, baseline, read_toml_file
 from drumrs.config.layers import merge, nest, parse_settings
-from drumrs.config.models import (
+from drumrs.config.messages import dotted_keys
+from drumrs.config.tables import (
     Baffles,
     Contact,
     Drum,
@@ -17,8 +19,6 @@ from drumrs.config.models import (
     Run,
     WallContact,
 )
-from drumrs.config.report import dotted_keys
-from drumrs.config.root import Config, baseline, read_toml_file
 
 __all__ = [
     "Baffles",

@@ -7,7 +7,7 @@ from typing import Any, ClassVar, Protocol, cast
 
 from pydantic import BaseModel
 
-from drumrs.config.report import part_of, show
+from drumrs.config.messages import show, table_type
 from drumrs.errors import ConfigError
 
 
@@ -54,7 +54,7 @@ def merge(
         raise ConfigError(both_given(at, chosen, upper))
     merged = {key: value for key, value in lower.items() if not (chosen and key in pair)}
     for key, value in upper.items():
-        part = part_of(model, key)
+        part = table_type(model, key)
         below = merged.get(key)
         if part is not None and isinstance(value, Mapping) and isinstance(below, Mapping):
             merged[key] = merge(part, below, value, f"{at}{key}.")

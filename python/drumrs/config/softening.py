@@ -8,7 +8,7 @@ from drumrs.errors import ConfigError
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from drumrs.config.models import Contact, LinearContact, PairContact, Tables, WallContact
+    from drumrs.config.tables import Contact, LinearContact, PairContact, Tables, WallContact
 
 
 def softening(config: "Tables", factor: float, name: str = "softer") -> dict[str, tuple[float, float]]:

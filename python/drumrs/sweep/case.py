@@ -2,6 +2,7 @@
 
 import hashlib
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cache, cached_property
 
@@ -9,6 +10,8 @@ from drumrs.config import Config, LinearContact
 from drumrs.simulation import info
 
 _ID_DIGITS = 20
+# So many digits are shown where they tell cases apart.
+_SHORT_ID_DIGITS = 8
 # The core takes this part of the shortest collision where `run.time_step` is "auto".
 _AUTO_STEPS = 50.0
 
@@ -62,6 +65,22 @@ class Case:
     def cost(self) -> float:
         """Particle-steps that the case takes, near enough to compare cases by."""
         return self.config.bundle_count * self.config.run.duration / _time_step(self.config)
+
+
+def short_ids(ids: Iterable[str], others: Iterable[str] = ()) -> dict[str, str]:
+    """Return the beginnings of ids, by id, that tell them apart from each other and from others.
+
+    Examples
+    --------
+    >>> from drumrs.sweep.case import short_ids
+    >>> short_ids(["0123456789", "abcdefghij"], ["abcdefgh00"])
+    {'0123456789': '012345678', 'abcdefghij': 'abcdefghi'}
+    """
+    ids = list(ids)
+    known = {*ids, *others}
+    lengths = range(_SHORT_ID_DIGITS, _ID_DIGITS)
+    digits = next((n for n in lengths if len({one[:n] for one in known}) == len(known)), _ID_DIGITS)
+    return {one: one[:digits] for one in ids}
 
 
 @cache

@@ -11,7 +11,7 @@ from pydantic import BaseModel
 
 from drumrs.analysis import STATISTICS
 from drumrs.config import Config
-from drumrs.config.report import part_of
+from drumrs.config.messages import table_type
 from drumrs.result import Summary
 from drumrs.sweep.case import Case
 
@@ -81,7 +81,7 @@ def _numbers(summary: Summary) -> dict[str, Any]:
 def _leaves(model: type[BaseModel], at: str = "") -> Iterator[tuple[str, Any]]:
     """List the dotted keys that hold values, with their annotations."""
     for key, field in model.model_fields.items():
-        part = part_of(model, key)
+        part = table_type(model, key)
         if part is not None:
             yield from _leaves(part, f"{at}{key}.")
         else:

@@ -5,7 +5,7 @@ from itertools import product
 from typing import Any, cast
 
 from drumrs.config import Config
-from drumrs.config.report import dotted_keys, show
+from drumrs.config.messages import dotted_keys, show
 from drumrs.errors import ConfigError
 from drumrs.sweep.case import Case
 

@@ -12,7 +12,7 @@ from pydantic import BaseModel
 
 import drumrs
 from drumrs.config import Config, PairContact, WallContact
-from drumrs.config.report import dotted_keys, part_of
+from drumrs.config.messages import dotted_keys, table_type
 from drumrs.errors import ConfigError
 
 positive = st.floats(1e-300, 1e300)
@@ -96,7 +96,7 @@ def test_every_key_has_a_strategy():
 def _is_table(key: str) -> bool:
     model = Config
     for name in key.split("."):
-        model = part_of(model, name)
+        model = table_type(model, name)
         if model is None:
             return False
     return True

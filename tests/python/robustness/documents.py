@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 
 import drumrs
 from drumrs.config import Config
-from drumrs.config.document import literal
-from drumrs.config.report import dotted_keys
+from drumrs.config.messages import dotted_keys
+from drumrs.config.toml_writer import literal
 from drumrs.errors import ConfigError, UnstableError
 
 KEYS = sorted(dotted_keys(Config))

@@ -7,7 +7,7 @@ from typing import Any, get_args, get_origin
 from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails, PydanticCustomError
 
-from drumrs.config.fields import Limit
+from drumrs.config.types import Limit
 
 _LONGEST_VALUE = 60
 _TABLE = "a table of keys"
@@ -43,7 +43,7 @@ def show(value: object) -> str:
     return text if len(text) <= _LONGEST_VALUE else f"{text[: _LONGEST_VALUE - 1]}…"
 
 
-def part_of(model: type[BaseModel], key: str) -> type[BaseModel] | None:
+def table_type(model: type[BaseModel], key: str) -> type[BaseModel] | None:
     """Return the model behind `key` where the field is a table of its own."""
     field = model.model_fields.get(key)
     kind = field.annotation if field is not None else None
@@ -54,7 +54,7 @@ def dotted_keys(model: type[BaseModel], at: str = "") -> Iterator[str]:
     """List every key of `model` and its tables, as a user writes it."""
     for key in model.model_fields:
         yield f"{at}{key}"
-        part = part_of(model, key)
+        part = table_type(model, key)
         if part is not None:
             yield from dotted_keys(part, f"{at}{key}.")
 

@@ -4,7 +4,7 @@ import math
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from drumrs.config.models import Contact, Drum, LinearContact, Rotation, Run, Tables
+    from drumrs.config.tables import Contact, Drum, LinearContact, Rotation, Run, Tables
 
 
 def core_config(config: "Tables", bundle_count: int) -> dict[str, Any]:

@@ -1,11 +1,11 @@
-"""`Part`: what every table of a configuration has in common."""
+"""`ConfigTable`: what every table of a configuration has in common."""
 
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 from pydantic import BaseModel, ConfigDict, ValidationError, model_validator
 
 from drumrs.config.layers import both_given
-from drumrs.config.report import relation, sentence, show
+from drumrs.config.messages import relation, sentence, show
 from drumrs.errors import ConfigError
 
 if TYPE_CHECKING:
@@ -25,7 +25,7 @@ class _OneSentence(ModelMetaclass):
             raise ConfigError(sentence(cls, error)) from None
 
 
-class Part(BaseModel, metaclass=_OneSentence):
+class ConfigTable(BaseModel, metaclass=_OneSentence):
     """A frozen table of keys that refuses unknown ones."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", validate_default=True)

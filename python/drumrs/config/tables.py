@@ -5,11 +5,11 @@ from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import Field, model_validator
 
-from drumrs.config import fields
-from drumrs.config.fields import Flag, Limit, NonNegative, Positive, Real
+from drumrs.config import types
+from drumrs.config.config_table import ConfigTable
 from drumrs.config.layers import both_given, merge
-from drumrs.config.part import Part
-from drumrs.config.report import relation, show
+from drumrs.config.messages import relation, show
+from drumrs.config.types import Flag, Limit, NonNegative, Positive, Real
 
 Shape = Annotated[Literal["triangle", "trapezoid", "polygon"], Limit("'triangle', 'trapezoid' or 'polygon'")]
 Tension = Annotated[Literal["allowed", "clipped"], Limit("'allowed' or 'clipped'")]
@@ -24,15 +24,15 @@ def _key(default: Any, meaning: str, example: Any = None) -> Any:
     return Field(default=default, description=f"{meaning}.", examples=examples)
 
 
-class Baffles(Part):
+class Baffles(ConfigTable):
     """Equal baffles, spread evenly round the rim; their default sizes are an assumption."""
 
-    count: fields.BaffleCount = _key(0, "Number of baffles; 0 is a bare drum")
+    count: types.BaffleCount = _key(0, "Number of baffles; 0 is a bare drum")
     shape: Shape = _key("triangle", "'triangle', 'trapezoid' or 'polygon'")
     height: Positive = _key(0.05, "Distance of the tip from the rim [m], along the baffle's axis")
     base: Positive = _key(0.06, "Distance (chord) of the two base corners [m], which lie on the rim")
     tip: Positive = _key(0.02, "Distance of the two tip corners of a trapezoid [m]")
-    points: fields.Points | None = _key(
+    points: types.Points | None = _key(
         None,
         "Corners of a polygon [m]: x along the baffle's axis inwards from the rim, y across",
         [[0.0, -0.03], [0.05, 0.0], [0.0, 0.03]],
@@ -46,12 +46,12 @@ class Baffles(Part):
         return self
 
 
-class Drum(Part):
+class Drum(ConfigTable):
     """The drum: rim, baffles and straight walls, one rigid body that turns about the origin."""
 
     diameter: Positive = _key(0.475, "Inner diameter D [m]")
     rim: Flag = _key(default=True, meaning="Whether there is a rim; false leaves the walls alone")
-    walls: Annotated[tuple[fields.Polyline, ...], Limit("a list of polylines")] = _key(
+    walls: Annotated[tuple[types.Polyline, ...], Limit("a list of polylines")] = _key(
         (), "Further walls: open polylines of points [m, m] at t = 0, which turn with the drum"
     )
     baffles: Baffles = Field(default=Baffles())
@@ -65,13 +65,13 @@ class Drum(Part):
         return self
 
 
-class Rotation(Part):
+class Rotation(ConfigTable):
     """How the drum turns, counter-clockwise positive: one speed, or a program."""
 
     pair: ClassVar[tuple[str, str] | None] = ("rpm", "program")
 
     rpm: Real | None = _key(None, "Constant speed [rpm]", 54.0)
-    program: fields.Program | None = _key(
+    program: types.Program | None = _key(
         None,
         "Knots [s, rpm] of a program: linear between them, constant beyond the first and last",
         [[0.0, 0.0], [2.0, 54.0], [20.0, 54.0], [22.0, -54.0]],
@@ -88,7 +88,7 @@ class Rotation(Part):
         return self
 
 
-class Load(Part):
+class Load(ConfigTable):
     """The load: equal discs that stand for bundles of fabric."""
 
     pair: ClassVar[tuple[str, str] | None] = ("fill", "count")
@@ -98,12 +98,12 @@ class Load(Part):
         1000.0, "Density of a bundle [kg/m³]; its mass is density · π d²/4 per meter of depth"
     )
     fill: Positive | None = _key(None, "Fill N d²/D², a fraction of the bare drum's area", 0.25)
-    count: fields.BundleCount | None = _key(None, "Number N of bundles, instead of fill", 100)
+    count: types.BundleCount | None = _key(None, "Number N of bundles, instead of fill", 100)
     start_speed: NonNegative = _key(0.0, "Speed of every bundle at t = 0 [m/s], in a random direction")
     spin_locked: Flag = _key(default=False, meaning="Whether bundles are kept from spinning")
 
 
-class LinearContact(Part):
+class LinearContact(ConfigTable):
     """A linear spring and dashpot with a tangential spring that Coulomb friction cuts off, and terms beside them."""
 
     pair: ClassVar[tuple[str, str] | None] = ("restitution", "normal_damping")
@@ -115,10 +115,10 @@ class LinearContact(Part):
     young_modulus: Positive | None = _key(
         None, "Young's modulus of both bodies [Pa], where contact.base is 'hertz'", 1e8
     )
-    poisson_ratio: fields.PoissonRatio = _key(
+    poisson_ratio: types.PoissonRatio = _key(
         0.3, "Poisson's ratio of both bodies, where contact.base is 'hertz'"
     )
-    restitution: fields.Restitution | None = _key(
+    restitution: types.Restitution | None = _key(
         None, "Coefficient of restitution; the damping follows from it", 0.1
     )
     normal_damping: NonNegative | None = _key(
@@ -141,14 +141,14 @@ class LinearContact(Part):
     )
 
 
-class _SomeOfContact(Part):
+class _PartialContact(ConfigTable):
     """Some keys of a contact table; the rest is that of a whole one."""
 
     normal_stiffness: Positive | None = None
     stiffness_ratio: Positive | None = None
     young_modulus: Positive | None = None
-    poisson_ratio: fields.PoissonRatio | None = None
-    restitution: fields.Restitution | None = None
+    poisson_ratio: types.PoissonRatio | None = None
+    restitution: types.Restitution | None = None
     normal_damping: NonNegative | None = None
     friction: NonNegative | None = None
     tension: Tension | None = None
@@ -169,32 +169,30 @@ class _SomeOfContact(Part):
         return LinearContact.model_validate(merge(LinearContact, whole.model_dump(), _given(own)))
 
 
-class PairContact(_SomeOfContact):
+class PairContact(_PartialContact):
     """What acts between two species instead of ``contact.bundle``."""
 
-    between: fields.TwoSpecies
+    between: types.TwoSpecies
 
 
-class WallContact(_SomeOfContact):
+class WallContact(_PartialContact):
     """What acts between a species and the drum instead of ``contact.drum``."""
 
-    species: fields.Species
+    species: types.Species
 
 
 def _given(values: dict[str, Any]) -> dict[str, Any]:
     return {key: value for key, value in values.items() if value is not None}
 
 
-class Contact(Part):
+class Contact(ConfigTable):
     """The contact laws: bundle against bundle, bundle against drum."""
 
     base: Base = _key(
         "linear",
         "Base law of all contacts: 'linear', or 'hertz', Hertz–Mindlin in a layer one disc diameter thick",
     )
-    species: fields.SpeciesCount = _key(
-        1, "Number of species; a state tells which bundle is of which, from 0"
-    )
+    species: types.SpeciesCount = _key(1, "Number of species; a state tells which bundle is of which, from 0")
     pairs: Annotated[tuple[PairContact, ...], Limit("a list of tables with the key between")] = _key(
         (), "Laws between two species: { between = [0, 1], friction = 0.3 }, the rest as in contact.bundle"
     )
@@ -218,14 +216,14 @@ class Contact(Part):
         return self
 
 
-class Run(Part):
+class Run(ConfigTable):
     """How long to run, what to record, when to give up."""
 
     time_step: TimeStep = _key(3.70e-6, "Time step [s]; 'auto' is the shortest collision time / 50")
     duration: Positive = _key(
         30.0, "Simulated time [s]; the number of steps is its quotient by the step, rounded up"
     )
-    window: fields.Interval | None = _key(
+    window: types.Interval | None = _key(
         None,
         "Start and end [s, s] of the averages; the last third of the duration unless given",
         [20.0, 30.0],
@@ -233,9 +231,9 @@ class Run(Part):
     sample_every: Positive = _key(0.002, "Interval between rows of the series [s]; means are exact for any")
     frame_every: Positive = _key(0.04, "Interval between frames (positions, angles, speeds) [s]")
     checkpoint_every: Positive = _key(60.0, "Interval between checkpoints [s], in time of the wall clock")
-    seed: fields.Seed = _key(1, "Seed of the random start")
+    seed: types.Seed = _key(1, "Seed of the random start")
     skin: Skin = _key("auto", "Margin of the neighbor lists [m]; it changes the speed, never a result")
-    overlap_limit: fields.OpenFraction = _key(
+    overlap_limit: types.OpenFraction = _key(
         0.5, "Greatest overlap, over the smaller radius, before the run is given up as unstable"
     )
 
@@ -255,12 +253,12 @@ class Run(Part):
         return self.window or (self.duration * 2.0 / 3.0, self.duration)
 
 
-class Tables(Part):
+class Tables(ConfigTable):
     """All tables together, as the baseline has them."""
 
     drum: Drum = Field(default=Drum())
     rotation: Rotation = Field(default=Rotation(rpm=54.0))
     load: Load = Field(default=Load(fill=0.25))
     contact: Contact = Field(default=Contact())
-    gravity: Annotated[fields.Vector, Field(description="Gravity [x, y] [m/s²].")] = (0.0, -9.81)
+    gravity: Annotated[types.Vector, Field(description="Gravity [x, y] [m/s²].")] = (0.0, -9.81)
     run: Run = Field(default=Run())

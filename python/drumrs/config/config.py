@@ -8,13 +8,13 @@ from typing import Any, Self
 
 from pydantic import model_validator
 
-from drumrs.config import fields
-from drumrs.config.boundary import core_config
-from drumrs.config.document import to_toml
+from drumrs.config import types
 from drumrs.config.layers import merge, nest, read_toml
-from drumrs.config.models import Tables
-from drumrs.config.report import relation
+from drumrs.config.messages import relation
 from drumrs.config.softening import layer, softening
+from drumrs.config.tables import Tables
+from drumrs.config.to_core import core_config
+from drumrs.config.toml_writer import to_toml
 from drumrs.errors import ConfigError
 
 
@@ -38,10 +38,10 @@ class Config(Tables):
                 f"drum.diameter = {self.drum.diameter}"
             )
         one = (self.load.diameter / self.drum.diameter) ** 2
-        if self.load.fill is not None and not one / 2.0 < self.load.fill <= one * fields.GREATEST_COUNT:
+        if self.load.fill is not None and not one / 2.0 < self.load.fill <= one * types.GREATEST_COUNT:
             raise relation(
                 f"load.fill is {self.load.fill}, but must be between {one / 2.0:.4g} and "
-                f"{one * fields.GREATEST_COUNT:.4g}: one bundle of diameter {self.load.diameter} fills {one:.4g} "
+                f"{one * types.GREATEST_COUNT:.4g}: one bundle of diameter {self.load.diameter} fills {one:.4g} "
                 f"of a drum of diameter {self.drum.diameter}"
             )
         return self
@@ -63,11 +63,24 @@ class Config(Tables):
         >>> drumrs.baseline(fill=0.25, baffles=True).title
         '100 bundles (25 % fill), 3 baffles, 54 rpm, seed 1'
         """
-        fill = self.bundle_count * (self.load.diameter / self.drum.diameter) ** 2
+        return self.title_of(
+            self.bundle_count, self.bundle_count * (self.load.diameter / self.drum.diameter) ** 2
+        )
+
+    def title_of(self, bundle_count: int, fill: float) -> str:
+        """Return the title with the number of bundles and the fill of a load that may have been given as a `State`.
+
+        Examples
+        --------
+        >>> import drumrs
+        >>> drumrs.baseline().title_of(1, 0.0025)
+        '1 bundle (0.25 % fill), no baffles, 54 rpm, seed 1'
+        """
         baffles = self.drum.baffles.count
+        load = f"{bundle_count} bundle{'s' if bundle_count != 1 else ''} ({100.0 * fill:.3g} % fill)"
         many = "no baffles" if baffles == 0 else f"{baffles} baffle{'s' if baffles > 1 else ''}"
         turning = f"{self.rotation.rpm:g} rpm" if self.rotation.rpm is not None else "a program of speeds"
-        return f"{self.bundle_count} bundles ({100.0 * fill:.3g} % fill), {many}, {turning}, seed {self.run.seed}"
+        return f"{load}, {many}, {turning}, seed {self.run.seed}"
 
     @property
     def digest(self) -> str:
