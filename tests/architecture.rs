@@ -259,6 +259,7 @@ fn libraries_stay_where_they_belong() {
     let owners: &[(&str, &[&str])] = &[
         ("pyo3", &["python"]),
         ("numpy", &["python"]),
+        ("parry2d", &["physics::drum"]),
         ("rayon", &["engine::parallel"]),
         ("wide", &["engine"]),
         ("bytemuck", &["engine"]),

@@ -1,4 +1,5 @@
-//! The drum in its own frame: a rim, and outlines (baffles, straight walls).
+//! The drum in its own frame: a rim, handled analytically, and outlines (baffles, straight walls), whose edges are
+//! queried with parry2d.
 //!
 //! A `Drum` never moves; `rotation` says how its frame turns. What a disc can touch is counted in features:
 //! the rim, and every edge and vertex of the outlines. Each contact belongs to one of them. Walls that meet are

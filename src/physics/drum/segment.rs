@@ -1,4 +1,8 @@
-//! One straight edge of an outline.
+//! One straight edge of an outline, queried with parry2d.
+
+use parry2d::math::Vector;
+use parry2d::query::PointQueryWithLocation;
+use parry2d::shape::{Segment as ParrySegment, SegmentPointLocation};
 
 use crate::physics::vector::{Vec2, cross, dot};
 
@@ -40,20 +44,21 @@ impl Segment {
         self.end - self.start
     }
 
-    /// The point of this segment closest to `point`. Scalar products are compared with each other only, so that the answer has
-    /// no length scale of its own.
+    /// The point of this segment closest to `point`.
+    ///
+    /// Parry compares scalar products only, so the answer has no length scale of its own. (Its flag
+    /// `is_inside` has a tolerance; it is not used.)
     #[inline]
     pub(super) fn project(&self, point: Vec2) -> Projection {
-        let along = self.vector();
-        let (way, whole) = (dot(along, point - self.start), dot(along, along));
-        if way <= 0.0 {
-            Projection { point: self.start, region: SegmentRegion::Start }
-        } else if way >= whole {
-            Projection { point: self.end, region: SegmentRegion::End }
-        } else {
-            let fraction = way / whole;
-            Projection { point: self.start + along * fraction, region: SegmentRegion::Between(fraction) }
-        }
+        let [start, end, point] = [self.start, self.end, point].map(|v| Vector::new(v.x, v.y));
+        let (closest, location) =
+            ParrySegment::new(start, end).project_local_point_and_get_location(point, false);
+        let region = match location {
+            SegmentPointLocation::OnVertex(0) => SegmentRegion::Start,
+            SegmentPointLocation::OnVertex(_) => SegmentRegion::End,
+            SegmentPointLocation::OnEdge([_, fraction]) => SegmentRegion::Between(fraction),
+        };
+        Projection { point: Vec2::new(closest.point.x, closest.point.y), region }
     }
 
     /// Squared distance [m²] from `point`.
