@@ -79,13 +79,14 @@ pub fn initial_state(state: &Bound<'_, PyDict>) -> Result<InitialState, Error> {
     let mut initial = InitialState::default();
     for (key, value) in state.iter() {
         let name = key.to_string();
+        let key = &format!("state.{name}");
         match name.as_str() {
-            "positions" => initial.positions = pairs(&name, &value)?,
-            "velocities" => initial.velocities = Some(pairs(&name, &value)?),
-            "angles" => initial.angles = Some(numbers(&name, &value)?),
-            "angular_velocities" => initial.angular_velocities = Some(numbers(&name, &value)?),
-            "radii" => initial.radii = Some(numbers(&name, &value)?),
-            "species" => initial.species = Some(column(&format!("state.{name}"), &value)?),
+            "positions" => initial.positions = points(key, &value)?,
+            "velocities" => initial.velocities = Some(points(key, &value)?),
+            "angles" => initial.angles = Some(column(key, &value)?),
+            "angular_velocities" => initial.angular_velocities = Some(column(key, &value)?),
+            "radii" => initial.radii = Some(column(key, &value)?),
+            "species" => initial.species = Some(column(key, &value)?),
             "drum_angle" => {
                 initial.drum_angle = value
                     .extract()
@@ -106,18 +107,8 @@ pub fn initial_state(state: &Bound<'_, PyDict>) -> Result<InitialState, Error> {
     Ok(initial)
 }
 
-fn pairs(name: &str, value: &Bound<'_, PyAny>) -> Result<Vec<Vec2>, Error> {
-    let wrong =
-        || Error::config(format!("state.{name}"), "something else", "an array of floats of shape (n, 2)");
-    let array: PyReadonlyArray2<f64> = value.extract().map_err(|_| wrong())?;
-    if array.as_array().ncols() != 2 {
-        return Err(wrong());
-    }
-    Ok(array.as_array().rows().into_iter().map(|row| Vec2::new(row[0], row[1])).collect())
-}
-
-fn numbers(name: &str, value: &Bound<'_, PyAny>) -> Result<Vec<f64>, Error> {
-    column(&format!("state.{name}"), value)
+fn points(key: &str, value: &Bound<'_, PyAny>) -> Result<Vec<Vec2>, Error> {
+    Ok(rows(key, value)?.into_iter().map(Vec2::from).collect())
 }
 
 fn column<T: Element + Copy>(key: &str, value: &Bound<'_, PyAny>) -> Result<Vec<T>, Error> {
@@ -129,12 +120,11 @@ fn column<T: Element + Copy>(key: &str, value: &Bound<'_, PyAny>) -> Result<Vec<
 
 /// Rows of `N` numbers.
 fn rows<const N: usize>(key: &str, value: &Bound<'_, PyAny>) -> Result<Vec<[f64; N]>, Error> {
-    let limit = || format!("an array of floats of shape (n, {N})");
-    let array: PyReadonlyArray2<f64> =
-        value.extract().map_err(|_| Error::config(key, "something else", limit()))?;
+    let wrong = || Error::config(key, "something else", format!("an array of floats of shape (n, {N})"));
+    let array: PyReadonlyArray2<f64> = value.extract().map_err(|_| wrong())?;
     let array = array.as_array();
     if array.ncols() != N {
-        return Err(Error::config(key, "of another shape", limit()));
+        return Err(wrong());
     }
     Ok(array.rows().into_iter().map(|row| std::array::from_fn(|k| row[k])).collect())
 }

@@ -21,10 +21,10 @@ use crate::engine::{DrumMotion, Engine, memory_order, relabel};
 use crate::error::Error;
 use crate::io::config::SimulationConfig;
 use crate::physics::drum::Drum;
-use crate::physics::energy::{EnergyLedger, MomentBalance, StoredEnergy};
+use crate::physics::energy::{EnergyLedger, MomentBalance};
 use crate::physics::load::packing::pack;
 use crate::physics::particles::Particles;
-use crate::physics::vector::{Rotation, Vec2};
+use crate::physics::vector::Rotation;
 
 /// A drum with its load, at some step.
 #[derive(Debug)]
@@ -101,11 +101,7 @@ impl Simulation {
             step: 0,
             initial_angle: initial.drum_angle,
             recorded: Recorded::default(),
-            ledger: EnergyLedger::open(
-                StoredEnergy::default(),
-                MomentBalance::open(Vec2::zeros(), 0.0, 0.0),
-                &[],
-            ),
+            ledger: EnergyLedger::default(),
             particles,
         };
         let engine_state = EngineState { contacts, totals: Vec::new() };

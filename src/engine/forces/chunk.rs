@@ -7,7 +7,7 @@ use super::reactions::RemoteReactions;
 use super::totals::Totals;
 use super::{Bodies, StepInputs, outlines, pairs, walls};
 use crate::engine::contacts::{ContactList, ListKind, ListParameters};
-use crate::engine::motion::{MotionView, far, inside};
+use crate::engine::motion::{CHUNK_FLAT, MotionView, far, inside};
 use crate::engine::pair_list::{ChunkNeighbors, Opened};
 use crate::engine::parallel::CHUNK;
 use crate::engine::simd::{ALL_LANES, LANES};
@@ -146,7 +146,7 @@ impl<L: ContactLaw> Chunk<L> {
         neighbors: &mut ChunkNeighbors,
         motion: V,
         inputs: &StepInputs,
-        (force, torque): (&mut [[f64; 2]; CHUNK], &mut [f64; CHUNK]),
+        (force, torque): (&mut [f64; CHUNK_FLAT], &mut [f64; CHUNK]),
     ) {
         let Self { pairs, rim, outlines, totals, remote, surfaces, scratch } = self;
         if neighbors.horizon.is_over() {

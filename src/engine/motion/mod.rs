@@ -7,6 +7,9 @@ use std::ops::Range;
 use crate::engine::parallel::CHUNK;
 use crate::physics::particles::Particles;
 
+/// Numbers in the flat force array of a chunk.
+pub const CHUNK_FLAT: usize = 2 * CHUNK;
+
 /// A place far from everything: its distance from any particle is finite, and no contact.
 const FAR: f64 = 1e150;
 
@@ -166,8 +169,7 @@ impl<const N: usize, const M: usize, const H: usize, const ONE_CHUNK: bool> Flat
     #[inline(always)]
     pub fn lend(&mut self) -> (FlatView<'_, N, M, H, ONE_CHUNK>, ChunkForces<'_>) {
         let ([position, velocity, force], [_, angular_velocity, torque]) = self.split();
-        let force = force.as_chunks_mut().0.as_chunks_mut().0;
-        let forces = ChunkForces { force, torque: torque.as_chunks_mut().0 };
+        let forces = ChunkForces { force: force.as_chunks_mut().0, torque: torque.as_chunks_mut().0 };
         (FlatView { position, velocity, angular_velocity }, forces)
     }
 
@@ -197,7 +199,7 @@ fn three<const N: usize>(numbers: &mut [f64]) -> [&mut [f64; N]; 3] {
 #[derive(Debug)]
 pub struct ChunkForces<'a> {
     /// Forces [N/m].
-    pub force: &'a mut [[[f64; 2]; CHUNK]],
+    pub force: &'a mut [[f64; CHUNK_FLAT]],
     /// Torques [N m/m].
     pub torque: &'a mut [[f64; CHUNK]],
 }

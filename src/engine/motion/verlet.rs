@@ -91,7 +91,7 @@ impl Verlet {
             _ => {
                 let bodies = &self.bodies[arrays.first..];
                 let quad = |quad: usize| {
-                    let [a, b, c, d] = *bodies[LANES * quad..].first_chunk().expect("a whole quad");
+                    let [a, b, c, d] = std::array::from_fn(|lane| bodies[LANES * quad + lane]);
                     let rows = |value: fn(BodyConstants) -> f64| {
                         let row = |a, b| F64x4::new([value(a), value(a), value(b), value(b)]);
                         [row(a, b), row(c, d)]
