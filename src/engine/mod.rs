@@ -33,9 +33,9 @@ pub mod simd;
 use contacts::ContactRecord;
 use forces::{Bodies, ForcePass, Lists, StepInputs, new_pass};
 use motion::verlet::{DriftSums, FINISH, Part, START, Verlet, WHOLE};
-use motion::{Arrays, MotionArrays, MovingArrays, with_arrays};
+use motion::{Arrays, with_arrays};
 use pair_list::PairList;
-use parallel::{PerChunk, Threads, chunk_count};
+use parallel::{Threads, chunk_count};
 
 use crate::physics::contact::model::Model;
 use crate::physics::contact::species::SpeciesTable;
@@ -162,11 +162,10 @@ impl Engine {
     fn drift<const PART: Part>(&mut self) {
         let Self { arrays, verlet, sums, threads, count, .. } = self;
         let arrays = with_arrays!(arrays, arrays => arrays.part(0..*count));
-        let work = (arrays, PerChunk(&mut *sums));
-        threads.for_each_chunk(*count, work, &|(own, sums): (MotionArrays, PerChunk<_>)| {
+        threads.for_each(*count, arrays.chunks().zip(sums), |(own, sums)| {
             let sums_of_chunk = verlet.advance::<PART>(own);
             if PART != FINISH {
-                sums.set(sums_of_chunk);
+                *sums = sums_of_chunk;
             }
         });
     }
@@ -210,14 +209,15 @@ impl Engine {
     /// Evaluates every contact; the forces must be zero.
     pub fn evaluate(&mut self, particles: &Particles, world: World, drum: DrumMotion) {
         let inputs = self.inputs(particles, world, drum);
-        self.pass.evaluate(&mut self.list, &mut self.arrays, &inputs, &self.threads);
+        let Self { pass, list, arrays, sums, threads, .. } = self;
+        pass.evaluate(list, arrays, &inputs, None, sums, threads);
     }
 
     /// Evaluates every contact, ends the step and begins the next.
     pub fn evaluate_and_advance(&mut self, particles: &Particles, world: World, drum: DrumMotion) {
         let inputs = self.inputs(particles, world, drum);
         let Self { pass, list, arrays, verlet, sums, threads, .. } = self;
-        pass.evaluate_and_advance(list, arrays, &inputs, verlet, sums, threads);
+        pass.evaluate(list, arrays, &inputs, Some(verlet), sums, threads);
     }
 
     /// First forces of particles that have not moved yet.
@@ -232,7 +232,7 @@ impl Engine {
 
     fn inputs<'a>(&self, particles: &'a Particles, world: World<'a>, drum: DrumMotion) -> StepInputs<'a> {
         StepInputs {
-            time: forces::StepTime { step: drum.duration, rate: 1.0 / world.time_step },
+            time: [drum.duration, 1.0 / world.time_step],
             drum: world.drum,
             rotation: drum.rotation,
             angular_velocity: drum.angular_velocity,
@@ -242,13 +242,9 @@ impl Engine {
 
     /// Puts particle `order[k]` at place `k` in memory, between two runs of steps.
     pub fn reorder(&mut self, particles: &mut Particles, order: &[u32], world: World) {
-        let mut places = vec![0; order.len()];
-        for (place, &particle) in order.iter().enumerate() {
-            places[particle as usize] = place as u32;
-        }
         particles.reorder(order);
         let mut contacts = self.pass.drain();
-        relabel(&mut contacts, &places);
+        relabel(&mut contacts, &memory_order::places(order));
         self.insert(&contacts, particles, world);
         self.verlet = Verlet::new(particles, world.time_step, world.gravity);
         self.list.invalidate();
