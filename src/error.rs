@@ -108,7 +108,7 @@ pub enum Error {
         bytes: usize,
     },
 
-    /// A thread pool that the system refused.
+    /// A thread pool or file that the system refused.
     #[error("{action}: {reason}")]
     System {
         /// What was being done.

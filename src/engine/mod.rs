@@ -33,7 +33,7 @@ pub mod simd;
 use contacts::ContactRecord;
 use forces::{Bodies, ForcePass, Lists, StepInputs, new_pass};
 use motion::verlet::{DriftSums, FINISH, Part, START, Verlet, WHOLE};
-use motion::{Arrays, with_arrays};
+use motion::{Arrays, MotionArrays, with_arrays};
 use pair_list::PairList;
 use parallel::{Threads, chunk_count};
 
@@ -130,18 +130,18 @@ impl Engine {
 
     /// Begins a run of steps: takes over what moves, and drifts to the next step.
     pub fn begin(&mut self, particles: &mut Particles) {
-        with_arrays!(&mut self.arrays, arrays => arrays.load(particles));
+        self.arrays.motion(self.count).copy_from(&MotionArrays::of(particles));
         self.start();
     }
 
     /// Brings the particles up to date.
     pub fn write_back(&mut self, particles: &mut Particles) {
-        with_arrays!(&mut self.arrays, arrays => arrays.store(particles));
+        MotionArrays::of(particles).copy_from(&self.arrays.motion(self.count));
     }
 
     /// Brings their positions up to date.
     pub fn write_back_positions(&mut self, particles: &mut Particles) {
-        with_arrays!(&mut self.arrays, arrays => arrays.store_positions(particles));
+        MotionArrays::of(particles).vectors[0].copy_from_slice(self.arrays.motion(self.count).vectors[0]);
     }
 
     /// Ends a step: the velocities are then those at the time of the positions.
@@ -161,8 +161,7 @@ impl Engine {
 
     fn drift<const PART: Part>(&mut self) {
         let Self { arrays, verlet, sums, threads, count, .. } = self;
-        let arrays = with_arrays!(arrays, arrays => arrays.part(0..*count));
-        threads.for_each(*count, arrays.chunks().zip(sums), |(own, sums)| {
+        threads.for_each(*count, arrays.motion(*count).chunks().zip(sums), |(own, sums)| {
             let sums_of_chunk = verlet.advance::<PART>(own);
             if PART != FINISH {
                 *sums = sums_of_chunk;
@@ -222,7 +221,7 @@ impl Engine {
 
     /// First forces of particles that have not moved yet.
     pub fn open(&mut self, particles: &mut Particles, world: World, drum: DrumMotion) {
-        with_arrays!(&mut self.arrays, arrays => arrays.load(particles));
+        self.arrays.motion(self.count).copy_from(&MotionArrays::of(particles));
         self.update_list(particles, world, drum);
         self.evaluate(particles, world, drum);
         // What the near lists know of displacements does not hold once the particles move.

@@ -77,7 +77,7 @@ pub fn greatest(lanes: [f64; LANES]) -> f64 {
 }
 
 /// Four vectors.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub struct Vec2x4 {
     /// Their x.
     pub x: F64x4,

@@ -19,7 +19,7 @@ use crate::physics::scalar::Scalar;
 const GROUP: usize = 8;
 
 /// Where the bodies of a block meet.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 struct ContactGeometry {
     normal: Vec2x4,
     /// Overlap; below zero where they are apart.
@@ -27,15 +27,8 @@ struct ContactGeometry {
 }
 
 /// Where the bodies of a group meet. Written before it is read; kept, since clearing it takes time.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct GroupGeometry([ContactGeometry; GROUP]);
-
-impl Default for GroupGeometry {
-    fn default() -> Self {
-        let zero = F64x4::ZERO;
-        Self([ContactGeometry { normal: Vec2x4 { x: zero, y: zero }, overlap: zero }; GROUP])
-    }
-}
 
 /// One step of the contacts between particles: those that open, then all, then those that end.
 pub fn evaluate<L: ContactLaw, V: MotionView>(

@@ -81,7 +81,7 @@ fn rim_pass<L: ContactLaw, V: MotionView, const MIXED: bool>(
     let motion = *motion;
     let Some(rim) = inputs.drum.radius() else { return SurfaceLoad::default() };
     let zero = F64x4::ZERO;
-    let (mut moment, mut force) = (zero, Vec2x4 { x: zero, y: zero });
+    let (mut moment, mut force) = (zero, Vec2x4::default());
     let (rim, speed) = (F64x4::splat(rim), F64x4::splat(inputs.angular_velocity));
     for (index, (block, ids)) in blocks.iter_mut().zip(ids).enumerate() {
         let parameters = parameters(index);

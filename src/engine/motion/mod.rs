@@ -57,7 +57,8 @@ impl<'a> MotionArrays<'a> {
         })
     }
 
-    fn copy_from(&mut self, other: &MotionArrays) {
+    /// Takes the values of others, of as many particles.
+    pub fn copy_from(&mut self, other: &MotionArrays) {
         for (own, other) in self.vectors.iter_mut().zip(&other.vectors) {
             own.copy_from_slice(other);
         }
@@ -126,6 +127,11 @@ impl Arrays {
             _ => Self::Large(FlatArrays::new(count, inside)),
         }
     }
+
+    /// The arrays of the first `count` particles.
+    pub fn motion(&mut self, count: usize) -> MotionArrays<'_> {
+        with_arrays!(self, arrays => arrays.part(0..count))
+    }
 }
 
 impl<const N: usize, const M: usize, const H: usize, const ONE_CHUNK: bool> FlatArrays<N, M, H, ONE_CHUNK> {
@@ -145,24 +151,6 @@ impl<const N: usize, const M: usize, const H: usize, const ONE_CHUNK: bool> Flat
     fn split(&mut self) -> ([&mut [f64; M]; 3], [&mut [f64; H]; 3]) {
         let (vectors, scalars) = self.numbers[self.start..].split_at_mut(3 * M);
         (three(vectors), three(scalars))
-    }
-
-    /// Takes what moves from the particles.
-    pub fn load(&mut self, particles: &mut Particles) {
-        let count = particles.len();
-        self.part(0..count).copy_from(&MotionArrays::of(particles));
-    }
-
-    /// Brings it back to them.
-    pub fn store(&mut self, particles: &mut Particles) {
-        let count = particles.len();
-        MotionArrays::of(particles).copy_from(&self.part(0..count));
-    }
-
-    /// Brings the positions back to the particles.
-    pub fn store_positions(&mut self, particles: &mut Particles) {
-        let count = particles.len();
-        MotionArrays::of(particles).vectors[0].copy_from_slice(self.part(0..count).vectors[0]);
     }
 
     /// How the particles move, to read; forces and torques by chunk, to write to.

@@ -1,9 +1,10 @@
-//! Parts of the engine by themselves: threads, memory order.
+//! Parts of the core by themselves: threads, memory order, memory for records.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use drumrs::engine::memory_order::hilbert_order;
 use drumrs::engine::parallel::Threads;
+use drumrs::observe::memory::{prepend, reserve};
 use drumrs::physics::vector::Vec2;
 
 /// A load that is shared between threads.
@@ -38,4 +39,19 @@ fn every_particle_has_a_place() {
     order.sort_unstable();
     assert_eq!(order, (0..500).collect::<Vec<u32>>());
     assert_eq!(hilbert_order(&[Vec2::zeros(); 3]), [0, 1, 2]);
+}
+
+#[test]
+fn room_that_cannot_be_is_an_error_and_changes_nothing() {
+    let mut list = vec![1.0, 2.0];
+    let error = reserve(&mut list, usize::MAX / 16, "recording a frame").unwrap_err();
+    assert!(error.to_string().starts_with("recording a frame: there is no memory for "), "{error}");
+    assert_eq!(list, [1.0, 2.0]);
+}
+
+#[test]
+fn what_was_earlier_comes_first() {
+    let mut list = vec![3, 4];
+    prepend(&mut list, &[1, 2, 0], "a test").unwrap();
+    assert_eq!(list, [1, 2, 0, 3, 4]);
 }
