@@ -269,7 +269,7 @@ _ROWS = (
     # Table of the paper's study, beyond that of a sweep.
     ("size_ratio", "D/d", "1", "run", "", "diameter of the drum over that of a bundle"),
     ("along_the_rim", "", "1", "mean", "", "share of the time that a bundle spends along the rim"),
-    ("carried_round", "", "1", "mean", "", "share of the load carried over the top along the rim in a turn"),
+    ("carried_round", "", "1", "mean", "", "share of the load that the drum carries over the top in a turn"),
     ("mixed_in_a_turn", "", "1", "mean", "", "index of mixing after a turn of the drum"),
     *(
         (

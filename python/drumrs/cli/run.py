@@ -66,9 +66,10 @@ def run(
         Replace the run that the folder of `--out` holds. Files that drumrs did not write are never overwritten.
     """
     if resume is not None:
-        if case is not None or set_ or seed is not None or out is not None or softer is not None:
+        if case is not None or set_ or seed is not None or out is not None or softer is not None or force:
             raise ConfigError(
-                "--resume takes the case from its folder, so CASE, --set, --seed, --softer and --out must not be given"
+                "--resume takes the case from its folder, so CASE, --set, --seed, --softer, --out and --force must not "
+                "be given"
             )
         out = resume
         begun = RunFolder(out)
