@@ -12,7 +12,7 @@ from drumrs.config import Config
 from drumrs.errors import ConfigError
 from drumrs.files import read_object, read_plain, require_plain, write_whole
 from drumrs.frames import Frames
-from drumrs.registry import metadata, quantity, recorded, require
+from drumrs.registry import known, metadata, quantity, recorded, require
 from drumrs.tables import write_table
 
 if TYPE_CHECKING:
@@ -169,7 +169,7 @@ class Result:
 def write_tables(folder: Path, config: Config, series: "pl.DataFrame") -> list[Path]:
     """Write config.toml and series.parquet; return their paths."""
     write_whole(folder / "config.toml", config.to_toml().encode())
-    write_table(folder / "series.parquet", series, metadata(series.columns))
+    write_table(folder / "series.parquet", series, metadata(known(series.columns)))
     return [folder / name for name in ("config.toml", "series.parquet")]
 
 

@@ -1,7 +1,7 @@
 """The tables of a configuration, in SI units but for rpm and the baffles' phase; defaults are the paper's Table 1."""
 
 from itertools import pairwise
-from typing import Annotated, Any, ClassVar, Literal, Self
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -11,6 +11,9 @@ from drumrs.config.layers import both_given, merge
 from drumrs.config.messages import relation, show
 from drumrs.config.types import Flag, Limit, NonNegative, Positive, Real
 
+if TYPE_CHECKING:
+    from pydantic.config import JsonDict
+
 Shape = Annotated[Literal["triangle", "trapezoid", "polygon"], Limit("'triangle', 'trapezoid' or 'polygon'")]
 Tension = Annotated[Literal["allowed", "clipped"], Limit("'allowed' or 'clipped'")]
 Base = Annotated[Literal["linear", "hertz"], Limit("'linear' or 'hertz'")]
@@ -18,10 +21,16 @@ TimeStep = Annotated[Literal["auto"] | Positive, Limit("'auto' or a positive fin
 Skin = Annotated[Literal["auto"] | NonNegative, Limit("'auto' or a finite number of at least 0")]
 
 
-def _key(default: Any, meaning: str, example: Any = None) -> Any:
-    """Describe a key, unit in brackets; `example` is what the documented TOML shows for a key that is not set."""
+def _key(default: Any, meaning: str, unit: str = "", example: Any = None) -> Any:
+    """Describe a key; `example` is what the documented TOML shows for a key that is not set.
+
+    The unit is among the extras of the field's JSON schema, and behind the meaning wherever that is printed; a word
+    or a count has none, a plain number the unit "1".
+    """
     examples = None if example is None else [example]
-    return Field(default=default, description=f"{meaning}.", examples=examples)
+    shown = f"{meaning} [{unit}]." if unit not in {"", "1"} else f"{meaning}."
+    extra: JsonDict | None = {"unit": unit} if unit else None
+    return Field(default=default, description=shown, examples=examples, json_schema_extra=extra)
 
 
 class Baffles(ConfigTable):
@@ -29,15 +38,16 @@ class Baffles(ConfigTable):
 
     count: types.BaffleCount = _key(0, "Number of baffles; 0 is a bare drum")
     shape: Shape = _key("triangle", "'triangle', 'trapezoid' or 'polygon'")
-    height: Positive = _key(0.05, "Distance of the tip from the rim [m], along the baffle's axis")
-    base: Positive = _key(0.06, "Distance (chord) of the two base corners [m], which lie on the rim")
-    tip: Positive = _key(0.02, "Distance of the two tip corners of a trapezoid [m]")
+    height: Positive = _key(0.05, "Distance of the tip from the rim, along the baffle's axis", "m")
+    base: Positive = _key(0.06, "Distance (chord) of the two base corners, which lie on the rim", "m")
+    tip: Positive = _key(0.02, "Distance of the two tip corners of a trapezoid", "m")
     points: types.Points | None = _key(
         None,
-        "Corners of a polygon [m]: x along the baffle's axis inwards from the rim, y across",
+        "Corners [x, y] of a polygon: x along the baffle's axis inwards from the rim, y across",
+        "m",
         [[0.0, -0.03], [0.05, 0.0], [0.0, 0.03]],
     )
-    phase: Real = _key(0.0, "Angle of the first baffle's axis at t = 0 [degrees], counter-clockwise from +x")
+    phase: Real = _key(0.0, "Angle of the first baffle's axis at t = 0, counter-clockwise from +x", "degrees")
 
     @model_validator(mode="after")
     def _polygon_has_points(self) -> Self:
@@ -49,10 +59,10 @@ class Baffles(ConfigTable):
 class Drum(ConfigTable):
     """The drum: rim, baffles and straight walls, one rigid body that turns about the origin."""
 
-    diameter: Positive = _key(0.475, "Inner diameter D [m]")
+    diameter: Positive = _key(0.475, "Inner diameter D", "m")
     rim: Flag = _key(default=True, meaning="Whether there is a rim; false leaves the walls alone")
     walls: Annotated[tuple[types.Polyline, ...], Limit("a list of polylines")] = _key(
-        (), "Further walls: open polylines of points [m, m] at t = 0, which turn with the drum"
+        (), "Further walls: open polylines of points [x, y] at t = 0, which turn with the drum", "m"
     )
     baffles: Baffles = Field(default=Baffles())
 
@@ -70,10 +80,11 @@ class Rotation(ConfigTable):
 
     pair: ClassVar[tuple[str, str] | None] = ("rpm", "program")
 
-    rpm: Real | None = _key(None, "Constant speed [rpm]", 54.0)
+    rpm: Real | None = _key(None, "Constant speed", "rpm", 54.0)
     program: types.Program | None = _key(
         None,
-        "Knots [s, rpm] of a program: linear between them, constant beyond the first and last",
+        "Knots [time, speed] of a program: linear between them, constant beyond the first and last",
+        "s, rpm",
         [[0.0, 0.0], [2.0, 54.0], [20.0, 54.0], [22.0, -54.0]],
     )
 
@@ -93,13 +104,13 @@ class Load(ConfigTable):
 
     pair: ClassVar[tuple[str, str] | None] = ("fill", "count")
 
-    diameter: Positive = _key(0.02375, "Diameter d of a bundle [m]")
+    diameter: Positive = _key(0.02375, "Diameter d of a bundle", "m")
     density: Positive = _key(
-        1000.0, "Density of a bundle [kg/m³]; its mass is density · π d²/4 per meter of depth"
+        1000.0, "Density of a bundle, whose mass is density · π d²/4 per meter of depth", "kg/m³"
     )
-    fill: Positive | None = _key(None, "Fill N d²/D², a fraction of the bare drum's area", 0.25)
-    count: types.BundleCount | None = _key(None, "Number N of bundles, instead of fill", 100)
-    start_speed: NonNegative = _key(0.0, "Speed of every bundle at t = 0 [m/s], in a random direction")
+    fill: Positive | None = _key(None, "Fill N d²/D², a fraction of the bare drum's area", "1", 0.25)
+    count: types.BundleCount | None = _key(None, "Number N of bundles, instead of fill", example=100)
+    start_speed: NonNegative = _key(0.0, "Speed of every bundle at t = 0, in a random direction", "m/s")
     spin_locked: Flag = _key(default=False, meaning="Whether bundles are kept from spinning")
 
 
@@ -108,36 +119,39 @@ class LinearContact(ConfigTable):
 
     pair: ClassVar[tuple[str, str] | None] = ("restitution", "normal_damping")
 
-    normal_stiffness: Positive = Field(
-        description="Stiffness of the normal spring [N/m]; it does not count where contact.base is 'hertz'."
+    normal_stiffness: Positive = _key(
+        ..., "Stiffness of the normal spring; it does not count where contact.base is 'hertz'", "N/m"
     )
-    stiffness_ratio: Positive = _key(1.0, "Tangential stiffness over normal stiffness; likewise")
+    stiffness_ratio: Positive = _key(1.0, "Tangential stiffness over normal stiffness; likewise", "1")
     young_modulus: Positive | None = _key(
-        None, "Young's modulus of both bodies [Pa], where contact.base is 'hertz'", 1e8
+        None, "Young's modulus of both bodies, where contact.base is 'hertz'", "Pa", 1e8
     )
     poisson_ratio: types.PoissonRatio = _key(
-        0.3, "Poisson's ratio of both bodies, where contact.base is 'hertz'"
+        0.3, "Poisson's ratio of both bodies, where contact.base is 'hertz'", "1"
     )
     restitution: types.Restitution | None = _key(
-        None, "Coefficient of restitution; the damping follows from it", 0.1
+        None, "Coefficient of restitution; the damping follows from it", "1", 0.1
     )
     normal_damping: NonNegative | None = _key(
-        None, "Damping of the normal dashpot [N s/m], instead of restitution", 5.35e3
+        None, "Damping of the normal dashpot, instead of restitution", "N s/m", 5.35e3
     )
-    friction: NonNegative = _key(0.5, "Coefficient of friction")
+    friction: NonNegative = _key(0.5, "Coefficient of friction", "1")
     tension: Tension = _key("allowed", "Whether the dashpot may pull: 'allowed' (the paper) or 'clipped'")
     rolling_friction: NonNegative = _key(
         0.0,
         "Coefficient of rolling friction μ_r: a rotational spring that yields where its moment is μ_r times "
         "normal force and radius; 0 for none",
+        "1",
     )
     tangential_damping_ratio: NonNegative = _key(
         0.0,
         "Damping ratio of a dashpot beside the tangential spring, which acts while the contact sticks; 0 for none",
+        "1",
     )
     adhesion: NonNegative = _key(
         0.0,
-        "Constant pull while bodies touch [N/m of depth]; friction and rolling feel it as pressure; 0 for none",
+        "Constant pull while bodies touch, which friction and rolling feel as pressure; 0 for none",
+        "N/m",
     )
 
 
@@ -219,22 +233,23 @@ class Contact(ConfigTable):
 class Run(ConfigTable):
     """How long to run, what to record, when to give up."""
 
-    time_step: TimeStep = _key(3.70e-6, "Time step [s]; 'auto' is the shortest collision time / 50")
+    time_step: TimeStep = _key(3.70e-6, "Time step; 'auto' is the shortest collision time / 50", "s")
     duration: Positive = _key(
-        30.0, "Simulated time [s]; the number of steps is its quotient by the step, rounded up"
+        30.0, "Simulated time; the number of steps is its quotient by the step, rounded up", "s"
     )
     window: types.Interval | None = _key(
         None,
-        "Start and end [s, s] of the averages; the last third of the duration unless given",
+        "Start and end of the averages; the last third of the duration unless given",
+        "s",
         [20.0, 30.0],
     )
-    sample_every: Positive = _key(0.002, "Interval between rows of the series [s]; means are exact for any")
-    frame_every: Positive = _key(0.04, "Interval between frames (positions, angles, speeds) [s]")
-    checkpoint_every: Positive = _key(60.0, "Interval between checkpoints [s], in time of the wall clock")
+    sample_every: Positive = _key(0.002, "Interval between rows of the series; means are exact for any", "s")
+    frame_every: Positive = _key(0.04, "Interval between frames (positions, angles, speeds)", "s")
+    checkpoint_every: Positive = _key(60.0, "Interval between checkpoints, in time of the wall clock", "s")
     seed: types.Seed = _key(1, "Seed of the random start")
-    skin: Skin = _key("auto", "Margin of the neighbor lists [m]; it changes the speed, never a result")
+    skin: Skin = _key("auto", "Margin of the neighbor lists, which changes the speed, never a result", "m")
     overlap_limit: types.OpenFraction = _key(
-        0.5, "Greatest overlap, over the smaller radius, before the run is given up as unstable"
+        0.5, "Greatest overlap, over the smaller radius, before the run is given up as unstable", "1"
     )
 
     @model_validator(mode="after")
@@ -260,5 +275,5 @@ class Tables(ConfigTable):
     rotation: Rotation = Field(default=Rotation(rpm=54.0))
     load: Load = Field(default=Load(fill=0.25))
     contact: Contact = Field(default=Contact())
-    gravity: Annotated[types.Vector, Field(description="Gravity [x, y] [m/s²].")] = (0.0, -9.81)
+    gravity: types.Vector = _key((0.0, -9.81), "Gravity [x, y]", "m/s²")
     run: Run = Field(default=Run())

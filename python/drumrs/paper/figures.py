@@ -159,8 +159,8 @@ _ALL = (
     PaperFigure(
         "F6",
         "N/T against fill",
-        "Power taken by normal damping over power taken by sliding; crosses: work of the contacts' normal over that of "
-        f"their tangential forces, which counts springs as well. {_BARS}",
+        "Power taken by normal damping over power taken by sliding; crosses: the same with what springs "
+        f"store counted as well. {_BARS}",
         _curve("F6", "fill", *_RATIOS),
     ),
     PaperFigure(

@@ -23,7 +23,7 @@ from drumrs.errors import ConfigError
 from drumrs.files import NO_ROOM, read_object, write_whole
 from drumrs.folders import marker, require_own
 from drumrs.frames import Frames
-from drumrs.registry import metadata
+from drumrs.registry import known, metadata
 from drumrs.result import Result, Summary
 from drumrs.sweep.case import Case
 from drumrs.sweep.columns import TIMINGS, row, schema
@@ -147,7 +147,11 @@ class Store:
         """
         write_whole(self._path(case, "toml"), case.config.to_toml().encode())
         write_sealed(
-            self._parquet(case, "series"), case, "series", result.series, metadata(result.series.columns)
+            self._parquet(case, "series"),
+            case,
+            "series",
+            result.series,
+            metadata(known(result.series.columns)),
         )
         if case.wants_frames:
             write_sealed_frames(self._parquet(case, "frames"), case, result.frames)
