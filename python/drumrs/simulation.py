@@ -1,4 +1,4 @@
-"""`Simulation`: one drum, step by step; the only module that talks to the compiled core."""
+"""`Simulation`: one drum, step by step; around the compiled core."""
 
 import json
 import math
@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from drumrs import _core
 from drumrs.checkpoint import read_checkpoint, write_checkpoint
 from drumrs.config import Config
+from drumrs.config.messages import both_given
 from drumrs.errors import CheckpointError, ConfigError, DrumrsError, DrumrsWarning
 from drumrs.limits import (
     check_steps,
@@ -32,6 +33,10 @@ from drumrs.result import Result, Summary
 from drumrs.state import State
 
 Array = NDArray[np.float64]
+
+_SIMULATE_FIRST = (
+    "run() without arguments simulates all of run.duration, and summary((start, end)) averages over a part"
+)
 
 
 class Simulation(HasRecords):
@@ -81,7 +86,8 @@ class Simulation(HasRecords):
         check_threads(threads)
         config = config if seed is None else config.replace({"run.seed": seed})
         if state is None and not config.drum.rim:
-            raise ConfigError("drum.rim is false, but must be true where no initial state is given")
+            limit = "true where no initial state is given"
+            raise ConfigError("drum.rim", False, limit)
         arrays = None if state is None else state.arrays()
         try:
             core = _core.Simulation(config.to_core_json(), config.run.seed, threads, arrays)
@@ -89,7 +95,7 @@ class Simulation(HasRecords):
             raise in_terms_of_fill(config, error) from None
         self._start(config, core)
         require_samples(config, self.time_step)
-        require_memory(config, self.count, self.time_step, with_frames=in_memory)
+        require_memory(config, self.time_step, self._records.sizes, with_frames=in_memory)
         for sentence in self.warnings:
             warnings.warn(sentence, DrumrsWarning, stacklevel=2)
 
@@ -135,10 +141,10 @@ class Simulation(HasRecords):
             Where another thread is running this simulation.
         """
         if duration is not None and steps is not None:
-            raise ConfigError("duration and steps are both given, but only one of them may be")
+            raise ConfigError(**both_given("", ("duration", "steps"), {"duration": duration, "steps": steps}))
         if duration is not None:
             if not 0.0 <= duration < math.inf:
-                raise ConfigError(f"duration is {duration}, but must be a finite number of at least 0")
+                raise ConfigError("duration", duration, "a finite number of at least 0")
             steps = step_count("duration", duration, self.time_step)
         end = self.last_step if steps is None else self.step + check_steps(steps)
         self.run_until(end, progress=progress)
@@ -201,7 +207,7 @@ class Simulation(HasRecords):
         """
         run = self._config.run
         if not run.duration <= duration < math.inf:
-            raise ConfigError(f"duration is {duration}, but must be at least run.duration = {run.duration}")
+            raise ConfigError("duration", duration, f"at least run.duration = {run.duration}")
         window = (run.averaging_window[0], duration)
         self._config = self._config.replace({"run": {"duration": duration, "window": window}})
 
@@ -318,13 +324,14 @@ class Simulation(HasRecords):
         """
         start, end = window or self._config.run.averaging_window
         if not 0.0 <= start < end <= self.time + self.time_step:
-            raise ConfigError(
-                f"the window is [{start}, {end}], but must lie within the {self.time} s simulated so far"
-            )
+            limit = f"within the {self.time:.6g} s simulated so far"
+            hint = _SIMULATE_FIRST if window is None else ""
+            raise ConfigError("window", (start, end), limit, hint=hint)
         if not self._records.has_whole_series:
+            hint = "load the checkpoint where its run wrote it, beside its records"
+            problem = f"is [{start}, {end}], but its samples are no longer in memory"
             raise ConfigError(
-                f"the window is [{start}, {end}], but its samples were taken and must be in memory: "
-                "load the checkpoint where its run wrote it, beside its records"
+                "window", (start, end), "one whose samples are in memory", hint=hint, problem=problem
             )
         means = self._core.summary(start, end)
         # The window as the samples allow it.
@@ -378,9 +385,9 @@ class Simulation(HasRecords):
         try:
             core = _core.Simulation.from_checkpoint(data, threads)
         except CheckpointError as error:
-            raise CheckpointError(f"{path}: {error}") from None
+            raise CheckpointError(error.reason, str(path)) from None
         if json.loads(core.config) != json.loads(config.to_core_json()) or core.seed != config.run.seed:
-            raise CheckpointError(f"{path}: its configuration is not that of its state")
+            raise CheckpointError("its configuration is not that of its state", str(path))
         simulation = cls._around(config, core)
         if with_records and not simulation.records.are_whole:
             Parts(Path(path).parent).reload(simulation.records)

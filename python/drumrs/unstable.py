@@ -108,7 +108,8 @@ def refuse_to_repeat(folder: Path, simulation: Simulation) -> None:
         for side, law in (("bundle", contact.bundle), ("drum", contact.drum)):
             settings += f" --set contact.{side}.normal_stiffness={10.0 * law.normal_stiffness:.3g}"
     raise ConfigError(
-        f"the run in {str(folder)!r} ended unstable, and going on would repeat that: {told.get('error')}. "
-        f"Look at its end with: drumrs view {folder}; start it anew, changed, with, for instance: "
-        f"drumrs run {folder / 'config.toml'} {settings} --out OTHER"
+        folder,
+        problem=f"holds a run that ended unstable, and going on would repeat that: {told.get('error')}",
+        hint=f"look at its end with: drumrs view {folder}; start it anew, changed, with, for instance: "
+        f"drumrs run {folder / 'config.toml'} {settings} --out OTHER",
     )

@@ -12,8 +12,12 @@ mod _core {
     use pyo3::prelude::*;
     use pyo3::types::PyDict;
 
+    use super::error::to_python;
     #[pymodule_export]
     use super::simulation::Simulation;
+    use crate::io::config::{MOST_BUNDLES, MOST_SPECIES, SimulationConfig};
+    use crate::physics::drum::MOST_BAFFLES;
+    use crate::simulation::derived::DerivedParameters;
 
     /// What this build is: version, profile, physics version, target, features of the CPU it runs on.
     #[pyfunction]
@@ -26,6 +30,21 @@ mod _core {
         info.set_item("cpu_features", super::cpu_features())?;
         info.set_item("cpu_count", std::thread::available_parallelism().map_or(1, usize::from))?;
         Ok(info)
+    }
+
+    /// The greatest numbers that a configuration may have: of bundles, species, baffles.
+    #[pyfunction]
+    fn greatest_counts() -> (usize, usize, usize) {
+        (MOST_BUNDLES, MOST_SPECIES, MOST_BAFFLES)
+    }
+
+    /// What follows from a configuration, both in JSON; see `drumrs.Config.derived`.
+    #[pyfunction]
+    fn derived(py: Python<'_>, config: &str) -> PyResult<String> {
+        SimulationConfig::from_json(config)
+            .and_then(|config| DerivedParameters::new(&config))
+            .map(|derived| serde_json::to_string(&derived).expect("plain numbers"))
+            .map_err(|error| to_python(py, &error))
     }
 
     /// Before a fork: waits until no thread is inside a simulation, and keeps them out.

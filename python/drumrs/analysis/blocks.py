@@ -180,9 +180,7 @@ class Stretch:
         times = series["time"].to_numpy()
         first, last = (int(np.abs(times - time).argmin()) if len(times) else 0 for time in window)
         if not first < last:
-            raise ConfigError(
-                f"the window is [{window[0]}, {window[1]}], but must hold at least two samples of the run"
-            )
+            raise ConfigError("window", window, "one that holds at least two samples of the run")
         return cls(series[first : last + 1])
 
     @property

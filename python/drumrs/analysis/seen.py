@@ -68,7 +68,7 @@ def within(frames: "Frames", window: tuple[float, float]) -> Seen:
     slack = 1e-3 * (window[1] - window[0])
     inside = (frames.times >= window[0] - slack) & (frames.times <= window[1] + slack)
     if inside.sum() <= 1:
-        raise ConfigError(f"the window is {list(window)}, but must hold at least two frames of the run")
+        raise ConfigError("window", window, "one that holds at least two frames of the run")
     positions = frames.positions[inside].astype(np.float64)
     return Seen(positions, frames.times[inside], frames.drum_angles[inside])
 

@@ -90,7 +90,7 @@ def _way_out(error: CycloptsError) -> str | None:
             return f"{option} is not an option; write {settings}"
     words = (error.unused_tokens or []) if isinstance(error, UnusedCliTokensError) else []
     if words and words[-1].endswith(("]", "}")):
-        return stands_alone(" ".join(words))
+        return str(stands_alone(" ".join(words)))
     return None
 
 

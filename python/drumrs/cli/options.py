@@ -9,7 +9,7 @@ from typing import Annotated
 from cyclopts import Parameter, Token
 
 import drumrs
-from drumrs.config import Config, merge, nest, parse_settings, read_toml_file
+from drumrs.config import Config, merge, nest, parse_settings, read_layer
 from drumrs.errors import ConfigError
 
 Settings = Annotated[
@@ -46,8 +46,8 @@ Jobs = Annotated[int | None, WHOLE, Parameter(help="Cases at once; one a usable 
 def layered(case: Path | None, settings: Sequence[str] | None, seed: int | None) -> Config:
     """Lay a case file over the baseline, settings over the file, the seed over all."""
     if case is not None and str(case).endswith(("]", "}")) and not case.exists():
-        raise ConfigError(stands_alone(str(case)))
-    layers = [read_toml_file(case)] if case is not None else []
+        raise stands_alone(str(case))
+    layers = [read_layer(case)] if case is not None else []
     layers.append(nest(parse_settings(settings or [])))
     if seed is not None:
         layers.append({"run": {"seed": seed}})
@@ -58,15 +58,16 @@ def layered(case: Path | None, settings: Sequence[str] | None, seed: int | None)
     return Config.model_validate(values)
 
 
-def stands_alone(words: str) -> str:
-    """Say of words that a shell has cut off a value how to keep them together."""
-    return f"{words!r} stands alone; a value with spaces needs quotes: --set 'KEY=[1, 2]'"
+def stands_alone(words: str) -> ConfigError:
+    """Return the error that a shell has cut words off a value, with how to keep them together."""
+    hint = "a value with spaces needs quotes: --set 'KEY=[1, 2]'"
+    return ConfigError(repr(words), words, problem="stands alone", hint=hint)
 
 
 def check_folder(folder: Path, option: str = "--out") -> None:
     """Refuse a folder that cannot be written, before anything is simulated or created."""
     existing = next(path for path in (folder.absolute(), *folder.absolute().parents) if path.exists())
     if not existing.is_dir():
-        raise ConfigError(f"{option} is {str(folder)!r}, but must be a folder: {str(existing)!r} is a file")
+        raise ConfigError(option, str(folder), f"a folder: {str(existing)!r} is a file")
     if not os.access(existing, os.W_OK | os.X_OK):
-        raise ConfigError(f"{option} is {str(folder)!r}, but must be a folder that can be written")
+        raise ConfigError(option, str(folder), "a folder that can be written")

@@ -64,9 +64,10 @@ def run(
     """
     if resume is not None:
         if case is not None or set_ or seed is not None or out is not None or softer is not None:
-            raise ConfigError(
-                "--resume takes the case from its folder, so CASE, --set, --seed, --softer and --out must not be given"
+            problem = (
+                "takes the case from its folder, so CASE, --set, --seed, --softer and --out must not be given"
             )
+            raise ConfigError("--resume", str(resume), problem=problem)
         out = resume
         begun = RunFolder(out)
         simulation = begun.load(threads)
@@ -109,7 +110,7 @@ def _soften(config: Config, factor: float | None) -> Config:
 
 def _goal(until: float | None, limit: float | None, duration: float) -> Goal | None:
     if until is None and limit is not None:
-        raise ConfigError(f"--limit is {limit}, but must not be given without --until")
+        raise ConfigError("--limit", limit, "left out where --until is not given")
     return Goal.of(until, limit, duration) if until is not None else None
 
 
@@ -123,15 +124,13 @@ def _open_folder(path: Path | None, simulation: Simulation) -> RunFolder | None:
     """Create the folder and mark it as that of a run not finished yet."""
     if path is None:
         return None
-    require_disk(simulation.config, simulation.count, simulation.time_step, path)
+    require_disk(simulation.config, simulation.time_step, simulation.records.sizes, path)
     folder = RunFolder(path)
     try:
         folder.clear()
         (path / "config.toml").write_text(simulation.config.to_toml(), encoding="utf-8")
     except OSError as error:
-        raise ConfigError(
-            f"--out is {str(path)!r}, but must be a folder that can be written: {error.strerror}"
-        ) from None
+        raise ConfigError("--out", str(path), f"a folder that can be written: {error.strerror}") from None
     return folder
 
 

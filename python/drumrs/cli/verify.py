@@ -45,7 +45,7 @@ def verify(
 
     if html is not None:
         if html.is_dir():
-            raise ConfigError(f"--html is {str(html)!r}, but must be a file: it is a folder")
+            raise ConfigError("--html", str(html), "a file: it is a folder")
         check_folder(html.parent, "--html")
     found = run(only, jobs=jobs)
     if html is not None:

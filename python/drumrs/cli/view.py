@@ -35,9 +35,8 @@ def view(
     try:
         player.save(page)
     except OSError as error:
-        raise ConfigError(
-            f"the page is {str(page)!r}, but must be a file that can be written (--out): {error.strerror}"
-        ) from None
+        limit = f"a file that can be written (--out): {error.strerror}"
+        raise ConfigError("the page", str(page), limit) from None
     print_paths([page])
     if show and out is None:
         webbrowser.open(page.absolute().as_uri())

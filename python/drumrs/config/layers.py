@@ -1,13 +1,15 @@
 """Layers of keys: a case file over the baseline, command-line settings over the file, the upper one winning."""
 
+import json
 import re
 import tomllib
 from collections.abc import Iterable, Mapping
+from pathlib import Path
 from typing import Any, ClassVar, Protocol, cast
 
 from pydantic import BaseModel
 
-from drumrs.config.messages import show, table_type
+from drumrs.config.messages import both_given, table_type
 from drumrs.errors import ConfigError
 
 
@@ -27,10 +29,10 @@ def nest(dotted: Mapping[str, Any]) -> dict[str, Any]:
     for key, value in dotted.items():
         *tables, leaf = key.split(".")
         table = nested
-        for name in tables:
+        for depth, name in enumerate(tables, 1):
             table = table.setdefault(name, {})
             if not isinstance(table, dict):
-                raise ConfigError(f"{name} is {show(table)}, but must be a table to hold {key}")
+                raise ConfigError(".".join(tables[:depth]), table, f"a table, for {key} is given, too")
         if isinstance(value, Mapping) and isinstance(table.get(leaf), dict):
             table[leaf] = {**table[leaf], **value}
         else:
@@ -41,7 +43,7 @@ def nest(dotted: Mapping[str, Any]) -> dict[str, Any]:
 def merge(
     model: type[BaseModel], lower: Mapping[str, Any], upper: Mapping[str, Any], at: str = ""
 ) -> dict[str, Any]:
-    """Lay `upper` over `lower`; one of an either–or pair takes the place of the other.
+    """Merge two layers, `upper` over `lower`; one of an either–or pair takes the place of the other.
 
     Raises
     ------
@@ -51,7 +53,7 @@ def merge(
     pair = cast("_Paired", model).pair or ()
     chosen = [key for key in pair if upper.get(key) is not None]
     if len(chosen) > 1:
-        raise ConfigError(both_given(at, chosen, upper))
+        raise ConfigError(**both_given(at, chosen, upper))
     merged = {key: value for key, value in lower.items() if not (chosen and key in pair)}
     for key, value in upper.items():
         part = table_type(model, key)
@@ -63,13 +65,6 @@ def merge(
         else:
             merged[key] = value
     return merged
-
-
-def both_given(at: str, pair: Iterable[str], values: Mapping[str, Any]) -> str:
-    """Say that both keys of an either–or pair stand in one layer."""
-    names = " and ".join(f"{at}{key}" for key in pair)
-    shown = " and ".join(show(values[key]) for key in pair)
-    return f"{names} are both given ({shown}), but only one of them may be"
 
 
 def parse_settings(settings: Iterable[str]) -> dict[str, Any]:
@@ -86,24 +81,42 @@ def parse_settings(settings: Iterable[str]) -> dict[str, Any]:
     for setting in settings:
         key, equals, text = setting.partition("=")
         if not equals or not key.strip():
-            raise ConfigError(f"--set is {setting!r}, but must be KEY=VALUE")
-        layer[key.strip()] = _literal(text.strip())
+            raise ConfigError("--set", setting, "KEY=VALUE", hint="such as --set load.fill=0.2")
+        layer[key.strip()] = _literal(key.strip(), text.strip())
     return layer
 
 
-def read_toml(text: str, source: str = "the configuration") -> dict[str, Any]:
+def read_toml(text: str, source: str | Path = "the configuration") -> dict[str, Any]:
     """Parse TOML into a layer.
 
     Raises
     ------
     ConfigError
-        If `text` is not TOML; the sentence names `source`, the line and the column.
+        If `text` is not TOML; the message names `source`, the line and the column.
     """
     try:
         return tomllib.loads(text)
     except (ValueError, RecursionError) as error:
         # Besides what is not TOML: integers of thousands of digits, tables nested a thousand deep.
-        raise ConfigError(f"{source} is not valid TOML: {error}") from None
+        raise ConfigError(source, problem=f"is not valid TOML: {error}") from None
+
+
+def read_json(text: str, source: str | Path = "the configuration") -> dict[str, Any]:
+    """Parse a JSON object into a layer.
+
+    Raises
+    ------
+    ConfigError
+        If `text` is not a JSON object; the message names `source`.
+    """
+    try:
+        layer = json.loads(text)
+    except (ValueError, RecursionError) as error:
+        # Besides what is not JSON: integers of thousands of digits, lists nested a thousand deep.
+        raise ConfigError(source, problem=f"is not valid JSON: {error}") from None
+    if not isinstance(layer, dict):
+        raise ConfigError(source, layer, "a JSON object of tables")
+    return layer
 
 
 # Numbers that people and Python write, and TOML does not take: .5, 5., 25 %.
@@ -112,19 +125,20 @@ _DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+")
 _WORDS = {"True": True, "False": False}
 
 
-def _literal(text: str) -> Any:
+def _literal(key: str, text: str) -> Any:
     try:
         parsed = tomllib.loads(f"value = {text}")
     except (ValueError, RecursionError):
-        return _typed(text)
+        return _typed(key, text)
     return parsed["value"] if len(parsed) == 1 else text
 
 
-def _typed(text: str) -> Any:
+def _typed(key: str, text: str) -> Any:
     """Return what somebody means who does not write TOML; a bare word is a string."""
     number = _NUMBER.fullmatch(text)
     if number is not None:
         return float(number[1]) / (100.0 if number[2] else 1.0)
     if _DECIMAL_COMMA.fullmatch(text):
-        raise ConfigError(f"{text} is no number; write {text.replace(',', '.')}")
+        hint = f"write {key}={text.replace(',', '.')}"
+        raise ConfigError(key, text, "a number with a decimal point", hint=hint)
     return _WORDS.get(text, text)

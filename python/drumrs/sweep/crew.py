@@ -54,7 +54,7 @@ class Crew:
             with _deaf_children() if self.halt is not None else nullcontext():
                 return self.executor.submit(run_case, *arguments, *extra)
         except Exception as error:  # noqa: BLE001 - every executor has a class of its own for it
-            raise ConfigError(f"executor is one that takes no work, but must be open: {error}") from None
+            raise ConfigError("executor", problem=f"takes no work, but must be open: {error}") from None
 
     def particle_steps(self) -> float:
         """Return the particle-steps of the simulations under way, 0 where they cannot be seen."""
@@ -119,7 +119,7 @@ def crew(executor: Executor | str | None, jobs: int | None) -> Iterator[Crew]:
         running = Running() if isinstance(executor, ThreadPoolExecutor) else None
         yield Crew(executor, jobs or _MOST_JOBS, running)
     else:
-        raise ConfigError(f"executor is {executor!r:.60}, but must be 'threads', 'processes' or an Executor")
+        raise ConfigError("executor", executor, "'threads', 'processes' or an Executor")
 
 
 def check_jobs(jobs: int | None) -> None:
@@ -133,13 +133,12 @@ def check_jobs(jobs: int | None) -> None:
     if jobs is None:
         return
     if isinstance(jobs, bool) or not isinstance(jobs, int) or not 1 <= jobs <= _MOST_JOBS:
-        raise ConfigError(f"jobs is {jobs!r}, but must be a whole number from 1 to {_MOST_JOBS}")
+        raise ConfigError("jobs", jobs, f"a whole number from 1 to {_MOST_JOBS}", bound=_MOST_JOBS)
 
 
 def _refuse_fork(executor: Executor) -> None:
     context = getattr(executor, "_mp_context", None)
     if context is not None and context.get_start_method() == "fork":
-        raise ConfigError(
-            "executor forks its workers, but must spawn them, for a fork does not go with polars' threads: "
-            "ProcessPoolExecutor(mp_context=multiprocessing.get_context('spawn'))"
-        )
+        problem = "forks its workers, but must spawn them, for a fork does not go with polars' threads"
+        hint = "ProcessPoolExecutor(mp_context=multiprocessing.get_context('spawn')) does"
+        raise ConfigError("executor", hint=hint, problem=problem)

@@ -5,8 +5,8 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from drumrs.config import Config, read_toml_file
-from drumrs.config.messages import dotted_keys, show
+from drumrs.config import Config, read_layer
+from drumrs.config.messages import dotted_keys
 from drumrs.errors import ConfigError
 from drumrs.sweep.sweep import Sweep
 
@@ -43,10 +43,10 @@ def read_study(path: str | Path, seeds: "Seeds" = None) -> Sweep:
     >>> len(read_study(path).cases)
     4
     """
-    content = read_toml_file(path)
+    content = read_layer(path)
     for key in content:
         if key not in _KEYS:
-            raise ConfigError(f"{key} is not a key of a study file; {_meant(key)}")
+            raise ConfigError(key, content[key], problem="is not a key of a study file", hint=_meant(key))
     base, axes = (_table(content, key) for key in ("base", "axes"))
     return Sweep(
         Config().replace(base or {}),
@@ -58,7 +58,7 @@ def read_study(path: str | Path, seeds: "Seeds" = None) -> Sweep:
 def _table(content: Mapping[str, Any], key: str) -> Mapping[str, Any] | None:
     table = content.get(key)
     if table is not None and not isinstance(table, Mapping):
-        raise ConfigError(f"{key} is {show(table)}, but must be a table")
+        raise ConfigError(key, table, "a table")
     return table
 
 

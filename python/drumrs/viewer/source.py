@@ -60,13 +60,14 @@ def _read_frames(path: Path) -> Frames:
     from polars.exceptions import PanicException, PolarsError
 
     if not path.is_file():
-        raise ConfigError(
-            f"{str(path)!r} is not there, but must be the frames.parquet of a run, or its folder"
-        )
+        problem = "is not there, but must be the frames.parquet of a run, or its folder"
+        raise ConfigError(Path(path), problem=problem)
     try:
         return Frames.load(path, MOST_PLACES)
     except (PolarsError, PanicException, KeyError, ValueError, TypeError, OSError):
-        raise ConfigError(f"{str(path)!r} holds no frames, but must be a file that drumrs wrote") from None
+        raise ConfigError(
+            Path(path), problem="holds no frames, but must be a file that drumrs wrote"
+        ) from None
 
 
 def _read_series(path: Path) -> "pl.DataFrame | None":
@@ -78,7 +79,9 @@ def _read_series(path: Path) -> "pl.DataFrame | None":
     try:
         return pl.read_parquet(path)
     except (PolarsError, PanicException, OSError):
-        raise ConfigError(f"{str(path)!r} is damaged, but must be the series that drumrs wrote") from None
+        raise ConfigError(
+            Path(path), problem="is damaged, but must be the series that drumrs wrote"
+        ) from None
 
 
 def _read_config(path: Path) -> Config | None:

@@ -36,7 +36,10 @@ SETTINGS = [
     ("load.count=500", "load.count is 500, but must be at most"),
     ("load.count=0", "from 1"),
     ("load.count=10.5", "load.count is 10.5, but must be a whole number"),
-    ("load.fill=0,25", "0,25 is no number; write 0.25"),
+    (
+        "load.fill=0,25",
+        "load.fill is '0,25', but must be a number with a decimal point; write load.fill=0.25",
+    ),
     ("drum.baffles=3", "drum.baffles is 3, but must be a table of keys: count, shape"),
     ("load.diameter=0.47", "one bundle of diameter 0.47 fills 0.9791 of a drum of diameter 0.475"),
     ("load.diameter=0.5", "load.diameter"),
