@@ -47,7 +47,7 @@ def run(
     >>> result.frames.positions.shape[1:]
     (40, 2)
     """
-    config = config if isinstance(config, Config) else Config.read(config)
+    config = Config.read(config) if isinstance(config, (str, Path)) else config
     simulation = Simulation(config, seed, threads)
     with board(show=progress) as shown:
         finish(simulation, announce(shown, simulation))

@@ -2,6 +2,7 @@
 
 import json
 import math
+import numbers
 import os
 import threading
 import time
@@ -34,6 +35,7 @@ from drumrs.state import State
 
 Array = NDArray[np.float64]
 
+_MAKE_CONFIG = "drumrs.Config.read(path) reads a file, drumrs.baseline().replace({...}) changes some keys"
 _SIMULATE_FIRST = (
     "run() without arguments simulates all of run.duration, and summary((start, end)) averages over a part"
 )
@@ -84,6 +86,10 @@ class Simulation(HasRecords):
         in_memory: bool = True,
     ) -> None:
         check_threads(threads)
+        if not isinstance(config, Config):
+            raise ConfigError("config", config, "a Config", hint=_MAKE_CONFIG)
+        if state is not None and not isinstance(state, State):
+            raise ConfigError("state", state, "a drumrs.State", hint="drumrs.State(positions) makes one")
         config = config if seed is None else config.replace({"run.seed": seed})
         if state is None and not config.drum.rim:
             limit = "true where no initial state is given"
@@ -143,9 +149,9 @@ class Simulation(HasRecords):
         if duration is not None and steps is not None:
             raise ConfigError(**both_given("", ("duration", "steps"), {"duration": duration, "steps": steps}))
         if duration is not None:
-            if not 0.0 <= duration < math.inf:
+            if not (isinstance(duration, numbers.Real) and 0.0 <= duration < math.inf):
                 raise ConfigError("duration", duration, "a finite number of at least 0")
-            steps = step_count("duration", duration, self.time_step)
+            steps = step_count("duration", float(duration), self.time_step)
         end = self.last_step if steps is None else self.step + check_steps(steps)
         self.run_until(end, progress=progress)
 
@@ -322,7 +328,10 @@ class Simulation(HasRecords):
         ConfigError
             Where the interval has not been simulated.
         """
-        start, end = window or self._config.run.averaging_window
+        try:
+            start, end = map(float, self._config.run.averaging_window if window is None else window)
+        except (TypeError, ValueError):
+            raise ConfigError("window", window, "a pair (start, end) of times") from None
         if not 0.0 <= start < end <= self.time + self.time_step:
             limit = f"within the {self.time:.6g} s simulated so far"
             hint = _SIMULATE_FIRST if window is None else ""

@@ -74,7 +74,8 @@ class State:
         for name, array in arrays.items():
             pairs = name in _PAIRS_OF_NUMBERS
             if array.shape != ((count, 2) if pairs else (count,)) or not count:
-                limit = f"of shape {'(n, 2)' if pairs else '(n,)'} with n = {count or 'at least 1'}"
+                length = "" if name == "positions" else f" with n = {count}"
+                limit = f"of shape {'(n, 2)' if pairs else '(n,)'}{length or ', n at least 1'}"
                 problem = f"is of shape {array.shape}, but must be {limit}"
                 raise ConfigError(f"state.{name}", array.shape, limit, problem=problem)
         fields: dict[str, Any] = {**arrays, "drum_angle": _angle(self.drum_angle)}

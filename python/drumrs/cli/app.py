@@ -91,7 +91,11 @@ def _way_out(error: CycloptsError) -> str | None:
     words = (error.unused_tokens or []) if isinstance(error, UnusedCliTokensError) else []
     if words and words[-1].endswith(("]", "}")):
         return str(stands_alone(" ".join(words)))
-    return None
+    return (
+        f"{' '.join(words)!r} is more than the command takes; drumrs COMMAND --help shows what it does"
+        if words
+        else None
+    )
 
 
 def _of_the_system(error: OSError | MemoryError) -> str:

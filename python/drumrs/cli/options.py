@@ -34,7 +34,17 @@ def _whole(_: object, tokens: Sequence[Token]) -> int:
     return int(text) if text.lstrip("+-").isdigit() else int(number)
 
 
-# The type of an option that is a whole number.
+def _number(_: object, tokens: Sequence[Token]) -> float:
+    """Read a number, also one that is written as 1%, as in --set."""
+    text = tokens[0].value
+    number = parse_settings([f"number={text}"])["number"]
+    if isinstance(number, bool) or not isinstance(number, (int, float)):
+        raise ValueError(f"{text} is not a number")  # noqa: TRY004 - the exception that becomes a message
+    return float(number)
+
+
+# The types of options that are a number, or a whole number.
+NUMBER = Parameter(converter=_number)
 WHOLE = Parameter(converter=_whole)
 Seed = Annotated[int | None, WHOLE, Parameter(help="Seed of the random start, over all layers.")]
 Threads = Annotated[
@@ -47,8 +57,8 @@ def layered(case: Path | None, settings: Sequence[str] | None, seed: int | None)
     """Lay a case file over the baseline, settings over the file, the seed over all."""
     if case is not None and str(case).endswith(("]", "}")) and not case.exists():
         raise stands_alone(str(case))
-    layers = [read_layer(case)] if case is not None else []
-    layers.append(nest(parse_settings(settings or [])))
+    upper = nest(parse_settings(settings or []))
+    layers = [read_layer(case), upper] if case is not None else [upper]
     if seed is not None:
         layers.append({"run": {"seed": seed}})
     # Layers are merged before anything is validated: an upper one may mend what a lower one breaks.
@@ -66,7 +76,10 @@ def stands_alone(words: str) -> ConfigError:
 
 def check_folder(folder: Path, option: str = "--out") -> None:
     """Refuse a folder that cannot be written, before anything is simulated or created."""
-    existing = next(path for path in (folder.absolute(), *folder.absolute().parents) if path.exists())
+    try:
+        existing = next(path for path in (folder.absolute(), *folder.absolute().parents) if path.exists())
+    except OSError as error:
+        raise ConfigError(option, str(folder), f"a folder that can be written: {error.strerror}") from None
     if not existing.is_dir():
         raise ConfigError(option, str(folder), f"a folder: {str(existing)!r} is a file")
     if not os.access(existing, os.W_OK | os.X_OK):

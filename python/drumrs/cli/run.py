@@ -7,7 +7,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from drumrs.cli.options import Seed, Settings, Threads, check_folder, layered
+from drumrs.cli.options import NUMBER, Seed, Settings, Threads, check_folder, layered
 from drumrs.cli.tables import print_paths, print_table
 from drumrs.config import Config
 from drumrs.config.softening import softening
@@ -31,9 +31,9 @@ def run(
     out: Path | None = None,
     json: Annotated[bool, Parameter(negative="")] = False,
     resume: Path | None = None,
-    until: float | None = None,
-    limit: float | None = None,
-    softer: float | None = None,
+    until: Annotated[float | None, NUMBER] = None,
+    limit: Annotated[float | None, NUMBER] = None,
+    softer: Annotated[float | None, NUMBER] = None,
 ) -> None:
     """Run a case: the paper's baseline, a TOML file laid over it, settings laid over the file.
 

@@ -18,6 +18,7 @@ from drumrs.config.to_core import core_config
 from drumrs.config.toml_writer import to_toml
 from drumrs.errors import ConfigError
 
+_CHANGES = "a dict of keys with their values, such as {'load.fill': 0.3}"
 _WRITE_ONE = "drumrs config > case.toml writes one with every key"
 
 
@@ -120,6 +121,8 @@ class Config(Tables):
         ConfigError
             Where a key or a value is not accepted, or both of a pair are given.
         """
+        if not isinstance(changes, Mapping):
+            raise ConfigError("changes", changes, _CHANGES)
         lower = self.model_dump(exclude_none=True)
         return self.model_validate(merge(type(self), lower, nest(changes)))
 

@@ -18,8 +18,12 @@ class _RaisesConfigError(ModelMetaclass):
     """Make a constructor raise `ConfigError`; validation of nested tables does not pass here, so paths stay whole."""
 
     def __call__(cls: type[Any], *args: Any, **values: Any) -> Any:  # noqa: N805 - a metaclass's self is a class
+        if args:
+            raise TypeError(
+                f"{cls.__name__} takes keys by name; drumrs.baseline().replace({{...}}) takes a dict"
+            )
         try:
-            return ModelMetaclass.__call__(cls, *args, **values)
+            return ModelMetaclass.__call__(cls, **values)
         except ValidationError as error:
             raise refusal(cls, error) from None
 

@@ -10,7 +10,7 @@ from typing import Any, ClassVar, Protocol, cast
 from pydantic import BaseModel
 
 from drumrs.config.messages import both_given, table_type
-from drumrs.errors import ConfigError
+from drumrs.errors import ConfigError, show
 
 
 class _Paired(Protocol):
@@ -82,7 +82,7 @@ def parse_settings(settings: Iterable[str]) -> dict[str, Any]:
         key, equals, text = setting.partition("=")
         if not equals or not key.strip():
             raise ConfigError("--set", setting, "KEY=VALUE", hint="such as --set load.fill=0.2")
-        layer[key.strip()] = _literal(key.strip(), text.strip())
+        layer[key.strip()] = _literal(text.strip())
     return layer
 
 
@@ -98,7 +98,29 @@ def read_toml(text: str, source: str | Path = "the configuration") -> dict[str, 
         return tomllib.loads(text)
     except (ValueError, RecursionError) as error:
         # Besides what is not TOML: integers of thousands of digits, tables nested a thousand deep.
-        raise ConfigError(source, problem=f"is not valid TOML: {error}") from None
+        raise ConfigError(source, problem=f"is not valid TOML: {error}", hint=_corrected(text)) from None
+
+
+def _corrected(text: str) -> str:
+    """Say how to write the line at which TOML ends, where that can be guessed."""
+    from tomlkit import exceptions, parse
+
+    if text.lstrip().startswith("{"):
+        return "a file of JSON has a name that ends with .json"
+    try:
+        parse(text)
+    except exceptions.ParseError as error:
+        line = text.splitlines()[error.line - 1].strip() if text.strip() else ""
+        key, equals, typed = (part.strip() for part in line.partition("="))
+        if not equals:
+            return f"line {error.line} is {show(line)}, but must be KEY = VALUE or [TABLE]"
+        typed = typed.partition("#")[0].strip()
+        value = _typed(typed.replace(",", ".") if _DECIMAL_COMMA.fullmatch(typed) else typed)
+        if not isinstance(value, str) or value.isidentifier():
+            return f"write {key} = {json.dumps(value)}"
+    except Exception:  # noqa: BLE001 - only a hint is lost
+        return ""
+    return ""
 
 
 def read_json(text: str, source: str | Path = "the configuration") -> dict[str, Any]:
@@ -122,23 +144,20 @@ def read_json(text: str, source: str | Path = "the configuration") -> dict[str, 
 # Numbers that people and Python write, and TOML does not take: .5, 5., 25 %.
 _NUMBER = re.compile(r"([+-]?(?:\d+\.\d*|\.\d+|\d+)(?:[eE][+-]?\d+)?)\s*(%?)")
 _DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+")
-_WORDS = {"True": True, "False": False}
+_WORDS = {"True": True, "False": False, "None": None}
 
 
-def _literal(key: str, text: str) -> Any:
+def _literal(text: str) -> Any:
     try:
         parsed = tomllib.loads(f"value = {text}")
     except (ValueError, RecursionError):
-        return _typed(key, text)
+        return _typed(text)
     return parsed["value"] if len(parsed) == 1 else text
 
 
-def _typed(key: str, text: str) -> Any:
+def _typed(text: str) -> Any:
     """Return what somebody means who does not write TOML; a bare word is a string."""
     number = _NUMBER.fullmatch(text)
     if number is not None:
         return float(number[1]) / (100.0 if number[2] else 1.0)
-    if _DECIMAL_COMMA.fullmatch(text):
-        hint = f"write {key}={text.replace(',', '.')}"
-        raise ConfigError(key, text, "a number with a decimal point", hint=hint)
     return _WORDS.get(text, text)

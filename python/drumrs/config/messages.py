@@ -1,6 +1,7 @@
 """From what pydantic refuses to a `ConfigError`: the key, the value found, what would be accepted."""
 
 import difflib
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, get_args, get_origin
 
@@ -13,6 +14,8 @@ from drumrs.errors import ConfigError, show
 _LONGEST_KEY = 60
 _TABLE = "a table of keys"
 _CONFLICT = "conflict"
+# The unit of a key that names none itself.
+_ITS_UNIT = "the unit that drumrs config gives"
 
 
 def refusal(model: type[BaseModel], error: ValidationError) -> ConfigError:
@@ -107,15 +110,40 @@ def _refused_value(model: type[BaseModel], problem: ErrorDetails) -> ConfigError
     if is_missing and isinstance(path[-1], int):
         # A list that is too short: it is the list that is wrong, not the element it lacks.
         path, is_missing = path[:-1], False
-    key, limit = _locate(model, path)
+    key, limit, annotation, unit = _locate(model, path)
     if is_missing:
         return ConfigError(key, None, limit, problem=f"is missing, but must be {limit}")
-    return ConfigError(key or "the configuration", value, limit)
+    hint = _numbers_in(value, annotation, unit) if isinstance(value, str) else ""
+    return ConfigError(key or "the configuration", value, limit, hint=hint)
 
 
-def _locate(model: type[BaseModel], path: Sequence[str | int]) -> tuple[str, str]:
-    """Return the dotted key and the limit's words; steps into unions carry no key and are passed over."""
-    key, limit = "", _TABLE
+def _numbers_in(text: str, annotation: Any, unit: str) -> str:
+    """Say how to write what was typed as text where a number, or a list of them, is needed."""
+    pair = _SEPARATED.fullmatch(text.strip())
+    if _element(annotation, 0) is not None:
+        return f"write [{pair[1]}, {pair[2]}]" if pair else ""
+    if not _holds(annotation, (int, float)):
+        return ""
+    if pair:
+        return f"write {pair[1]}{'' if _holds(annotation, (int,)) else '.'}{pair[2]}"
+    with_unit = _WITH_UNIT.fullmatch(text.strip())
+    return f"write a number alone, without {with_unit[2]!r}, in {unit}" if with_unit else ""
+
+
+# A number with a unit, and two numbers with a comma or so between them.
+_NUMBER = r"(-?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)"
+_WITH_UNIT = re.compile(rf"{_NUMBER}\s*([^\W\d]\S*|°)")
+_SEPARATED = re.compile(rf"{_NUMBER}\s*[,;:]\s*{_NUMBER}")
+
+
+def _holds(annotation: Any, kinds: tuple[type, ...]) -> bool:
+    """Return whether a value of the annotation may be of one of some plain types."""
+    return annotation in kinds or any(_holds(argument, kinds) for argument in get_args(annotation))
+
+
+def _locate(model: type[BaseModel], path: Sequence[str | int]) -> tuple[str, str, Any, str]:
+    """Return the dotted key, the limit's words, type and unit; steps into unions carry no key and are passed over."""
+    key, limit, unit = "", _TABLE, _ITS_UNIT
     annotation: Any = model
     for step in path:
         if _is_table(annotation):
@@ -124,13 +152,15 @@ def _locate(model: type[BaseModel], path: Sequence[str | int]) -> tuple[str, str
                 break
             key = f"{key}.{step}" if key else str(step)
             annotation = field.annotation
+            extra = field.json_schema_extra
+            unit = str(extra.get("unit", _ITS_UNIT)) if isinstance(extra, dict) else _ITS_UNIT
             keys = ", ".join(annotation.model_fields) if _is_table(annotation) else ""
             limit = _limit(annotation, field.metadata) or (f"{_TABLE}: {keys}" if keys else _TABLE)
         elif isinstance(step, int):
             annotation = _element(annotation, step)
             key = f"{key}[{step}]"
             limit = _limit(annotation, ()) or limit
-    return key, limit
+    return key, limit, annotation, unit
 
 
 def _limit(annotation: Any, metadata: Sequence[Any]) -> str | None:

@@ -1,6 +1,7 @@
 """Softer springs and the time step to match: what changes, and from what to what."""
 
 import math
+import numbers
 from typing import TYPE_CHECKING, Any
 
 from drumrs.errors import ConfigError
@@ -22,7 +23,7 @@ def softening(config: "Tables", factor: float, name: str = "softer") -> dict[str
     ConfigError
         Where the factor is not a finite number of at least 1; `name` is what the message calls it.
     """
-    if not 1.0 <= factor < math.inf:
+    if not (isinstance(factor, numbers.Real) and 1.0 <= factor < math.inf):
         raise ConfigError(name, factor, "a finite number of at least 1")
     if config.contact.base != "linear":
         raise ConfigError("contact.base", config.contact.base, "'linear' for softer springs")
