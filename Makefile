@@ -14,10 +14,10 @@ export VIRTUAL_ENV := $(abspath $(VENV))
 unexport CONDA_PREFIX
 
 .DEFAULT_GOAL := help
-.PHONY: help run study test develop lint bench clean
+.PHONY: help run study test check-long develop lint bench clean
 
 help: ## list the commands
-	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "make %-8s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-11s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
 
 run: develop ## run the paper's study in small: figures, verdicts on its claims, out/report.html
 	$(BIN)/drumrs reproduce --quick --out $(OUT)
@@ -33,6 +33,20 @@ test: develop ## test the physics, the package and the documentation
 	@if command -v cargo-nextest >/dev/null; then cargo nextest run --no-fail-fast; else cargo test --lib --tests --no-fail-fast; fi
 	cargo test --doc
 	$(BIN)/python -m pytest
+
+check-long: develop ## what takes hours: random loads, kills, long runs, fuzzing, the study in small, examples in full
+	PROPTEST_CASES=30000 cargo test --release --test random_loads
+	$(BIN)/python tests/endurance/kill_and_resume.py
+	$(BIN)/python tests/endurance/short_cases.py
+	$(BIN)/python tests/endurance/long_run.py
+	for target in checkpoint config outline rotation; do \
+	    mkdir -p fuzz/corpus/$$target; \
+	    cargo +nightly fuzz run $$target fuzz/corpus/$$target fuzz/seeds/$$target -- -max_total_time=600 || exit 1; \
+	done
+	$(BIN)/drumrs reproduce --quick --out $(OUT)/check-long
+	for example in examples/*.py; do \
+	    PATH="$(abspath $(BIN)):$$PATH" $(BIN)/python $$example --out $(OUT)/check-long/$$(basename $$example .py) || exit 1; \
+	done
 
 develop: $(STAMP) ## build the core into the environment (.venv)
 	$(BIN)/maturin develop --release --skip-install --quiet

@@ -10,12 +10,12 @@
 #SBATCH --time=02:00:00
 set -euo pipefail
 
-study=${STUDY:-study.toml}
+sweep=${SWEEP:-sweep.toml}
 out=${OUT:-results}
 
-if [ ! -e "$study" ]; then
+if [ ! -e "$sweep" ]; then
     # Many tasks may come here at once: each writes a file of its own, and puts it into place whole.
-    cat >"$study.$SLURM_ARRAY_TASK_ID" <<'TOML'
+    cat >"$sweep.$SLURM_ARRAY_TASK_ID" <<'TOML'
 seeds = 3
 
 [base]
@@ -25,8 +25,8 @@ run.duration = 30.0
 load.fill = [0.2, 0.3, 0.4, 0.5, 0.6]
 contact.bundle.friction = [0.1, 0.2, 0.3, 0.5]
 TOML
-    mv "$study.$SLURM_ARRAY_TASK_ID" "$study"
+    mv "$sweep.$SLURM_ARRAY_TASK_ID" "$sweep"
 fi
 
 # Tasks are counted from 1 here, as in --array=1-20; the cores of a task are seen by drumrs itself.
-exec drumrs sweep "$study" --out "$out" --shard "$SLURM_ARRAY_TASK_ID/$SLURM_ARRAY_TASK_COUNT"
+exec drumrs sweep "$sweep" --out "$out" --shard "$SLURM_ARRAY_TASK_ID/$SLURM_ARRAY_TASK_COUNT"

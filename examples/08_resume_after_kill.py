@@ -7,7 +7,7 @@ import sys
 import time
 from pathlib import Path
 
-STUDY = """
+SWEEP = """
 seeds = 2
 [base]
 run.duration = {duration}
@@ -35,9 +35,9 @@ def main() -> None:
     for folder in (broken, whole):
         shutil.rmtree(folder, ignore_errors=True)
     options.out.mkdir(parents=True, exist_ok=True)
-    study = options.out / "study.toml"
-    study.write_text(STUDY.format(duration=0.1 if options.small else 3.0), encoding="utf-8")
-    command = [sys.executable, "-m", "drumrs", "sweep", str(study), "--jobs", "1", "--out"]
+    path = options.out / "sweep.toml"
+    path.write_text(SWEEP.format(duration=0.1 if options.small else 3.0), encoding="utf-8")
+    command = [sys.executable, "-m", "drumrs", "sweep", str(path), "--jobs", "1", "--out"]
 
     process = subprocess.Popen([*command, str(broken)])
     while finished(broken) < CASES // 2 and process.poll() is None:

@@ -8,7 +8,6 @@
 All values are in SI units and per meter of drum depth, but for rpm and degrees in configurations.
 """
 
-from importlib import import_module
 from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
 
@@ -16,9 +15,11 @@ from drumrs import errors
 from drumrs.config import Config, baseline
 from drumrs.errors import CheckpointError, ConfigError, DrumrsError, DrumrsWarning, UnstableError
 from drumrs.frames import Frames
+from drumrs.jobs import job_count
 from drumrs.output import player, save
-from drumrs.protocol import run
+from drumrs.progress import Task
 from drumrs.result import Result, Summary, load
+from drumrs.runs import run
 from drumrs.simulation import Simulation, info, quantities, units
 from drumrs.state import State
 from drumrs.sweep import Case, Sweep
@@ -41,12 +42,14 @@ __all__ = [
     "State",
     "Summary",
     "Sweep",
+    "Task",
     "UnstableError",
     "Verification",
     "__version__",
     "baseline",
     "errors",
     "info",
+    "job_count",
     "load",
     "player",
     "quantities",
@@ -62,5 +65,7 @@ def __getattr__(name: str) -> Any:
     if name == "QUANTITIES":
         return quantities()
     if name in {"Verification", "verify"}:
-        return getattr(import_module("drumrs.verification"), name)
+        from drumrs import verification
+
+        return verification.verify if name == "verify" else verification.Verification
     raise AttributeError(f"module 'drumrs' has no attribute {name!r}")

@@ -1,10 +1,10 @@
-"""What can go wrong, as four exceptions and a warning; each makes its message of its fields.
+"""What can go wrong, as four exceptions and two warnings; each makes its message of its fields.
 
 The core raises the same classes, by importing this module: so every error pickles, whichever side it comes from.
 """
 
 from pathlib import Path
-from typing import Any
+from typing import Any, overload
 
 _LONGEST_VALUE = 60
 
@@ -49,6 +49,23 @@ class ConfigError(DrumrsError, ValueError):
     load.fill is -0.1, but must be a positive finite number
     load.fill -0.1
     """
+
+    @overload
+    def __init__(
+        self, key: str | Path, value: Any, limit: str, *, hint: str = ..., bound: float | None = ...
+    ) -> None: ...
+
+    @overload
+    def __init__(
+        self,
+        key: str | Path,
+        value: Any = ...,
+        limit: str = ...,
+        *,
+        hint: str = ...,
+        problem: str,
+        bound: float | None = ...,
+    ) -> None: ...
 
     def __init__(
         self,
@@ -155,6 +172,10 @@ class CheckpointError(DrumrsError, ValueError):
 
 class DrumrsWarning(UserWarning):
     """Something that a configuration does and that its author may not expect; said at the start, with ways out."""
+
+
+class PictureWarning(DrumrsWarning):
+    """A picture, a player or a plot of a page that could not be made; names it, and why. The numbers are complete."""
 
 
 def show(value: object) -> str:

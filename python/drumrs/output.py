@@ -1,21 +1,36 @@
 """What is made of a result: its folder with tables, pictures and a player."""
 
+import json
+from collections.abc import Callable, Mapping
+from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from drumrs.config import Config
-from drumrs.files import write_whole
+from drumrs.files import remove_temporaries, write_whole
+from drumrs.folders import RUN_FILES, claim, is_claimed, require_own, require_unused
 from drumrs.frames import Frames
-from drumrs.result import UNSTABLE, Result, Summary, write_tables
+from drumrs.parts import Parts
+from drumrs.pictures import attempt
+from drumrs.result import UNSTABLE, Result, Summary, ended_unstable, write_tables
+from drumrs.unstable import UnstableRun
 
 if TYPE_CHECKING:
     import polars as pl
 
     from drumrs.viewer import Player
 
+# What `draw` writes.
+PICTURES = ("time_series.png", "snapshots.png", "player.html")
 
-def player(result: Result) -> "Player":
+
+def player(run: Result | UnstableRun) -> "Player":
     """Return a run as a player: shown by a notebook, or written as one HTML file with its `save`.
+
+    Parameters
+    ----------
+    run
+        A finished run, or one that ended unstable, whose end is the last frame.
 
     Examples
     --------
@@ -24,46 +39,117 @@ def player(result: Result) -> "Player":
     >>> drumrs.player(drumrs.run(config, progress=False))
     <Player of 40 bundles, 3 frames>
     """
-    return _player(result.config, result.series, result.frames)
-
-
-def _player(config: Config, series: "pl.DataFrame", frames: Frames) -> "Player":
     from drumrs.viewer import Player
 
-    return Player(frames, series, title=config.title, window=config.run.averaging_window)
+    note = ended_unstable(run.time) if isinstance(run, UnstableRun) else ""
+    return Player.of(run.config, run.frames, run.series, note)
 
 
-def save(result: Result, folder: str | Path, *, pictures: bool = True) -> list[Path]:
-    """Write config.toml, series.parquet, frames.parquet, pictures, a player and, last, summary.json.
+def save(result: Result, folder: str | Path, *, pictures: bool = True, force: bool = False) -> list[Path]:
+    """Write config.toml, series.parquet, frames.parquet and summary.json, then pictures and a player.
 
     Parameters
     ----------
     result
         The run; `load` reads it again.
     folder
-        Created where it does not exist.
+        Created where it does not exist. It is this run's: one that holds another run, or files of these names that
+        drumrs did not write, is refused.
     pictures
         Whether to draw snapshots.png and time_series.png, and to write player.html, which plays the run.
+    force
+        Whether to replace another run in the folder.
 
     Returns
     -------
     list of Path
         The files written.
+
+    Raises
+    ------
+    ConfigError
+        Where the folder is not accepted.
+    OSError
+        Where it cannot be written.
+
+    Warns
+    -----
+    PictureWarning
+        Where a picture or the player could not be made; everything else is there.
     """
     folder = Path(folder)
-    folder.mkdir(parents=True, exist_ok=True)
+    require_folder(folder, result.config, force=force, way="force=True")
+    claim_folder(folder, result.config)
     config, summary, series, frames = result.config, result.summary, result.series, result.frames
     written = write_tables(folder, config, series, result.units)
     frames.save(folder / "frames.parquet")
-    drawn = draw(folder, config, summary, series, frames, frames) if pictures else []
-    return [*written, folder / "frames.parquet", complete(folder, summary), *drawn]
+    written += [folder / "frames.parquet", complete(folder, summary)]
+    return [*written, *(draw(folder, config, summary, series, frames, frames) if pictures else [])]
+
+
+def require_folder(
+    folder: Path, config: Config, *, force: bool, way: str = "--force", option: str = "folder"
+) -> None:
+    """Refuse a folder for a run that holds another one, or files that drumrs did not write.
+
+    Parameters
+    ----------
+    folder
+        Where the run's results are to be written; it need not exist.
+    config
+        What the run is of; the same run may be written again.
+    force
+        Whether another run is to be replaced.
+    way
+        How to ask for that.
+    option
+        What the user called the folder.
+
+    Raises
+    ------
+    ConfigError
+        Where the folder is not accepted.
+    """
+    require_own(folder, "run", RUN_FILES, option)
+    if not force:
+        require_unused(folder, "run", digest=config.digest, force=way, option=option)
+
+
+def claim_folder(folder: Path, config: Config) -> None:
+    """Make a run's folder, and remove what another run left there.
+
+    Raises
+    ------
+    OSError
+        Where it cannot be written.
+    """
+    if not is_claimed(folder, "run", config.digest):
+        clear_folder(folder)
+    claim(folder, "run", config.title, config.digest)
+
+
+def clear_folder(folder: Path) -> None:
+    """Remove what a run has left in its folder: nothing of it must pass for a part of another run."""
+    for name in RUN_FILES:
+        if not (folder / name).is_dir():
+            (folder / name).unlink(missing_ok=True)
+    remove_temporaries(folder)
+    Parts(folder).remove()
 
 
 def complete(folder: Path, summary: Summary) -> Path:
-    """Write summary.json, which comes last: a folder that has one is complete."""
+    """Write summary.json, the last of the numbers: a folder that has one holds a finished run."""
     write_whole(folder / "summary.json", f"{summary.to_json()}\n".encode())
     (folder / UNSTABLE).unlink(missing_ok=True)
     return folder / "summary.json"
+
+
+def save_unstable(run: UnstableRun, folder: Path) -> list[Path]:
+    """Write unstable.json and player.html, beside the tables; return the paths of what was written."""
+    summary = asdict(run.summary) if run.summary is not None else None
+    told = {"error": run.error, "step": run.step, "time": run.time, "summary": summary}
+    write_whole(folder / UNSTABLE, f"{json.dumps(told, indent=2)}\n".encode())
+    return [folder / UNSTABLE, *_make(folder, {"player.html": lambda path: player(run).save(path)})]
 
 
 def draw(
@@ -86,20 +172,46 @@ def draw(
     -------
     list of Path
         The files written.
-    """
-    from drumrs import figures
 
+    Warns
+    -----
+    PictureWarning
+        Where one of them could not be made; the others are there.
+    """
     start, end = window = config.run.averaging_window
-    drawings = {"time_series.png": figures.time_series(series, window=window)}
-    if len(pictured):
+    fill = f"fill {100.0 * summary.fill:.3g} %"
+
+    def draw_time_series(path: Path) -> None:
+        from drumrs import figures
+
+        figures.write(figures.time_series(series, window=window), path)
+
+    def draw_snapshots(path: Path) -> None:
+        from drumrs import figures
+
         indices = sorted({pictured.nearest(time) for time in (0.0, start, end)})
-        fill = f"fill {100.0 * summary.fill:.0f} %"
-        drawings["snapshots.png"] = figures.snapshots(
-            [figures.View(pictured, index, fill) for index in indices]
-        )
-    for name, figure in drawings.items():
-        figures.write(figure, folder / name)
-    written = [folder / name for name in drawings]
+        figures.write(figures.snapshots([figures.View(pictured, index, fill) for index in indices]), path)
+
+    def write_player(path: Path) -> None:
+        from drumrs.viewer import Player
+
+        Player.of(config, shown, series).save(path)
+
+    drawings: dict[str, Callable[[Path], object]] = {"time_series.png": draw_time_series}
+    if len(pictured):
+        drawings["snapshots.png"] = draw_snapshots
     if len(shown):
-        written.append(_player(config, series, shown).save(folder / "player.html"))
+        drawings["player.html"] = write_player
+    return _make(folder, drawings)
+
+
+def _make(folder: Path, drawings: Mapping[str, Callable[[Path], object]]) -> list[Path]:
+    """Make pictures by name of their file, each for itself; return the files written."""
+    written = []
+    for name, make in drawings.items():
+        # A picture of an earlier run must not pass for one of this.
+        (folder / name).unlink(missing_ok=True)
+        with attempt(folder / name):
+            make(folder / name)
+            written.append(folder / name)
     return written

@@ -4,9 +4,8 @@ import math
 from dataclasses import dataclass
 
 from drumrs.errors import ConfigError
-from drumrs.progress import Board
-from drumrs.protocol import announce, finish
 from drumrs.run_folder import RunFolder
+from drumrs.runs import run_to_end
 from drumrs.simulation import Simulation
 
 # A longer window is asked for by the error found, and a little more; never more than twice the window at once, since
@@ -49,7 +48,9 @@ class Goal:
         return cls(precision, limit)
 
 
-def pursue(simulation: Simulation, goal: Goal, shown: Board, folder: RunFolder | None = None) -> str:
+def run_until_precise(
+    simulation: Simulation, goal: Goal, folder: RunFolder | None = None, *, progress: bool = True
+) -> str:
     """Run to the end of the duration, and on until the goal or its limit; return what was reached, in a sentence.
 
     When to look is decided by the results alone: a run that was interrupted ends like one that was not.
@@ -60,15 +61,15 @@ def pursue(simulation: Simulation, goal: Goal, shown: Board, folder: RunFolder |
         What to run; its configuration ends where the run does.
     goal
         What to reach.
-    shown
-        Where to show progress.
     folder
         Where to keep records and checkpoints.
+    progress
+        Whether to show progress.
     """
-    finish(simulation, announce(shown, simulation), folder)
+    run_to_end(simulation, folder, progress=progress)
     while (end := _next_end(simulation, goal)) is not None:
         simulation.prolong(end)
-        finish(simulation, announce(shown, simulation, f"to {end:.4g} s"), folder)
+        run_to_end(simulation, folder, label=f"on to {end:.4g} s", progress=progress)
     reached = _precision(simulation)
     found = f"{100.0 * reached:.2g} %" if math.isfinite(reached) else "not known"
     asked, time = f"{100.0 * goal.precision:.3g} %", f"t = {simulation.time:.4g} s"

@@ -1,273 +1,354 @@
-"""Progress of runs: bars in a terminal or notebook, otherwise one line a minute on standard error."""
+"""Progress of what takes long: bars in a terminal or notebook, otherwise lines on standard error.
+
+Whatever takes long opens a `Task`. Tasks that are open at the same time, nested or on several threads, share a display.
+"""
 
 import sys
+import threading
 import time
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Iterator
 from html import escape
 from importlib import import_module
-from typing import Any, Self
+from itertools import chain, repeat
+from types import TracebackType
+from typing import Any, ClassVar, Self
 
-_MINUTE = 60.0
-# Pauses between two pictures of the bars [s].
-_PAUSE = 0.2
-
-
-@dataclass(frozen=True)
-class Journey:
-    """A run to be reported: from where to where, and what a step is worth."""
-
-    label: str
-    first_step: int
-    last_step: int
-    time_step: float
-    count: int
+_HOUR, _MINUTE = 3600.0, 60.0
+# Pauses between lines where there is no terminal, the first ones and all others [s].
+_FIRST_PAUSES, _LATER_PAUSES = (1.0, 9.0, 20.0, 30.0), 60.0
+# Time between two updates of a notebook's cell [s].
+_REFRESH = 0.2
 
 
-@dataclass(frozen=True)
-class Campaign:
-    """Many cases to be reported: how many, their particle-steps together, what they are.
+class Task:
+    """Something that takes long, shown while it is open: a bar in a terminal or notebook, else a line now and then.
 
-    Where particle-steps are known roughly only, it is not `rated` by them.
+    Without a terminal the first line comes after a second, then fewer and fewer, a line a minute in the end; what is
+    over sooner says nothing. Rate and time left count from where the task began, so that they are right where something
+    goes on that was interrupted.
+
+    Parameters
+    ----------
+    label
+        What it is, with its size where that is worth knowing.
+    total
+        How much there is to do; 0 where nobody knows, which shows the time taken only.
+    unit
+        What `total` counts; without one no rate is shown.
+    done
+        How much was done before.
+    detail
+        Shown beside the share: how far it is, in other words.
+    show
+        Whether anything is shown.
+
+    Examples
+    --------
+    >>> import drumrs
+    >>> with drumrs.Task("sieving", total=3, unit="loads", show=False) as task:
+    ...     for _ in range(3):
+    ...         task.advance()
+    >>> task.share
+    1.0
     """
 
-    cases: int
-    cost: float
-    label: str = "sweep"
-    rated: bool = True
-
-
-class Board:
-    """Shows how far one or several runs are; this one, the base of the others, shows nothing."""
+    def __init__(
+        self,
+        label: str,
+        total: float,
+        unit: str = "",
+        *,
+        done: float = 0.0,
+        detail: str = "",
+        show: bool = True,
+    ) -> None:
+        self.label = label
+        self.total = total
+        self.unit = unit
+        self.done = done
+        self.detail = detail
+        self._show = show
+        self._first = done
+        self._lock = threading.Lock()
+        self._began = time.perf_counter()
+        self._ended: float | None = None
+        self._display: ProgressDisplay | None = None
 
     def __enter__(self) -> Self:
-        """Begin to show."""
+        """Begin to count time, and show the task."""
+        self._began = time.perf_counter()
+        if self._show:
+            self._display = ProgressDisplay.of(self)
         return self
 
-    def __exit__(self, *_: object) -> None:
-        """Stop showing."""
+    def __exit__(
+        self, kind: type[BaseException] | None, _: BaseException | None, __: TracebackType | None
+    ) -> None:
+        """Show the task no longer; what was shown of it stays."""
+        self._ended = time.perf_counter()
+        if self._display is not None:
+            self._display.close(self, finished=kind is None)
 
-    def add(self, journey: Journey) -> Callable[[int], None]:
-        """Show another run; the function returned is to be called with its step number."""
-        del journey
-        return _ignore
+    def advance(self, amount: float = 1.0, detail: str | None = None) -> None:
+        """Say that so much more is done; safe from any thread."""
+        with self._lock:
+            self.done += amount
+        self._tell(detail)
 
-    def add_campaign(self, campaign: Campaign) -> Callable[[int, float], None]:
-        """Show many cases; the function returned is to be called with cases and particle-steps done."""
-        del campaign
-        return _ignore
+    def update(self, done: float, detail: str | None = None) -> None:
+        """Say how much is done altogether."""
+        self.done = done
+        self._tell(detail)
+
+    def note(self, sentence: str) -> None:
+        """Say something once, apart from the bars."""
+        if self._display is not None:
+            self._display.note(sentence)
+
+    @property
+    def share(self) -> float:
+        """The part that is done, from 0 to 1."""
+        return min(self.done / self.total, 1.0) if self.total else float(self._ended is not None)
+
+    @property
+    def elapsed(self) -> float:
+        """Time since the task was opened [s]."""
+        return (self._ended or time.perf_counter()) - self._began
+
+    @property
+    def rate(self) -> float:
+        """What was done in a second, on average."""
+        return (self.done - self._first) / max(self.elapsed, 1e-9)
+
+    def state(self) -> str:
+        """Return in words how far the task is, how fast it goes and how long it takes."""
+        words = [self.detail] if self.detail else []
+        if self.unit and self.rate > 0.0:
+            words.append(f"{with_prefix(self.rate)}{self.unit}/s")
+        if self._ended is not None or not self.total:
+            words.append(f"{format_duration(self.elapsed)} taken")
+        elif self.rate > 0.0:
+            words.append(f"{format_duration(max(self.total - self.done, 0.0) / self.rate)} left")
+        else:
+            words.append("time left not known yet")
+        return ", ".join(words)
+
+    def __str__(self) -> str:
+        """Say in a line how far the task is."""
+        share = f"{self.share:.0%}, " if self.total else ""
+        return f"{self.label}: {share}{self.state()}"
+
+    def _tell(self, detail: str | None) -> None:
+        if detail is not None:
+            self.detail = detail
+        if self._display is not None:
+            self._display.update(self)
+
+
+def with_prefix(number: float) -> str:
+    """Write a large number with a prefix, and a space after it.
+
+    Examples
+    --------
+    >>> with_prefix(12_340_000.0) + "steps", with_prefix(40) + "steps"
+    ('12.3 M steps', '40 steps')
+    """
+    for scale, prefix in ((1e9, "G"), (1e6, "M"), (1e3, "k")):
+        if number >= scale:
+            return f"{number / scale:.1f} {prefix} "
+    return f"{number:.3g} "
+
+
+def format_duration(seconds: float) -> str:
+    """Write a time as people say it.
+
+    Examples
+    --------
+    >>> format_duration(42.3), format_duration(125.0), format_duration(9000.0)
+    ('42 s', '2 min 5 s', '2 h 30 min')
+    """
+    whole = round(seconds)
+    if whole < _MINUTE:
+        return f"{whole} s"
+    if whole < _HOUR:
+        return f"{whole // 60} min {whole % 60} s" if whole % 60 else f"{whole // 60} min"
+    return f"{whole // 3600} h {whole % 3600 // 60} min"
+
+
+class ProgressDisplay:
+    """Where the tasks that are open are shown; there is one at a time."""
+
+    _lock: ClassVar = threading.RLock()
+    _current: "ClassVar[ProgressDisplay | None]" = None
+
+    def __init__(self) -> None:
+        self.tasks: list[Task] = []
+
+    @classmethod
+    def of(cls, task: Task) -> "ProgressDisplay":
+        """Show a task on the display that is there, or on a new one."""
+        with cls._lock:
+            display = ProgressDisplay._current
+            if display is None:
+                display = _suitable()
+                display.start()
+                ProgressDisplay._current = display
+            display.tasks.append(task)
+            display.update(task)
+        return display
+
+    def close(self, task: Task, *, finished: bool) -> None:
+        """Show a task for the last time; with the last task the display ends."""
+        with self._lock:
+            self.tasks.remove(task)
+            try:
+                self.end(task, finished=finished)
+            finally:
+                if not self.tasks:
+                    ProgressDisplay._current = None
+                    self.stop()
+
+    def start(self) -> None:
+        """Begin to show tasks."""
+
+    def stop(self) -> None:
+        """End showing tasks."""
+
+    def update(self, task: Task) -> None:
+        """Show how far a task is now."""
+
+    def end(self, task: Task, *, finished: bool) -> None:
+        """Show how a task ended."""
+        del finished
+        self.update(task)
 
     def note(self, sentence: str) -> None:
         """Say something once."""
+        raise NotImplementedError
 
 
-def _ignore(*_: float) -> None:
-    """Take how far it is and say nothing."""
-
-
-def board(*, show: bool) -> Board:
-    """Choose how to show progress: bars where someone looks, lines in a log, nothing if not wanted."""
-    if not show:
-        return Board()
+def _suitable() -> ProgressDisplay:
     from rich.console import Console
 
     if Console().is_jupyter:
-        return Cell()
-    return _Bars() if sys.stderr.isatty() else _Lines()
+        return NotebookDisplay()
+    return TerminalDisplay() if sys.stderr.isatty() else LogDisplay()
 
 
-class Meter:
-    """Rate and time left of one run."""
+class LogDisplay(ProgressDisplay):
+    """Lines on standard error, written on a thread of their own: some tasks have nothing to tell for a while."""
 
-    def __init__(self, journey: Journey) -> None:
-        self.journey = journey
-        self.began = time.perf_counter()
+    def start(self) -> None:
+        """Begin to write lines."""
+        self._over = threading.Event()
+        self._writer = threading.Thread(target=self._write, name="drumrs progress", daemon=True)
+        self._writer.start()
 
-    def rate(self, step: int) -> float:
-        """Particle-steps per second so far."""
-        elapsed = max(time.perf_counter() - self.began, 1e-9)
-        return (step - self.journey.first_step) * self.journey.count / elapsed
+    def stop(self) -> None:
+        """Write no more lines."""
+        self._over.set()
+        self._writer.join()
 
-    def line(self, step: int) -> str:
-        """Say in one line how far the run is."""
-        journey = self.journey
-        done, end = step * journey.time_step, journey.last_step * journey.time_step
-        rate = self.rate(step)
-        left = (journey.last_step - step) * journey.count / rate if rate else float("inf")
-        share = step / max(journey.last_step, 1)
-        label = f"{journey.label}: " if journey.label else ""
-        return f"{label}{share:.0%}, {done:.2f} of {end:.2f} s, {rate / 1e6:.1f} M particle-steps/s, {left:.0f} s left"
-
-
-class Score:
-    """Rate and time left of many cases, by what they cost and not by their number."""
-
-    def __init__(self, campaign: Campaign) -> None:
-        self.campaign = campaign
-        self.began = time.perf_counter()
-
-    def state(self, cases: int, cost: float) -> str:
-        """Say how many cases are done, and how fast."""
-        rate = cost / max(time.perf_counter() - self.began, 1e-9)
-        speed = f" · {rate / 1e6:.1f} M particle-steps/s" if self.campaign.rated else ""
-        return f"{cases} of {self.campaign.cases} cases{speed}"
-
-    def line(self, cases: int, cost: float) -> str:
-        """Say in one line how far it is."""
-        share = cost / max(self.campaign.cost, 1.0)
-        elapsed = time.perf_counter() - self.began
-        left = f"{elapsed * (1.0 / share - 1.0):.0f} s left" if share else "time left unknown"
-        return f"{self.campaign.label}: {share:.0%}, {self.state(cases, cost)}, {left}"
-
-
-class _Lines(Board):
-    def add(self, journey: Journey) -> Callable[[int], None]:
-        meter = Meter(journey)
-        due = meter.began + _MINUTE
-
-        def report(step: int) -> None:
-            nonlocal due
-            if time.perf_counter() >= due:
-                due = time.perf_counter() + _MINUTE
-                self.note(meter.line(step))
-
-        return report
-
-    def add_campaign(self, campaign: Campaign) -> Callable[[int, float], None]:
-        score = Score(campaign)
-        due = score.began + _MINUTE
-
-        def report(cases: int, cost: float) -> None:
-            nonlocal due
-            if time.perf_counter() >= due:
-                due = time.perf_counter() + _MINUTE
-                self.note(score.line(cases, cost))
-
-        return report
+    def end(self, task: Task, *, finished: bool) -> None:
+        """Write how long a task took, where it took long enough for a line."""
+        if finished and task.elapsed >= _FIRST_PAUSES[0]:
+            self.note(str(task))
 
     def note(self, sentence: str) -> None:
+        """Write a line."""
         sys.stderr.write(f"{sentence}\n")
         sys.stderr.flush()
 
+    def _write(self) -> None:
+        for pause in self._pauses():
+            if self._over.wait(pause):
+                return
+            for task in tuple(self.tasks):
+                self.note(str(task))
 
-class _Bars(Board):
+    def _pauses(self) -> Iterator[float]:
+        return chain(_FIRST_PAUSES, repeat(_LATER_PAUSES))
+
+
+class TerminalDisplay(ProgressDisplay):
+    """Bars in a terminal, drawn by rich."""
+
     def __init__(self) -> None:
+        super().__init__()
         from rich.console import Console
-        from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
+        from rich.progress import BarColumn, Progress, TaskID, TaskProgressColumn, TextColumn
 
-        self._progress: Progress = Progress(
-            TextColumn("{task.description}"),
-            BarColumn(),
+        self._bars: dict[Task, TaskID] = {}
+        # Labels and details may hold what rich takes for markup.
+        self._progress = Progress(
+            TextColumn("{task.description}", markup=False),
+            BarColumn(bar_width=24),
             TaskProgressColumn(),
-            TextColumn("{task.fields[state]}"),
-            TimeRemainingColumn(),
-            TextColumn("left"),
+            TextColumn("{task.fields[state]}", markup=False),
             console=Console(stderr=True),
         )
 
-    def __enter__(self) -> Self:
+    def start(self) -> None:
+        """Begin to draw."""
         self._progress.start()
-        return self
 
-    def __exit__(self, *_: object) -> None:
+    def stop(self) -> None:
+        """Leave the bars as they are."""
         self._progress.stop()
 
-    def add(self, journey: Journey) -> Callable[[int], None]:
-        meter = Meter(journey)
-        label = journey.label or "drum"
-        task = self._progress.add_task(label, total=journey.last_step, completed=journey.first_step, state="")
-        end = journey.last_step * journey.time_step
-
-        def report(step: int) -> None:
-            now = step * journey.time_step
-            state = f"{now:.2f} of {end:.2f} s · {meter.rate(step) / 1e6:.1f} M particle-steps/s"
-            self._progress.update(task, completed=step, state=state)
-
-        return report
-
-    def add_campaign(self, campaign: Campaign) -> Callable[[int, float], None]:
-        score = Score(campaign)
-        task = self._progress.add_task(campaign.label, total=max(campaign.cost, 1.0), state="")
-
-        def report(cases: int, cost: float) -> None:
-            self._progress.update(task, completed=cost, state=score.state(cases, cost))
-
-        return report
+    def update(self, task: Task) -> None:
+        """Draw a task's bar."""
+        if task not in self._bars:
+            self._bars[task] = self._progress.add_task(task.label, total=task.total or None, state="")
+        self._progress.update(self._bars[task], completed=task.done, state=task.state())
 
     def note(self, sentence: str) -> None:
-        from rich import markup
-
-        self._progress.print(markup.escape(sentence))
-
-
-@dataclass
-class _Row:
-    """A bar: which part is done, and what stands beside it."""
-
-    share: float = 0.0
-    line: str = ""
+        """Write a line above the bars."""
+        self._progress.console.print(sentence, markup=False, highlight=False)
 
 
-class Cell(Board):
-    """Shows bars below a notebook's cell: plain HTML, which needs no widgets and stays as it was at the end."""
+class NotebookDisplay(ProgressDisplay):
+    """Bars below a notebook's cell: plain HTML, which needs no widgets and stays as it was at the end."""
 
     def __init__(self) -> None:
-        self._rows: list[_Row] = []
+        super().__init__()
+        self._rows: dict[Task, str] = {}
         self._notes: list[str] = []
         self._shown = 0.0
-        self._display: Any = None
+        self._output: Any = None
 
-    def __enter__(self) -> Self:
+    def start(self) -> None:
         """Take a place below the cell."""
         # Where there is a notebook there is IPython.
-        self._display = import_module("IPython.display").display(self, display_id=True)
-        return self
+        self._output = import_module("IPython.display").display(self, display_id=True)
 
-    def __exit__(self, *_: object) -> None:
+    def stop(self) -> None:
         """Leave the bars as they were at the end."""
-        self._show(now=True)
+        self._refresh()
 
-    def add(self, journey: Journey) -> Callable[[int], None]:
-        """Show another run; the function returned is to be called with its step number."""
-        meter, row = Meter(journey), self._add()
-
-        def report(step: int) -> None:
-            row.share, row.line = step / max(journey.last_step, 1), meter.line(step)
-            self._show()
-
-        return report
-
-    def add_campaign(self, campaign: Campaign) -> Callable[[int, float], None]:
-        """Show many cases; the function returned is to be called with cases and particle-steps done."""
-        score, row = Score(campaign), self._add()
-
-        def report(cases: int, cost: float) -> None:
-            row.share, row.line = cost / max(campaign.cost, 1.0), score.line(cases, cost)
-            self._show()
-
-        return report
+    def update(self, task: Task) -> None:
+        """Show a task's bar."""
+        self._rows[task] = str(task)
+        if time.perf_counter() >= self._shown + _REFRESH:
+            self._refresh()
 
     def note(self, sentence: str) -> None:
         """Say something once, below the bars."""
         self._notes.append(sentence)
-        self._show(now=True)
+        self._refresh()
 
-    def _add(self) -> _Row:
-        self._rows.append(_Row())
-        return self._rows[-1]
-
-    def _show(self, *, now: bool = False) -> None:
-        if self._display is not None and (now or time.perf_counter() >= self._shown + _PAUSE):
-            self._shown = time.perf_counter()
-            self._display.update(self)
+    def _refresh(self) -> None:
+        self._shown = time.perf_counter()
+        if self._output is not None:
+            self._output.update(self)
 
     def __repr__(self) -> str:
-        """Say how far it is, where no HTML is shown."""
-        return "\n".join([*(row.line for row in self._rows), *self._notes])
+        """Say how far the tasks are, where no HTML is shown."""
+        return "\n".join([*self._rows.values(), *self._notes])
 
     def _repr_html_(self) -> str:
         bars = (
-            f'<div><progress max="1" value="{row.share:.4f}"></progress> {escape(row.line)}</div>'
-            for row in self._rows
+            f'<div><progress max="1" value="{task.share:.4f}"></progress> {escape(line)}</div>'
+            for task, line in tuple(self._rows.items())
         )
         return "".join([*bars, *(f"<div>{escape(note)}</div>" for note in self._notes)])

@@ -24,6 +24,11 @@ UNSTABLE = "unstable.json"
 _FINISHED = "the folder of a finished run"
 
 
+def ended_unstable(time: float) -> str:
+    """Say in a title that a run ended unstable, and when [s]."""
+    return f"ended unstable at t = {time:.4g} s"
+
+
 @dataclass(frozen=True)
 class Summary:
     """Averages over a window of the run; powers, torques and forces are per meter of drum depth.

@@ -5,12 +5,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from drumrs.config import Config
 from drumrs.errors import UnstableError
-from drumrs.files import remove_temporaries
+from drumrs.files import remove_temporaries, write_whole
+from drumrs.folders import claim
 from drumrs.frames import Frames, FramesFile, thinned
-from drumrs.output import complete, draw
+from drumrs.output import claim_folder, clear_folder, complete, draw, save_unstable
 from drumrs.parts import PART_SIZE, Parts
-from drumrs.result import UNSTABLE, Summary, write_tables
+from drumrs.pictures import attempt
+from drumrs.result import Summary, write_tables
 from drumrs.simulation import Simulation, units
 from drumrs.unstable import UnstableRun
 
@@ -33,14 +36,17 @@ class RunFolder:
         self.path = path
         self._parts = Parts(path)
 
-    def clear(self) -> None:
-        """Make the folder where there is none, and remove what an earlier run recorded there or goes on from."""
-        self.path.mkdir(parents=True, exist_ok=True)
-        # Tables of another run must not pass for the beginning of this one.
-        for name in ("summary.json", UNSTABLE, _CHECKPOINT, "series.parquet", "frames.parquet"):
-            (self.path / name).unlink(missing_ok=True)
-        remove_temporaries(self.path)
-        self._parts.remove()
+    def begin(self, config: Config) -> None:
+        """Make the folder that of a new run, which has recorded nothing yet.
+
+        Raises
+        ------
+        OSError
+            Where it cannot be written.
+        """
+        clear_folder(self.path)
+        claim_folder(self.path, config)
+        write_whole(self.path / "config.toml", config.to_toml().encode())
 
     def load(self, threads: int) -> Simulation:
         """Return the simulation of the last checkpoint; its frames stay in the folder.
@@ -72,23 +78,26 @@ class RunFolder:
         summary, series = simulation.summary(), simulation.series
         written = self._write_tables(simulation, series)
         file = FramesFile.of(self.path / "frames.parquet")
-        drawn = draw(self.path, simulation.config, summary, series, *_pictured(file, simulation))
-        told = complete(self.path, summary)
+        written.append(complete(self.path, summary))
         self._parts.remove()
-        return summary, [*written, told, *drawn]
+        with attempt(f"pictures in {self.path}"):
+            written += draw(self.path, simulation.config, summary, series, *_pictured(file, simulation))
+        return summary, written
 
     def conclude_unstable(self, simulation: Simulation, error: UnstableError) -> None:
-        """Write what `UnstableRun.save_end` writes."""
+        """Write what `save_unstable` writes."""
         series = simulation.series
         self._write_tables(simulation, series)
         frames = _shown(FramesFile.of(self.path / "frames.parquet"))
-        UnstableRun.of(simulation, error, series, frames).save_end(self.path)
+        save_unstable(UnstableRun.of(simulation, error, series, frames), self.path)
         self._parts.remove()
 
     def _write_tables(self, simulation: Simulation, series: "pl.DataFrame") -> list[Path]:
         self._parts.append(simulation.records)
         path = self.path / "frames.parquet"
         known = {column: units(column) for column in series.columns}
+        # A run that went on beyond its duration is that of another configuration now.
+        claim(self.path, "run", simulation.config.title, simulation.config.digest)
         written = write_tables(self.path, simulation.config, series, known)
         self._parts.merge_frames(path, simulation.records)
         return [*written, path]

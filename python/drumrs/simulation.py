@@ -95,6 +95,8 @@ class Simulation(HasRecords):
             limit = "true where no initial state is given"
             raise ConfigError("drum.rim", False, limit)
         arrays = None if state is None else state.arrays()
+        if arrays is not None and len(arrays["positions"]) != config.bundle_count:
+            config = config.replace({"load.count": len(arrays["positions"])})
         try:
             core = _core.Simulation(config.to_core_json(), config.run.seed, threads, arrays)
         except ConfigError as error:
@@ -124,7 +126,7 @@ class Simulation(HasRecords):
         duration: float | None = None,
         *,
         steps: int | None = None,
-        progress: Callable[[int], None] | None = None,
+        on_progress: Callable[[int], None] | None = None,
     ) -> None:
         """Advance by a time or a number of steps, or else to the end of the configuration's duration.
 
@@ -136,7 +138,7 @@ class Simulation(HasRecords):
             Simulated time [s], rounded up to whole steps.
         steps
             Number of steps.
-        progress
+        on_progress
             Called with the step number, some thirty times a second and at the end.
 
         Raises
@@ -153,10 +155,10 @@ class Simulation(HasRecords):
                 raise ConfigError("duration", duration, "a finite number of at least 0")
             steps = step_count("duration", float(duration), self.time_step)
         end = self.last_step if steps is None else self.step + check_steps(steps)
-        self.run_until(end, progress=progress)
+        self.run_until(end, on_progress=on_progress)
 
     def run_until(
-        self, step: int, *, wall_limit: float = math.inf, progress: Callable[[int], None] | None = None
+        self, step: int, *, wall_limit: float = math.inf, on_progress: Callable[[int], None] | None = None
     ) -> bool:
         """Advance to a step number, but no longer than a time of the wall clock.
 
@@ -166,7 +168,7 @@ class Simulation(HasRecords):
             Step number to reach.
         wall_limit
             Time [s] after which to return where the step is not reached yet.
-        progress
+        on_progress
             Called with the step number, some thirty times a second and at the end.
 
         Returns
@@ -185,8 +187,8 @@ class Simulation(HasRecords):
             # A stop asked for before the core was under way is seen here, at the end of its first slice.
             if self._stop.is_set() or time.perf_counter() - began >= wall_limit:
                 self._core.stop()
-            if progress is not None:
-                progress(now)
+            if on_progress is not None:
+                on_progress(now)
 
         try:
             self._core.run(max(step - first, 0), after_slice)
@@ -219,7 +221,7 @@ class Simulation(HasRecords):
 
     @property
     def config(self) -> Config:
-        """The configuration, seed included."""
+        """The configuration, with the seed, and with the number of bundles where the start was given."""
         return self._config
 
     @property

@@ -1,21 +1,18 @@
-"""`UnstableRun`: what a run leaves that ended unstable, in memory and in a folder."""
+"""`UnstableRun`: what a run leaves that ended unstable; `output` writes its folder."""
 
-import json
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from drumrs.config import Config
 from drumrs.errors import ConfigError, UnstableError
-from drumrs.files import read_object, write_whole
+from drumrs.files import read_object
 from drumrs.frames import Frames
 from drumrs.result import UNSTABLE, Summary
 from drumrs.simulation import Simulation
 
 if TYPE_CHECKING:
     import polars as pl
-
-    from drumrs.viewer import Player
 
 # A time step that is a collision's duration over at least this resolves it.
 _RESOLVED = 49.0
@@ -63,21 +60,6 @@ class UnstableRun:
             series=series,
             frames=frames,
         )
-
-    def player(self) -> "Player":
-        """Return the run as a player, which shows the end."""
-        from drumrs.viewer import Player
-
-        title = f"{self.config.title}: ended unstable at t = {self.time:.4g} s"
-        return Player(self.frames, self.series, title=title, window=self.config.run.averaging_window)
-
-    def save_end(self, folder: Path) -> list[Path]:
-        """Write player.html and, last, unstable.json, beside the tables; return their paths."""
-        page = self.player().save(folder / "player.html")
-        summary = asdict(self.summary) if self.summary is not None else None
-        told = {"error": self.error, "step": self.step, "time": self.time, "summary": summary}
-        write_whole(folder / UNSTABLE, f"{json.dumps(told, indent=2)}\n".encode())
-        return [page, folder / UNSTABLE]
 
 
 def _summary(simulation: Simulation) -> Summary | None:

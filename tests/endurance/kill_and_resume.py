@@ -11,7 +11,7 @@ import tempfile
 import time
 from pathlib import Path
 
-STUDY = """
+SWEEP = """
 seeds = 3
 [base]
 run.duration = 0.3
@@ -66,10 +66,10 @@ def kill_at_random(longest: float, *words: object) -> bool:
 def main(kills: int) -> None:
     """Kill and go on, until there have been so many kills of each kind."""
     root = Path(tempfile.mkdtemp())
-    study = root / "study.toml"
-    study.write_text(STUDY, encoding="utf-8")
+    path = root / "sweep.toml"
+    path.write_text(SWEEP, encoding="utf-8")
     began = time.perf_counter()
-    finish("sweep", study, "--out", root / "whole")
+    finish("sweep", path, "--out", root / "whole")
     sweep_took = time.perf_counter() - began
     began = time.perf_counter()
     finish("run", *RUN, "--out", root / "run")
@@ -78,8 +78,8 @@ def main(kills: int) -> None:
     while min(done.values()) < kills:
         # A sweep is killed several times before it is left to its end, a run as well.
         for _ in range(5):
-            done["sweep"] += kill_at_random(sweep_took, "sweep", study, "--out", root / "killed")
-        finish("sweep", study, "--out", root / "killed")
+            done["sweep"] += kill_at_random(sweep_took, "sweep", path, "--out", root / "killed")
+        finish("sweep", path, "--out", root / "killed")
         compare(root / "whole", root / "killed", "sweep")
         done["run"] += kill_at_random(run_took, "run", *RUN, "--out", root / "killed-run")
         for _ in range(4):

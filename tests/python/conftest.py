@@ -18,6 +18,12 @@ hypothesis.settings.load_profile("drumrs")
 SHORT = {"run.duration": 0.06, "run.sample_every": 0.001, "run.frame_every": 0.01}
 
 
+@pytest.fixture(autouse=True)
+def _no_lines_of_progress(monkeypatch):
+    """Let no line of progress come within a test, however slow the machine is."""
+    monkeypatch.setattr("drumrs.progress._FIRST_PAUSES", (600.0,))
+
+
 @pytest.fixture
 def short() -> drumrs.Config:
     """Simulate 0.06 s of a drum with baffles: a second of work."""

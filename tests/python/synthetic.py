@@ -29,5 +29,8 @@ def series_of(power: float, rows: int = 301) -> pl.DataFrame:
             "time": time,
             **{name: rate * time for name, rate in flows.items()},
             **{name: np.full(rows, 2.0) for name in energies},
+            "energy_residual": np.zeros(rows),
+            "center_of_mass_x": np.full(rows, 0.05),
+            "center_of_mass_y": np.full(rows, -0.1),
         }
     )

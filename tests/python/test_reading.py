@@ -56,7 +56,7 @@ def test_a_progress_callback_that_reads_changes_nothing(config, undisturbed, tmp
         seen.append(simulation.series.height + len(simulation.frames) + simulation.velocities.sum())
         simulation.save(tmp_path / "on the way")
 
-    simulation.run(steps=STEPS, progress=look)
+    simulation.run(steps=STEPS, on_progress=look)
     assert seen
     assert simulation.series.equals(undisturbed.series)
     assert bits(simulation, tmp_path / "read") == bits(undisturbed, tmp_path / "alone")
@@ -74,7 +74,7 @@ def test_pieces_change_nothing(config, undisturbed, tmp_path, pieces):
 def test_a_run_is_at_the_step_that_its_progress_says_and_no_slice_is_tiny(config):
     simulation = drumrs.Simulation(config)
     steps = []
-    simulation.run(steps=220, progress=steps.append)
+    simulation.run(steps=220, on_progress=steps.append)
     slices = [later - earlier for earlier, later in zip([0, *steps], steps, strict=False)]
     assert steps[-1] == simulation.step == 220
     assert all(size >= 50 for size in slices[:-1])

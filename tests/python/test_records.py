@@ -3,6 +3,7 @@
 import json
 import os
 import random
+import re
 import resource
 import shutil
 import signal
@@ -122,7 +123,7 @@ def test_checkpoints_do_not_grow_with_the_number_of_frames(tmp_path):
     sizes = {}
     for every in (1e-4, 0.1):
         folder = RunFolder(tmp_path / str(every))
-        folder.clear()
+        folder.begin(dense(1.0, every))
         simulation = drumrs.Simulation(dense(1.0, every))
         simulation.run(duration=0.5)
         folder.save(simulation)
@@ -134,7 +135,7 @@ def test_checkpoints_do_not_grow_with_the_number_of_frames(tmp_path):
 def test_a_simulation_of_a_folder_has_the_whole_series_and_all_frames(tmp_path):
     alone, kept = drumrs.Simulation(dense(0.2)), drumrs.Simulation(dense(0.2))
     folder = RunFolder(tmp_path)
-    folder.clear()
+    folder.begin(dense(0.2))
     for steps in (700, 1, 900):
         kept.run(steps=steps)
         folder.save(kept)
@@ -176,9 +177,11 @@ def written(path) -> int:
 
 
 def ended(child: subprocess.Popen) -> tuple[int, str]:
-    """Return status and complaint of a child, but for what --softer says."""
+    """Return status and complaint of a child, but for what --softer says and for lines of progress."""
     _, complaint = child.communicate()
-    return child.returncode, "".join(line for line in complaint.splitlines() if "--softer" not in line)
+    return child.returncode, "".join(
+        line for line in complaint.splitlines() if not re.search(r"--softer|: \d+%, ", line)
+    )
 
 
 @pytest.mark.parametrize("blow", [signal.SIGKILL, signal.SIGINT])
@@ -209,7 +212,7 @@ def test_what_came_after_the_checkpoint_is_dropped(drum, tmp_path, monkeypatch):
     """As after a kill between two checkpoints: parts of other lengths than those to come."""
     assert drum("run", *DENSE, "--set", "run.duration=0.1", "--out", tmp_path / "whole")[0] == 0
     folder = RunFolder(tmp_path / "broken")
-    folder.clear()
+    folder.begin(dense(0.1))
     shutil.copy(tmp_path / "whole" / "config.toml", folder.path)
     simulation = drumrs.Simulation(drumrs.Config.read(folder.path / "config.toml"))
     simulation.run(steps=400)
@@ -261,15 +264,15 @@ def test_a_blow_while_parts_are_removed_leaves_a_run_that_goes_on(drum, tmp_path
 def test_a_run_removes_what_another_one_left_in_its_folder(tmp_path):
     drumrs.save(drumrs.run(dense(0.1), progress=False), tmp_path, pictures=False)
     folder = RunFolder(tmp_path)
-    folder.clear()
-    assert [path.name for path in tmp_path.iterdir()] == ["config.toml"]
+    folder.begin(dense(0.1))
+    assert {path.name for path in tmp_path.iterdir()} == {"config.toml", "drumrs-run.json"}
 
 
 @pytest.mark.parametrize("error", [KeyboardInterrupt, OSError(28, "No space left on device")])
 def test_what_could_not_be_written_is_written_the_next_time(tmp_path, monkeypatch, error):
     alone, kept = drumrs.Simulation(dense(0.2)), drumrs.Simulation(dense(0.2))
     folder, save, calls = RunFolder(tmp_path), drumrs.Frames.save, []
-    folder.clear()
+    folder.begin(dense(0.2))
 
     def fail_once(*arguments):
         calls.append(arguments)
@@ -368,7 +371,7 @@ def test_an_unstable_run_keeps_all_parts(drum, tmp_path, monkeypatch):
 
 def test_missing_parts_are_named(drum, tmp_path):
     folder = RunFolder(tmp_path)
-    folder.clear()
+    folder.begin(dense(0.2))
     simulation = drumrs.Simulation(dense(0.2))
     for _ in range(3):
         simulation.run(steps=400)
@@ -385,7 +388,7 @@ def test_missing_parts_are_named(drum, tmp_path):
 
 def test_a_damaged_part_is_named(tmp_path):
     folder = RunFolder(tmp_path)
-    folder.clear()
+    folder.begin(dense(0.2))
     simulation = drumrs.Simulation(dense(0.2))
     simulation.run(steps=400)
     folder.save(simulation)

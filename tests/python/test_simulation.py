@@ -112,7 +112,7 @@ def test_walls_without_a_rim():
 
 def test_progress_sees_step_numbers(short):
     seen: list[int] = []
-    drumrs.Simulation(short).run(steps=5000, progress=seen.append)
+    drumrs.Simulation(short).run(steps=5000, on_progress=seen.append)
     assert seen == sorted(seen)
     assert seen[-1] == 5000
 

@@ -20,7 +20,7 @@ def ended(drum, tmp_path):
     return folder, told
 
 
-def test_what_was_recorded_is_kept(ended):
+def test_what_was_recorded_is_kept(ended, drum):
     folder, told = ended
     kept = json.loads((folder / "unstable.json").read_text())
     assert f"look at its end with: drumrs view {folder}" in told
@@ -34,7 +34,12 @@ def test_what_was_recorded_is_kept(ended):
     assert frames.times[-1] == pytest.approx(kept["time"], rel=1e-12)
     assert (frames.times[1:] > frames.times[:-1]).all()
     assert pl.read_parquet(folder / "series.parquet")["time"][-1] <= kept["time"]
-    assert "ended unstable at t = " in (folder / "player.html").read_text(encoding="utf-8")
+    page = (folder / "player.html").read_bytes()
+    assert b"ended unstable at t = " in page
+    # Who views it later reads the same title.
+    (folder / "player.html").unlink()
+    assert drum("view", folder, "--no-open")[0] == 0
+    assert (folder / "player.html").read_bytes() == page
 
 
 def test_resume_does_not_repeat_it(ended, drum):

@@ -19,9 +19,10 @@ from drumrs.cli.sweep import sweep
 from drumrs.cli.verify import verify
 from drumrs.cli.view import view
 from drumrs.config import Config, dotted_keys
-from drumrs.errors import CheckpointError, ConfigError, DrumrsWarning, UnstableError
+from drumrs.errors import CheckpointError, ConfigError, DrumrsWarning, PictureWarning, UnstableError
 from drumrs.files import NO_ROOM
 
+_NO_PICTURE = 3
 _BAD_INPUT = 2
 _FAILED = 1
 _INTERRUPTED = 130
@@ -39,7 +40,7 @@ app = App(
         "- `drumrs run --set 'run.window=[5, 15]' --set run.duration=15 --seed 2 --json`\n"
         "- `drumrs run --resume out` goes on after Ctrl-C or a power cut\n"
         "- `drumrs view out` plays the run in the browser\n"
-        "- `drumrs sweep study.toml --out out/study` runs many cases\n"
+        "- `drumrs sweep sweep.toml --out out/sweep` runs many cases\n"
         "- `drumrs verify` holds drumrs against formulas and its own promises"
     ),
     version=drumrs.__version__,
@@ -57,10 +58,13 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
 
 def run_command(arguments: Sequence[str] | None = None) -> int:
-    """Run the command line; return 0, 1 (the run failed), 2 (bad input) or 130 (Ctrl-C)."""
+    """Run the command line; return its exit status.
+
+    0; 1: the run failed; 2: bad input; 3: the numbers are complete, but a picture could not be made; 130: Ctrl-C.
+    """
     words = sys.argv[1:] if arguments is None else list(arguments)
     try:
-        with _warnings_in_a_line():
+        with _warnings_in_a_line() as told:
             status = app(words, exit_on_error=False, print_error=False)
     except (ConfigError, CheckpointError) as error:
         return _complain(str(error), _BAD_INPUT)
@@ -76,7 +80,8 @@ def run_command(arguments: Sequence[str] | None = None) -> int:
         if not isinstance(interrupt, KeyboardInterrupt):
             raise
         return _complain(str(interrupt) or "interrupted", _INTERRUPTED)
-    return status if isinstance(status, int) else 0
+    pictures_failed = any(issubclass(kind, PictureWarning) for kind in told)
+    return (status if isinstance(status, int) else 0) or (_NO_PICTURE if pictures_failed else 0)
 
 
 def _way_out(error: CycloptsError) -> str | None:
@@ -106,20 +111,23 @@ def _of_the_system(error: OSError | MemoryError) -> str:
 
 
 @contextmanager
-def _warnings_in_a_line() -> Iterator[None]:
-    """Show warnings of drumrs as the command's other sentences; others as always."""
+def _warnings_in_a_line() -> Iterator[list[type[Warning]]]:
+    """Show warnings of drumrs as the command's other sentences, and list their kinds; show others as always."""
+    told: list[type[Warning]] = []
     with warnings.catch_warnings():
         warnings.simplefilter("default", DrumrsWarning)
         shown = warnings.showwarning
 
         def show(message: Warning | str, category: type[Warning], *place: Any, **more: Any) -> None:
             if issubclass(category, DrumrsWarning):
-                sys.stderr.write(f"drumrs: note that {message}\n")
+                told.append(category)
+                note = "" if issubclass(category, PictureWarning) else "note that "
+                sys.stderr.write(f"drumrs: {note}{message}\n")
             else:
                 shown(message, category, *place, **more)
 
         warnings.showwarning = show
-        yield
+        yield told
 
 
 def _complain(sentence: str, status: int) -> int:

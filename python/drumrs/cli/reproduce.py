@@ -11,7 +11,7 @@ from drumrs.cli.tables import print_paths
 from drumrs.errors import ConfigError
 
 if TYPE_CHECKING:
-    from drumrs.paper.reproduction import Reproduction, ReproductionResult
+    from drumrs.paper import Reproduction, ReproductionResult
 
 _FAILED = 1
 _STYLES = {"holds": "green", "does not hold": "red", "undecided": "yellow"}
@@ -42,34 +42,30 @@ def reproduce(
     retry
         Run cases again that failed before.
     """
-    from drumrs.paper.reproduction import Reproduction
+    from drumrs.paper import Reproduction
 
     if quick and full:
         raise ConfigError("--quick", problem="and --full are both given, but only one of them may be")
     check_folder(out)
     reproduction = Reproduction("quick" if quick else "full" if full else "default", out, jobs)
     _announce(reproduction)
-    done = reproduction.run(retry=retry, say=_say)
+    done = reproduction.run(retry=retry)
     _print_verdicts(done)
     print_paths([*sorted({done.table, done.summary, out / "figures"}), done.report])
     return _tell_failures(done)
 
 
-def _say(sentence: str) -> None:
-    sys.stderr.write(f"{sentence} …\n")
-    sys.stderr.flush()
-
-
 def _announce(reproduction: "Reproduction") -> None:
-    from drumrs.pages.provenance import format_duration
+    from drumrs.progress import format_duration
 
     count, waiting = len(reproduction.sweep), len(reproduction.waiting)
     done = f", {count - waiting} of them settled already" if waiting < count else ""
     cores = f"{reproduction.jobs} core{'s' if reproduction.jobs > 1 else ''}"
-    _say(
+    sys.stderr.write(
         f"{reproduction.scale} study: {count} cases{done}, {reproduction.cost:.2g} particle-steps to do, "
-        f"about {format_duration(reproduction.expected_time())} on {cores}"
+        f"about {format_duration(reproduction.expected_time())} on {cores}\n"
     )
+    sys.stderr.flush()
 
 
 def _print_verdicts(done: "ReproductionResult") -> None:
@@ -84,8 +80,8 @@ def _print_verdicts(done: "ReproductionResult") -> None:
         line = f"{verdict.claim:<3}  {shown}  {escape(verdict.statement)}"
         console.print(line, no_wrap=True, overflow="ellipsis")
     for picture in done.pictures:
-        if picture.missing:
-            sys.stdout.write(f"not drawn: {picture.figure.number}, for want of {picture.missing}\n")
+        if picture.reason:
+            sys.stdout.write(f"{picture.figure.number} is not drawn. {picture.reason}\n")
 
 
 def _tell_failures(done: "ReproductionResult") -> int:

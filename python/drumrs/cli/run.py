@@ -12,11 +12,11 @@ from drumrs.cli.tables import print_paths, print_table
 from drumrs.config import Config
 from drumrs.config.softening import softening
 from drumrs.errors import ConfigError, UnstableError
+from drumrs.folders import RUN_FILES, require_own, require_unused
 from drumrs.limits import require_disk
-from drumrs.precision import Goal, pursue
-from drumrs.progress import board
-from drumrs.protocol import announce, finish
+from drumrs.precision import Goal, run_until_precise
 from drumrs.run_folder import RunFolder
+from drumrs.runs import packing, run_to_end
 from drumrs.simulation import Simulation
 from drumrs.unstable import refuse_to_repeat
 
@@ -34,6 +34,7 @@ def run(
     until: Annotated[float | None, NUMBER] = None,
     limit: Annotated[float | None, NUMBER] = None,
     softer: Annotated[float | None, NUMBER] = None,
+    force: Annotated[bool, Parameter(negative="")] = False,
 ) -> None:
     """Run a case: the paper's baseline, a TOML file laid over it, settings laid over the file.
 
@@ -61,6 +62,8 @@ def run(
     softer
         Lower both stiffnesses by this factor, over all layers, and lengthen the time step by its square root: 100 makes
         a run some six times faster and overlaps ten times larger. docs/accuracy.md has what it does to the results.
+    force
+        Replace the run that the folder of `--out` holds. Files that drumrs did not write are never overwritten.
     """
     if resume is not None:
         if case is not None or set_ or seed is not None or out is not None or softer is not None:
@@ -81,7 +84,9 @@ def run(
         goal = _goal(until, limit, config.run.duration)
         if out is not None:
             check_folder(out)
-        simulation = Simulation(config, threads=threads, in_memory=out is None)
+            _require_folder(out, case, force=force)
+        with packing(config, show=True):
+            simulation = Simulation(config, threads=threads, in_memory=out is None)
         folder = _open_folder(out, simulation)
     try:
         reached = _finish(simulation, folder, goal)
@@ -120,6 +125,16 @@ def _first_duration(folder: Path, config: Config) -> float:
     return min(Config.read(begun).run.duration if begun.exists() else math.inf, config.run.duration)
 
 
+def _require_folder(folder: Path, case: Path | None, *, force: bool) -> None:
+    """Refuse a folder that holds another run, or the case file itself."""
+    if case is not None and case.resolve().parent == folder.resolve() and case.name in RUN_FILES:
+        limit = f"another folder than that of {str(case)!r}, which would be overwritten"
+        raise ConfigError("--out", str(folder), limit)
+    require_own(folder, "run", RUN_FILES, "--out")
+    if not force:
+        require_unused(folder, "run", option="--out")
+
+
 def _open_folder(path: Path | None, simulation: Simulation) -> RunFolder | None:
     """Create the folder and mark it as that of a run not finished yet."""
     if path is None:
@@ -127,8 +142,7 @@ def _open_folder(path: Path | None, simulation: Simulation) -> RunFolder | None:
     require_disk(simulation.config, simulation.time_step, simulation.records.sizes, path)
     folder = RunFolder(path)
     try:
-        folder.clear()
-        (path / "config.toml").write_text(simulation.config.to_toml(), encoding="utf-8")
+        folder.begin(simulation.config)
     except OSError as error:
         raise ConfigError("--out", str(path), f"a folder that can be written: {error.strerror}") from None
     return folder
@@ -150,12 +164,11 @@ def _finish(simulation: Simulation, folder: RunFolder | None, goal: Goal | None)
     hint = f"go on with: drumrs run --resume {folder.path} {words}".rstrip() if folder is not None else ""
     hint = hint or "nothing is kept without --out"
     try:
-        with board(show=True) as shown:
-            if goal is not None:
-                return pursue(simulation, goal, shown, folder)
-            finish(simulation, announce(shown, simulation), folder)
-            return ""
+        if goal is not None:
+            return run_until_precise(simulation, goal, folder)
+        run_to_end(simulation, folder)
     except MemoryError as error:
         raise MemoryError(f"out of memory at t = {simulation.time:.3f} s: {error}; {hint}") from None
     except KeyboardInterrupt:
         raise KeyboardInterrupt(f"interrupted at t = {simulation.time:.3f} s; {hint}") from None
+    return ""

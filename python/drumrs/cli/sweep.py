@@ -1,4 +1,4 @@
-"""`drumrs sweep`: the cases of a study file, run once each."""
+"""`drumrs sweep`: the cases of a sweep file, each run once."""
 
 import sys
 from collections.abc import Iterator
@@ -11,7 +11,7 @@ from drumrs.cli.options import WHOLE, Jobs, check_folder
 from drumrs.cli.tables import print_paths
 from drumrs.errors import ConfigError
 from drumrs.result import number, with_error
-from drumrs.sweep import Outcome, Sweep, read_study
+from drumrs.sweep import Outcome, Sweep, read_sweep
 
 _FAILED = 1
 _MOST_ROWS = 40
@@ -19,7 +19,7 @@ _MOST_COLUMNS = 6
 
 
 def sweep(
-    study: Path,
+    file: Path,
     /,
     *,
     out: Path,
@@ -28,16 +28,20 @@ def sweep(
     retry: Annotated[bool, Parameter(negative="")] = False,
     seeds: Annotated[int | None, WHOLE] = None,
 ) -> int:
-    """Run the cases of a study file that are not finished yet, and write the table of all that are.
+    """Run the cases of a sweep file that are not finished yet, and write the table of all that are.
 
-    STUDY.toml has `[base]`, keys of `drumrs config` laid over the baseline; `[axes]`, a list of values for each key to
+    The file has `[base]`, keys of `drumrs config` laid over the baseline; `[axes]`, a list of values for each key to
     vary, every combination of which is a case; and `seeds`, a list of seeds or their number. The same command goes on
-    after Ctrl-C, a power cut or a change of the study; what is finished is not simulated again. Of every case the
-    series is kept, by `run.sample_every`, and the frames where `run.frame_every` is smaller than `run.duration`.
+    after Ctrl-C, a power cut or a change of the file; what is finished is not simulated again. Of every case the series
+    is kept, by `run.sample_every`, and the frames where `run.frame_every` is smaller than `run.duration`.
+
+    The table that is printed begins with the case's id, as short as tells the cases of the folder apart; W/kg is the
+    power over the load's mass, N/T the power that goes into normal contacts over that into tangential ones. Where a
+    run has not settled, "drifting" stands behind its numbers. `drumrs view OUT/ID` plays a case that kept frames.
 
     Parameters
     ----------
-    study
+    file
         TOML file with `[base]`, `[axes]` and `seeds`.
     out
         Folder of the results: a few files a case, and table.parquet.
@@ -48,7 +52,7 @@ def sweep(
     seeds
         Number of seeds for every combination, instead of the file's: 0 … N − 1.
     """
-    planned = read_study(study, seeds)
+    planned = read_sweep(file, seeds)
     part = _shard(shard)
     check_folder(out)
     outcome = planned.run(out, jobs=jobs, shard=part, retry=retry)
@@ -81,10 +85,12 @@ def _print_results(planned: Sweep) -> None:
     found = planned.table().collect()
     varied = planned.varied()[:_MOST_COLUMNS]
     shown = Table(box=None, highlight=False)
+    shown.add_column("case", no_wrap=True)
     for name in (*_short(varied), "W/kg", "N/T", ""):
         shown.add_column(escape(name), justify="right", no_wrap=True)
+    ids = planned.short_ids()
     for row in found.head(_MOST_ROWS).iter_rows(named=True):
-        shown.add_row(*(escape(_show(row[key])) for key in varied), *_numbers(row))
+        shown.add_row(ids[row["case"]], *(escape(_show(row[key])) for key in varied), *_numbers(row))
     Console(highlight=False).print(shown)
     if found.height > _MOST_ROWS:
         sys.stdout.write(f"… and {found.height - _MOST_ROWS} more\n")

@@ -8,7 +8,6 @@ from cyclopts import Parameter
 
 from drumrs.cli.options import Jobs, check_folder
 from drumrs.cli.tables import print_paths
-from drumrs.errors import ConfigError
 
 if TYPE_CHECKING:
     from drumrs.verification import Trial, Verification
@@ -44,8 +43,9 @@ def verify(
     from drumrs.verification import verify as run
 
     if html is not None:
-        if html.is_dir():
-            raise ConfigError("--html", str(html), "a file: it is a folder")
+        from drumrs.pages import check_page
+
+        check_page(html, "--html")
         check_folder(html.parent, "--html")
     found = run(only, jobs=jobs)
     if html is not None:
@@ -64,7 +64,7 @@ def _print(found: "Verification") -> None:
     from rich.markup import escape
     from rich.table import Table
 
-    from drumrs.pages.provenance import format_duration
+    from drumrs.progress import format_duration
 
     # What goes to a file or a pipe has room for everything.
     console = Console(highlight=False, width=None if sys.stdout.isatty() else _WIDE)

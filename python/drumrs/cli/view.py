@@ -1,5 +1,6 @@
 """`drumrs view`: a run in the browser."""
 
+import sys
 import webbrowser
 from pathlib import Path
 from typing import Annotated
@@ -14,6 +15,7 @@ def view(
     run: Path,
     /,
     *,
+    case: Annotated[list[str] | None, Parameter(negative="")] = None,
     out: Path | None = None,
     show: Annotated[bool, Parameter(name="--open")] = True,
 ) -> None:
@@ -22,7 +24,10 @@ def view(
     Parameters
     ----------
     run
-        Folder of a run, its frames.parquet, or a case of a sweep (ID.frames.parquet).
+        Folder of a run, its frames.parquet, or a sweep's folder with the beginning of a case's id: out/study/3f2a. A
+        folder with several runs is answered with what there is.
+    case
+        Which case of a sweep's folder: KEY=VALUE of its configuration; may be repeated.
     out
         File of the page, which is then written and not opened. Without it: player.html beside the frames.
     show
@@ -30,13 +35,24 @@ def view(
     """
     from drumrs import viewer
 
-    player = viewer.read(run)
-    page = out or viewer.default_page(run)
+    frames = viewer.find(run, case or [])
+    page = out or viewer.default_page(frames)
+    player = viewer.read(frames)
     try:
         player.save(page)
     except OSError as error:
         limit = f"a file that can be written (--out): {error.strerror}"
         raise ConfigError("the page", str(page), limit) from None
     print_paths([page])
-    if show and out is None:
-        webbrowser.open(page.absolute().as_uri())
+    if show and out is None and not _opens(page):
+        sys.stderr.write(
+            f"drumrs: found no browser here; open {page.absolute().as_uri()} in one, or take the file to where "
+            "there is one: it needs nothing else\n"
+        )
+
+
+def _opens(page: Path) -> bool:
+    try:
+        return webbrowser.open(page.absolute().as_uri())
+    except webbrowser.Error:
+        return False

@@ -96,10 +96,22 @@ class Config(Tables):
         >>> drumrs.baseline(fill=0.25, baffles=True).title
         '100 bundles (25 % fill), 3 baffles, 54 rpm, seed 1'
         """
+        return self.title_of(self.bundle_count, self.fill)
+
+    def title_of(self, bundle_count: int, fill: float) -> str:
+        """Return the title with the number of bundles and the fill of a load that may have been given as a `State`.
+
+        Examples
+        --------
+        >>> import drumrs
+        >>> drumrs.baseline().title_of(1, 0.0025)
+        '1 bundle (0.25 % fill), no baffles, 54 rpm, seed 1'
+        """
         baffles = self.drum.baffles.count
+        load = f"{bundle_count} bundle{'s' if bundle_count != 1 else ''} ({100.0 * fill:.3g} % fill)"
         many = "no baffles" if baffles == 0 else f"{baffles} baffle{'s' if baffles > 1 else ''}"
         turning = f"{self.rotation.rpm:g} rpm" if self.rotation.rpm is not None else "a program of speeds"
-        return f"{self.bundle_count} bundles ({100.0 * self.fill:.3g} % fill), {many}, {turning}, seed {self.run.seed}"
+        return f"{load}, {many}, {turning}, seed {self.run.seed}"
 
     @property
     def digest(self) -> str:

@@ -4,19 +4,18 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-import matplotlib as mpl
 import numpy as np
-from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from drumrs.figures.shared import drumrs_style, write_at_ends
+from drumrs.figures.shared import drumrs_style, line_colors, new_figure, write_at_ends
 
 if TYPE_CHECKING:
     import polars as pl
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 _MARKERS = ("o", "s", "^", "D")
-_SIZE = (5.6, 3.5)
+_SIZE = (5.6, 3.5)  # inches
 
 
 @dataclass(frozen=True)
@@ -39,7 +38,7 @@ class Labels:
     from_zero: bool = True
 
 
-def curves(points: "pl.DataFrame", labels: Labels) -> Figure:
+def curves(points: "pl.DataFrame", labels: Labels) -> "Figure":
     """Draw means with their 95 % intervals, one line a label.
 
     Open markers are of loads that drift. Where seeds disagree, each is a faint dot.
@@ -60,7 +59,7 @@ def curves(points: "pl.DataFrame", labels: Labels) -> Figure:
     if points.is_empty():
         raise ValueError("points is empty, but must hold at least one point")
     with drumrs_style():
-        figure = Figure(figsize=_SIZE)
+        figure = new_figure(*_SIZE)
         axes = figure.subplots()
         draw_curves(axes, points, labels)
     return figure
@@ -70,7 +69,7 @@ def draw_curves(axes: "Axes", points: "pl.DataFrame", labels: Labels) -> None:
     """Draw the curves of `curves` into axes."""
     import polars as pl
 
-    colors = mpl.rcParams["axes.prop_cycle"].by_key()["color"]
+    colors = line_colors()
     ends: list[tuple[float, str, str]] = []
     # Where the first curve ends all can still be compared: labels in that order are not mistaken for each other's.
     last = min(float(x) for x in points.group_by("label").agg(pl.col("x").max())["x"])

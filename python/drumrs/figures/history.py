@@ -3,19 +3,20 @@
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from drumrs.energies import held_by_contacts, shown_losses
-from drumrs.figures.shared import Array, drumrs_style, label_lines
+from drumrs.figures import labels
+from drumrs.figures.shared import Array, drumrs_style, label_lines, new_figure
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     import polars as pl
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 
-def time_series(series: "pl.DataFrame", window: tuple[float, float] | None = None) -> Figure:
+def time_series(series: "pl.DataFrame", window: tuple[float, float] | None = None) -> "Figure":
     """Draw a run's history: power, energies, residual of the energy ledger, center of mass.
 
     Parameters
@@ -34,7 +35,7 @@ def time_series(series: "pl.DataFrame", window: tuple[float, float] | None = Non
     columns = {name: series[name].to_numpy() for name in series.columns}
     begin, end = float(columns["time"][0]), float(columns["time"][-1])
     with drumrs_style():
-        figure = Figure(figsize=(11.0, 5.6))
+        figure = new_figure(11.0, 5.6)
         grid = figure.subplots(2, 2, sharex=True)
         for axes, draw in zip(grid.flat, panels, strict=True):
             draw(axes, columns)
@@ -45,7 +46,7 @@ def time_series(series: "pl.DataFrame", window: tuple[float, float] | None = Non
         if window is not None:
             grid[0, 0].text(sum(window) / 2.0, 0.985, "averages", **_over_the_window(grid[0, 0]))
         for axes in grid[1]:
-            axes.set_xlabel("time [s]")
+            axes.set_xlabel(labels.TIME)
         for axes in grid.flat:
             label_lines(axes)
     return figure
@@ -60,7 +61,7 @@ def _over_the_window(axes: "Axes") -> dict[str, Any]:
 def _power(axes: "Axes", columns: dict[str, Array]) -> None:
     time = columns["time"]
     long = _averaging_time(time)
-    axes.set_title(f"Power of the drum and losses, means over {long:.2g} s [W/m]")
+    axes.set_title(labels.POWERS.format(long))
     steady = [0.0]
     for name, label in {"work_drum": "drum", **shown_losses(columns)}.items():
         middle, power = _thinned(*mean_rate(time, columns[name], long))
@@ -73,7 +74,7 @@ def _power(axes: "Axes", columns: dict[str, Array]) -> None:
 
 
 def _energies(axes: "Axes", columns: dict[str, Array]) -> None:
-    axes.set_title("Energy stored [J/m]")
+    axes.set_title(labels.ENERGY_STORED)
     axes.set_yscale("log")
     stored = {
         "translation": columns["kinetic_translation"],
@@ -86,7 +87,7 @@ def _energies(axes: "Axes", columns: dict[str, Array]) -> None:
 
 
 def _ledger(axes: "Axes", columns: dict[str, Array]) -> None:
-    axes.set_title("Energy ledger: relative residual")
+    axes.set_title(labels.ENERGY_RESIDUAL)
     axes.set_yscale("log")
     residual = np.abs(columns["energy_residual"])
     # A residual of exactly 0 has no place on a logarithmic axis; it is drawn at the last bit of 1.
@@ -95,7 +96,7 @@ def _ledger(axes: "Axes", columns: dict[str, Array]) -> None:
 
 
 def _center_of_mass(axes: "Axes", columns: dict[str, Array]) -> None:
-    axes.set_title("Center of mass from the axis [mm]")
+    axes.set_title(labels.CENTER_OF_MASS)
     for name, label in (("center_of_mass_x", "x"), ("center_of_mass_y", "y")):
         time, smooth = _thinned(columns["time"], columns[name])
         axes.plot(time, 1e3 * smooth, label=label)

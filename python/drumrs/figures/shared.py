@@ -6,10 +6,13 @@ from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import matplotlib as mpl
 import numpy as np
 from matplotlib import style
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
+
+from drumrs.files import write_whole
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -24,23 +27,38 @@ _STYLE = Path(__file__).with_name("drumrs.mplstyle")
 
 @contextmanager
 def drumrs_style() -> Iterator[None]:
-    """Draw in drumrs's style within."""
-    with style.context(_STYLE):
+    """Draw in drumrs's style within: matplotlib's defaults and drumrs.mplstyle, nothing of a user's matplotlibrc."""
+    with style.context(_STYLE, after_reset=True):
         yield
 
 
+def new_figure(width: float, height: float) -> Figure:
+    """Return an empty figure of a size in inches; it belongs to no window, so nothing has to be closed."""
+    return Figure(figsize=(width, height))
+
+
+def line_colors() -> list[str]:
+    """Return the colors that lines take in turn, to be asked for in drumrs's style."""
+    colors: list[str] = mpl.rcParams["axes.prop_cycle"].by_key()["color"]
+    return colors
+
+
 def write(figure: Figure, path: str | Path) -> None:
-    """Write a figure as PNG or SVG, as the name's ending says; the same figure gives the same bytes."""
-    with drumrs_style():
-        metadata = {"Date": None} if Path(path).suffix == ".svg" else {"Software": None}
-        figure.savefig(path, metadata=metadata)
+    """Write a figure as PNG or SVG, as the name's ending says; the same figure gives the same bytes.
+
+    Raises
+    ------
+    OSError
+        Where the file cannot be written; there is never half a picture.
+    """
+    write_whole(path, render(figure, Path(path).suffix.removeprefix(".")))
 
 
-def svg(figure: Figure) -> bytes:
-    """Return a figure as SVG; the same figure gives the same bytes."""
+def render(figure: Figure, kind: str) -> bytes:
+    """Return a figure as ``"png"`` or ``"svg"``; the same figure gives the same bytes."""
     kept = BytesIO()
     with drumrs_style():
-        figure.savefig(kept, format="svg", metadata={"Date": None})
+        figure.savefig(kept, format=kind, metadata={"Date": None} if kind == "svg" else {"Software": None})
     return kept.getvalue()
 
 

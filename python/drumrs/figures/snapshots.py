@@ -8,14 +8,15 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.collections import EllipseCollection, LineCollection, PolyCollection
 from matplotlib.colors import Colormap, Normalize
-from matplotlib.figure import Figure
 from matplotlib.patches import Circle, FancyArrowPatch
 
-from drumrs.figures.shared import INK, STEEL, Array, drumrs_style
+from drumrs.figures import labels
+from drumrs.figures.shared import INK, STEEL, Array, drumrs_style, new_figure
 from drumrs.frames import Frames
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 _LIGHT = 0.4  # relative luminance on which black shows better than white
 _PANEL = 3.1  # inches
@@ -36,7 +37,7 @@ class View:
         return speeds
 
 
-def snapshot(frames: Frames, index: int = -1, label: str = "") -> Figure:
+def snapshot(frames: Frames, index: int = -1, label: str = "") -> "Figure":
     """Draw one frame: bundles colored by speed, a radius on each to show its spin, rim, baffles, rotation.
 
     Parameters
@@ -59,7 +60,7 @@ def snapshot(frames: Frames, index: int = -1, label: str = "") -> Figure:
     return snapshots([View(frames, index, label)])
 
 
-def snapshots(views: Sequence[View]) -> Figure:
+def snapshots(views: Sequence[View]) -> "Figure":
     """Draw several frames in a row, on one scale of speed.
 
     Raises
@@ -72,11 +73,11 @@ def snapshots(views: Sequence[View]) -> Figure:
     fastest = max((float(view.speeds.max(initial=0.0)) for view in views), default=0.0)
     with drumrs_style():
         norm = Normalize(0.0, fastest or 1.0)
-        figure = Figure(figsize=(_PANEL * len(views) + 0.9, _PANEL + 0.45))
+        figure = new_figure(_PANEL * len(views) + 0.9, _PANEL + 0.45)
         row = figure.subplots(1, len(views), squeeze=False)[0]
         for axes, view in zip(row, views, strict=True):
             discs = _draw_view(axes, view, norm)
-        figure.colorbar(discs, ax=list(row), label="speed of the bundles [m/s]", shrink=0.8, pad=0.02)
+        figure.colorbar(discs, ax=list(row), label=labels.SPEED, shrink=0.8, pad=0.02)
     return figure
 
 

@@ -1,10 +1,18 @@
-"""What pages of drumrs share: the style sheet, and templates that escape what they are given."""
+"""What pages of drumrs share: the style sheet, templates that escape what they are given, and how they are written."""
 
 from importlib.resources import files
+from pathlib import Path
 from typing import TYPE_CHECKING
+
+from drumrs.errors import ConfigError
+from drumrs.files import write_whole
 
 if TYPE_CHECKING:
     from jinja2 import Environment
+
+# Stands in the head of every page, and tells ours from others'.
+_GENERATOR = b'<meta name="generator" content="drumrs">'
+_HEAD = 1000
 
 
 def text_of(package: str, name: str) -> str:
@@ -22,3 +30,43 @@ def environment() -> "Environment":
     from jinja2 import Environment, StrictUndefined
 
     return Environment(autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True)
+
+
+def check_page(path: str | Path, what: str = "the page") -> None:
+    """Refuse a name under which a page cannot be written: that of a folder, or of a file that drumrs did not write.
+
+    Parameters
+    ----------
+    path
+        File of the page.
+    what
+        What the user called it.
+
+    Raises
+    ------
+    ConfigError
+        Where there is such a thing.
+    """
+    path = Path(path)
+    if path.is_dir():
+        raise ConfigError(what, str(path), "a file: it is a folder")
+    if path.exists():
+        with path.open("rb") as file:
+            if _GENERATOR not in file.read(_HEAD):
+                limit = "a new file or a page of drumrs: this one is another's, and is not overwritten"
+                raise ConfigError(what, str(path), limit)
+
+
+def write_page(path: str | Path, text: str) -> Path:
+    """Write a page, whole or not at all, and return its path.
+
+    Raises
+    ------
+    ConfigError
+        As `check_page`.
+    OSError
+        Where the file cannot be written.
+    """
+    check_page(path)
+    write_whole(path, text.encode())
+    return Path(path)

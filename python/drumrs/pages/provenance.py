@@ -9,7 +9,6 @@ from pathlib import Path
 from drumrs.simulation import info
 
 _LIBRARIES = ("numpy", "polars", "matplotlib", "pydantic", "jinja2")
-_HOUR, _MINUTE = 3600.0, 60.0
 
 
 def versions() -> dict[str, str]:
@@ -46,19 +45,3 @@ def _processor() -> str:
 def now() -> str:
     """Return date and time, in UTC."""
     return f"{datetime.now(UTC):%Y-%m-%d %H:%M} UTC"
-
-
-def format_duration(seconds: float) -> str:
-    """Write a time as people say it.
-
-    Examples
-    --------
-    >>> format_duration(42.3), format_duration(125.0), format_duration(9000.0)
-    ('42 s', '2 min 5 s', '2 h 30 min')
-    """
-    whole = round(seconds)
-    if whole < _MINUTE:
-        return f"{whole} s"
-    if whole < _HOUR:
-        return f"{whole // 60} min {whole % 60} s" if whole % 60 else f"{whole // 60} min"
-    return f"{whole // 3600} h {whole % 3600 // 60} min"

@@ -4,7 +4,8 @@
 >>> len(paper.cases("default")) > 300
 True
 
-Nothing here runs a simulation: `cases` says what to run, and everything else reads tables and frames.
+`Reproduction` runs it all. Nothing else here runs a simulation: `cases` says what to run, and everything else reads
+tables and frames.
 """
 
 from drumrs.paper.cases import cases, cost
@@ -12,6 +13,7 @@ from drumrs.paper.claims import CLAIMS, Claim, judge
 from drumrs.paper.data import StudyData
 from drumrs.paper.figures import FIGURES, PaperFigure
 from drumrs.paper.measure import measure
+from drumrs.paper.reproduction import Reproduction, ReproductionResult
 from drumrs.paper.scales import SCALES, Scale
 from drumrs.paper.verdict import MissingError, Number, Verdict
 
@@ -23,6 +25,8 @@ __all__ = [
     "MissingError",
     "Number",
     "PaperFigure",
+    "Reproduction",
+    "ReproductionResult",
     "Scale",
     "StudyData",
     "Verdict",

@@ -113,8 +113,8 @@ def _draw_speed(data: StudyData) -> "Figure":
     return plots.specific_power_against_speed(_both_drums(data, "speed", "drum_specific_power"), centrifuging)
 
 
-def _curve(name: str, axis: str, *columns: str) -> "Callable[[StudyData], Figure]":
-    """Return the function that draws a figure of `plots` from columns against an axis."""
+def _curve(number: str, axis: str, *columns: str) -> "Callable[[StudyData], Figure]":
+    """Return the function that draws columns against an axis, as the figure of that number."""
 
     def draw(data: StudyData) -> "Figure":
         from drumrs.paper import plots
@@ -123,8 +123,7 @@ def _curve(name: str, axis: str, *columns: str) -> "Callable[[StudyData], Figure
             _three_fills(data, column) if axis == "friction" else _both_drums(data, axis, column)
             for column in columns
         ]
-        figure: Figure = getattr(plots, name)(*tables)
-        return figure
+        return plots.CURVES[number](*tables)
 
     return draw
 
@@ -148,38 +147,38 @@ _ALL = (
         "F4",
         "Drum power against fill",
         f"Power of the drum per meter of its depth. Shaded is where the paper has the peak. {_BARS}",
-        _curve("power_against_fill", "fill", "drum_power"),
+        _curve("F4", "fill", "drum_power"),
     ),
     PaperFigure(
         "F5",
         "Specific power against fill",
         f"Drum power over the mass of the load. {_BARS}",
-        _curve("specific_power_against_fill", "fill", _POWER),
+        _curve("F5", "fill", _POWER),
     ),
     PaperFigure(
         "F6",
         "N/T against fill",
         "Power taken by normal damping over power taken by sliding; crosses: work of the contacts' normal over that of "
         f"their tangential forces, which counts springs as well. {_BARS}",
-        _curve("ratio_against_fill", "fill", *_RATIOS),
+        _curve("F6", "fill", *_RATIOS),
     ),
     PaperFigure(
         "F7",
         "Specific power against bundle size",
         f"At 40 % fill; the drum is the same, the bundles smaller to the right. {_BARS}",
-        _curve("specific_power_against_size", "size", _POWER),
+        _curve("F7", "size", _POWER),
     ),
     PaperFigure(
         "F8",
         "Specific power against friction",
         f"Without baffles; the same friction between bundles and with the drum. {_BARS}",
-        _curve("specific_power_against_friction", "friction", _POWER),
+        _curve("F8", "friction", _POWER),
     ),
     PaperFigure(
         "F9",
         "N/T against friction",
         f"Without baffles; readings as in F6. {_BARS}",
-        _curve("ratio_against_friction", "friction", *_RATIOS),
+        _curve("F9", "friction", *_RATIOS),
     ),
     PaperFigure(
         "speed",
@@ -191,7 +190,7 @@ _ALL = (
         "restitution",
         "Specific power against restitution",
         f"At 25 % fill; the same restitution between bundles and with the drum. {_BARS}",
-        _curve("specific_power_against_restitution", "restitution", _POWER),
+        _curve("restitution", "restitution", _POWER),
     ),
     PaperFigure(
         "drift",

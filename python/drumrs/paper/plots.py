@@ -3,32 +3,28 @@
 Points are tables as `curves` takes them.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
-from matplotlib.figure import Figure
 
+from drumrs.figures import labels
 from drumrs.figures.curves import Labels, curves, say_above
 from drumrs.figures.history import mean_rate
-from drumrs.figures.shared import Array, drumrs_style
+from drumrs.figures.shared import Array, drumrs_style, new_figure
 from drumrs.figures.snapshots import View, snapshots
 from drumrs.frames import Frames
 
 if TYPE_CHECKING:
     import polars as pl
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
-_FILL = "fill N d²/D² [%]"
-_POWER = "drum power [W per m of depth]"
-_SPECIFIC = "specific power [W/kg]"
-_RATIO = "N/T, normal over tangential power"
-_FRICTION = "coefficient of friction μ"
 # Running means over that long [s]: some two turns of the drum.
 _LONG = 2.0
 
 
-def snapshots_of_fills(frames: Mapping[str, Frames], index: int = -1) -> Figure:
+def snapshots_of_fills(frames: Mapping[str, Frames], index: int = -1) -> "Figure":
     """Draw F2 or F3: the last frame of each fill in a row, lettered as in the paper.
 
     Parameters
@@ -44,20 +40,20 @@ def snapshots_of_fills(frames: Mapping[str, Frames], index: int = -1) -> Figure:
     )
 
 
-def power_against_fill(points: "pl.DataFrame") -> Figure:
+def power_against_fill(points: "pl.DataFrame") -> "Figure":
     """Draw F4: drum power against fill, without and with baffles; shaded is where the paper has the peak."""
-    figure = curves(points, Labels(_FILL, _POWER, x_scale=100.0))
+    figure = curves(points, Labels(labels.FILL, labels.DRUM_POWER, x_scale=100.0))
     figure.axes[0].axvspan(40.0, 50.0, color="0.93", zorder=0, linewidth=0)
     _say_below(figure.axes[0], 45.0, "the paper’s\npeak")
     return figure
 
 
-def specific_power_against_fill(points: "pl.DataFrame") -> Figure:
+def specific_power_against_fill(points: "pl.DataFrame") -> "Figure":
     """Draw F5: specific power against fill, without and with baffles."""
-    return curves(points, Labels(_FILL, _SPECIFIC, x_scale=100.0))
+    return curves(points, Labels(labels.FILL, labels.SPECIFIC_POWER, x_scale=100.0))
 
 
-def ratio_against_fill(points: "pl.DataFrame", other: "pl.DataFrame") -> Figure:
+def ratio_against_fill(points: "pl.DataFrame", other: "pl.DataFrame") -> "Figure":
     """Draw F6: N/T against fill, without and with baffles.
 
     Parameters
@@ -67,25 +63,25 @@ def ratio_against_fill(points: "pl.DataFrame", other: "pl.DataFrame") -> Figure:
     other
         N/T by work of the contact forces: crosses.
     """
-    return _two_readings(points, other, Labels(_FILL, _RATIO, x_scale=100.0))
+    return _two_readings(points, other, Labels(labels.FILL, labels.NORMAL_TANGENTIAL_RATIO, x_scale=100.0))
 
 
-def specific_power_against_size(points: "pl.DataFrame") -> Figure:
+def specific_power_against_size(points: "pl.DataFrame") -> "Figure":
     """Draw F7: specific power against D/d at 40 % fill, without and with baffles."""
-    return curves(points, Labels("drum over bundle diameter D/d", _SPECIFIC))
+    return curves(points, Labels(labels.SIZE_RATIO, labels.SPECIFIC_POWER))
 
 
-def specific_power_against_friction(points: "pl.DataFrame") -> Figure:
+def specific_power_against_friction(points: "pl.DataFrame") -> "Figure":
     """Draw F8: specific power against friction without baffles, at three fills."""
-    return curves(points, Labels(_FRICTION, _SPECIFIC))
+    return curves(points, Labels(labels.FRICTION, labels.SPECIFIC_POWER))
 
 
-def ratio_against_friction(points: "pl.DataFrame", other: "pl.DataFrame") -> Figure:
+def ratio_against_friction(points: "pl.DataFrame", other: "pl.DataFrame") -> "Figure":
     """Draw F9: N/T against friction without baffles, at three fills; `other` as in `ratio_against_fill`."""
-    return _two_readings(points, other, Labels(_FRICTION, _RATIO))
+    return _two_readings(points, other, Labels(labels.FRICTION, labels.NORMAL_TANGENTIAL_RATIO))
 
 
-def specific_power_against_speed(points: "pl.DataFrame", centrifuging: float) -> Figure:
+def specific_power_against_speed(points: "pl.DataFrame", centrifuging: float) -> "Figure":
     """Draw specific power against the drum's speed, without and with baffles.
 
     Parameters
@@ -95,16 +91,28 @@ def specific_power_against_speed(points: "pl.DataFrame", centrifuging: float) ->
     centrifuging
         Speed at which the rim's acceleration equals gravity [rpm], marked by a line.
     """
-    figure = curves(points, Labels("drum speed [rpm]", _SPECIFIC))
+    figure = curves(points, Labels(labels.DRUM_SPEED, labels.SPECIFIC_POWER))
     axes = figure.axes[0]
     axes.axvline(centrifuging, color="0.7", linewidth=0.8, zorder=0)
     _say_below(axes, centrifuging, "Ω²R = g", beside=4.0)
     return figure
 
 
-def specific_power_against_restitution(points: "pl.DataFrame") -> Figure:
+def specific_power_against_restitution(points: "pl.DataFrame") -> "Figure":
     """Draw specific power against restitution, without and with baffles."""
-    return curves(points, Labels("coefficient of restitution e", _SPECIFIC))
+    return curves(points, Labels(labels.RESTITUTION, labels.SPECIFIC_POWER))
+
+
+# Those that are drawn of points alone, by the figure's number.
+CURVES: Mapping[str, "Callable[..., Figure]"] = {
+    "F4": power_against_fill,
+    "F5": specific_power_against_fill,
+    "F6": ratio_against_fill,
+    "F7": specific_power_against_size,
+    "F8": specific_power_against_friction,
+    "F9": ratio_against_friction,
+    "restitution": specific_power_against_restitution,
+}
 
 
 def _say_below(axes: "Axes", x: float, text: str, beside: float = 0.0) -> None:
@@ -122,10 +130,10 @@ def _say_below(axes: "Axes", x: float, text: str, beside: float = 0.0) -> None:
     )
 
 
-def _two_readings(points: "pl.DataFrame", other: "pl.DataFrame", labels: Labels) -> Figure:
-    figure = curves(points, labels)
+def _two_readings(points: "pl.DataFrame", other: "pl.DataFrame", axis_labels: Labels) -> "Figure":
+    figure = curves(points, axis_labels)
     axes = figure.axes[0]
-    x, y = labels.x_scale * other["x"].to_numpy(), other["mean"].to_numpy()
+    x, y = axis_labels.x_scale * other["x"].to_numpy(), other["mean"].to_numpy()
     axes.plot(x, y, "x", color="black", markersize=6.5, markeredgewidth=0.6, zorder=4)
     say_above(axes, "× by work of the contact forces, else by dissipation")
     return figure
@@ -133,7 +141,7 @@ def _two_readings(points: "pl.DataFrame", other: "pl.DataFrame", labels: Labels)
 
 def drift_over_time(
     runs: Mapping[str, Sequence["pl.DataFrame"]], mass: Mapping[str, float], window: tuple[float, float]
-) -> Figure:
+) -> "Figure":
     """Draw how loads wander: running means of specific power and of N/T over each run, seed by seed.
 
     Parameters
@@ -146,7 +154,7 @@ def drift_over_time(
         Interval of the averages [s], shaded.
     """
     with drumrs_style():
-        figure = Figure(figsize=(8.4, 4.6))
+        figure = new_figure(8.4, 4.6)
         grid = figure.subplots(2, len(runs), sharex=True, sharey="row", squeeze=False)
         for column, (drum, series) in enumerate(runs.items()):
             power, ratio = grid[0, column], grid[1, column]
@@ -154,10 +162,10 @@ def drift_over_time(
             for one in series:
                 power.plot(*_running(one, "work_drum", scale=mass[drum]), linewidth=1.0)
                 ratio.plot(*_running(one, "dissipated_normal", "dissipated_sliding"), linewidth=1.0)
-            ratio.set_xlabel("time [s]")
+            ratio.set_xlabel(labels.TIME)
         for axes in grid.flat:
             axes.axvspan(*window, color="0.94", zorder=0, linewidth=0)
-        grid[0, 0].set_ylabel(_SPECIFIC)
+        grid[0, 0].set_ylabel(labels.SPECIFIC_POWER)
         grid[1, 0].set_ylabel("N/T")
         _say_below(grid[0, 0], sum(window) / 2.0, "averages")
     return figure

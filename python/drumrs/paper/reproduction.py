@@ -2,21 +2,22 @@
 
 import io
 import time
-from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
 from drumrs.config import baseline
 from drumrs.files import write_whole
+from drumrs.folders import claim, require_own
+from drumrs.jobs import job_count
 from drumrs.paper.cases import cases
 from drumrs.paper.data import StudyData
 from drumrs.paper.measure import measure
 from drumrs.paper.report import Picture, summary, write
 from drumrs.paper.scales import Scale
+from drumrs.progress import Task
 from drumrs.simulation import Simulation
-from drumrs.sweep import Case, Sweep
-from drumrs.sweep.crew import check_jobs, usable_cores
+from drumrs.sweep import Case, Failure, Sweep
 from drumrs.sweep.store import Store
 
 # What the speed is measured on: a load that costs as much a particle-step as those of the study on average, once it
@@ -24,6 +25,8 @@ from drumrs.sweep.store import Store
 _TRIAL_FILL = 0.5
 _SETTLING = 0.3  # simulated seconds
 _TRIAL = 0.25  # seconds of the wall clock
+# What a reproduction writes into its folder.
+_FILES = ("report.html", "summary.md", "table.parquet", "figures", "runs")
 # Reading results, drawing and writing the report: so long at least, and so long for each case [s].
 _WRITING, _WRITING_CASE = 6.0, 0.1
 
@@ -68,11 +71,12 @@ class Reproduction:
     Raises
     ------
     ConfigError
-        Where there is no such scale, the number of jobs is not accepted, or a newer version of drumrs made the folder.
+        Where there is no such scale, the number of jobs is not accepted, or the folder is not one of a reproduction
+        that this version of drumrs knows.
 
     Examples
     --------
-    >>> from drumrs.paper.reproduction import Reproduction
+    >>> from drumrs.paper import Reproduction
     >>> Reproduction("quick", "somewhere")
     <Reproduction of 41 cases, 41 to be run>
     """
@@ -80,9 +84,9 @@ class Reproduction:
     def __init__(self, scale: str | Scale, folder: str | Path, jobs: int | None = None) -> None:
         self.scale = scale if isinstance(scale, str) else "own"
         self.folder = Path(folder)
-        check_jobs(jobs)
-        self.jobs = jobs or usable_cores()
+        self.jobs = job_count(jobs)
         self.sweep = Sweep.from_configs(cases(scale))
+        require_own(self.folder, "reproduction", _FILES)
         store = Store(self.runs_folder)
         store.check_format()
         self.waiting: tuple[Case, ...] = tuple(
@@ -113,9 +117,7 @@ class Reproduction:
         longest = max(case.cost for case in self.waiting) * min(self.jobs, len(self.waiting))
         return max(self.cost, longest) / together + writing
 
-    def run(
-        self, *, retry: bool = False, progress: bool = True, say: Callable[[str], None] | None = None
-    ) -> ReproductionResult:
+    def run(self, *, retry: bool = False, progress: bool = True) -> ReproductionResult:
         """Run what is not finished, then judge, draw and write.
 
         Parameters
@@ -123,29 +125,31 @@ class Reproduction:
         retry
             Whether cases that failed before are run again.
         progress
-            Whether to show how far the runs are.
-        say
-            Called with a sentence for what comes after the runs.
+            Whether to show how far it is.
 
         Raises
         ------
         ConfigError
-            Where the folder cannot be written.
+            Where the folder cannot be written, or is not one of a reproduction.
         OSError
             Where something cannot be written; finished cases are kept.
         KeyboardInterrupt
             After Ctrl-C; finished cases are kept, and the same call goes on.
         """
         began = time.perf_counter()
+        claim(self.folder, "reproduction", f"the paper's study ({self.scale})", "")
         outcome = self.sweep.run(self.runs_folder, jobs=self.jobs, retry=retry, progress=progress)
-        if say is not None:
-            say("judging the claims, drawing the figures, writing the report")
+        with Task("measures, figures and report", 0, show=progress):
+            return self._report(outcome.failures, began)
+
+    def _report(self, failures: tuple[Failure, ...], began: float) -> ReproductionResult:
+        """Measure, judge, draw and write."""
         table = measure(self.sweep, self.runs_folder)
         buffer = io.BytesIO()
         table.write_parquet(buffer)
         write_whole(self.folder / "table.parquet", buffer.getvalue())
         taken = time.perf_counter() - began
-        data = StudyData(table, self.sweep, self.runs_folder, self.scale, outcome.failures, taken)
+        data = StudyData(table, self.sweep, self.runs_folder, self.scale, failures, taken)
         page, text = self.folder / "report.html", self.folder / "summary.md"
         pictures = write(data, page, self.folder / "figures")
         summary.write(data, pictures, text)

@@ -1,15 +1,15 @@
 """Sweeps: many cases, each simulated once, kept in a folder, taken up again after any break.
 
-`case` names a case, `design` turns axes and rows into cases, `store` keeps their results in a folder, in the `sealed`
-files that know whose they are; `worker` runs one case anywhere, `crew` is who runs them, `engine` hands them out;
-`columns` and `table` put the results side by side, `study_file` reads what `drumrs sweep` is given, and `sweep` is the
-face of it all. Nothing here knows what is made of the results.
+`case` names a case, `design` turns axes and rows into cases, `store` keeps their results in a folder, in `sealed` files
+that know whose they are. `worker` runs one case anywhere, `executors` says where, `scheduler` hands the cases out.
+`columns` and `table` put the results side by side, `sweep_file` reads what `drumrs sweep` is given, and `sweep` is what
+users see of all this. Nothing here knows what is made of the results.
 """
 
 from drumrs.sweep.case import Case
-from drumrs.sweep.engine import Failure, Outcome
-from drumrs.sweep.study_file import read_study
+from drumrs.sweep.scheduler import Failure, Outcome
 from drumrs.sweep.sweep import Sweep
+from drumrs.sweep.sweep_file import read_sweep
 from drumrs.sweep.worker import run_case
 
-__all__ = ["Case", "Failure", "Outcome", "Sweep", "read_study", "run_case"]
+__all__ = ["Case", "Failure", "Outcome", "Sweep", "read_sweep", "run_case"]

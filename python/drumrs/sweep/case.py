@@ -1,6 +1,7 @@
 """`Case`: one configuration with its seed, the name of its results and what it costs."""
 
 import hashlib
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cache, cached_property
 
@@ -9,6 +10,8 @@ from drumrs.errors import ConfigError
 from drumrs.simulation import info
 
 _ID_DIGITS = 20
+# So many digits are shown where they tell cases apart.
+_SHORT_ID_DIGITS = 8
 
 
 @dataclass(frozen=True, repr=False)
@@ -64,6 +67,22 @@ class Case:
         except ConfigError:
             return 0.0
         return self.config.bundle_count * self.config.run.duration / time_step
+
+
+def short_ids(ids: Iterable[str], others: Iterable[str] = ()) -> dict[str, str]:
+    """Return the beginnings of ids, by id, that tell them apart from each other and from others.
+
+    Examples
+    --------
+    >>> from drumrs.sweep.case import short_ids
+    >>> short_ids(["0123456789", "abcdefghij"], ["abcdefgh00"])
+    {'0123456789': '012345678', 'abcdefghij': 'abcdefghi'}
+    """
+    ids = list(ids)
+    known = {*ids, *others}
+    lengths = range(_SHORT_ID_DIGITS, _ID_DIGITS)
+    digits = next((n for n in lengths if len({one[:n] for one in known}) == len(known)), _ID_DIGITS)
+    return {one: one[:digits] for one in ids}
 
 
 @cache

@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING, Any
 from drumrs.analysis import statistics
 from drumrs.errors import ConfigError, show
 from drumrs.files import NO_ROOM, read_object, write_whole
+from drumrs.folders import marker, require_own
 from drumrs.frames import Frames
 from drumrs.result import Result, Summary
 from drumrs.sweep.case import Case
@@ -32,7 +33,8 @@ if TYPE_CHECKING:
 
     import polars as pl
 
-MARK = "drumrs-sweep.json"
+MARK = marker("sweep")
+TABLE = "table.parquet"
 _ENDINGS = ("toml", "series.parquet", "frames.parquet", "facts.json", "parquet", "error.json")
 _HOUR = 3600.0
 
@@ -49,9 +51,10 @@ class Store:
         Raises
         ------
         ConfigError
-            Where it cannot be written, or a newer version of drumrs made it.
+            Where it cannot be written, or is not one of a sweep that this version of drumrs knows.
         """
         self.check_format()
+        self.require_own()
         try:
             self.folder.mkdir(parents=True, exist_ok=True)
             write_whole(self.folder / MARK, f"{json.dumps({'format': FORMAT})}\n".encode())
@@ -79,6 +82,14 @@ class Store:
             limit = f"of format {FORMAT} at most: a newer drumrs made it"
             problem = f"is of format {show(found)}, but must be {limit}"
             raise ConfigError(self.folder, found, limit, problem=problem, bound=FORMAT)
+
+    def ids(self) -> set[str]:
+        """Return the ids of all finished cases in the folder, those of other sweeps included."""
+        return {path.name.partition(".")[0] for path in self.folder.glob("*.facts.json")}
+
+    def require_own(self) -> None:
+        """Refuse a folder of something else, or one with a table that drumrs did not write."""
+        require_own(self.folder, "sweep", [TABLE])
 
     def is_settled(self, case: Case) -> bool:
         """Tell whether a case has results or an error, without looking into them."""

@@ -9,9 +9,9 @@ from drumrs.config import Config
 from drumrs.errors import ConfigError
 from drumrs.frames import Frames
 from drumrs.sweep import design, table
-from drumrs.sweep.case import Case
+from drumrs.sweep.case import Case, short_ids
 from drumrs.sweep.columns import SEED, differing, parameters
-from drumrs.sweep.engine import Order, Outcome, run_cases
+from drumrs.sweep.scheduler import Outcome, RunOptions, run_cases
 from drumrs.sweep.store import Store
 
 if TYPE_CHECKING:
@@ -131,6 +131,18 @@ class Sweep:
         values = {**parameters(case.config), SEED: case.seed}
         return {name: values[name] for name in self.varied()}
 
+    def short_ids(self, folder: str | Path | None = None) -> dict[str, str]:
+        """Return the beginning of each case's id by id, as long as tells it from all cases in the folder.
+
+        `drumrs view FOLDER/ID` takes such a beginning.
+
+        Parameters
+        ----------
+        folder
+            Where the results are; that of the last `run` unless given.
+        """
+        return short_ids((case.id for case in self.cases), self._store(folder).ids())
+
     def run(
         self,
         folder: str | Path,
@@ -157,7 +169,7 @@ class Sweep:
         retry
             Whether cases that failed before are run again.
         progress
-            Whether to show progress: a bar in a terminal or notebook, else a line a minute on standard error.
+            Whether to show progress, as a `drumrs.Task` does.
 
         Returns
         -------
@@ -174,7 +186,7 @@ class Sweep:
             After Ctrl-C, within a second; what is finished is kept.
         """
         self._folder = Path(folder)
-        return run_cases(self.cases, self._folder, Order(executor, jobs, shard, retry, progress))
+        return run_cases(self.cases, self._folder, RunOptions(executor, jobs, shard, retry, progress))
 
     def table(self, folder: str | Path | None = None) -> "pl.LazyFrame":
         """Scan the results: one row a finished case, sorted by parameters and seed.

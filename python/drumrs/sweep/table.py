@@ -9,12 +9,10 @@ from drumrs.errors import ConfigError
 from drumrs.files import write_whole
 from drumrs.sweep.case import Case
 from drumrs.sweep.columns import schema, sort_keys
-from drumrs.sweep.store import Store
+from drumrs.sweep.store import TABLE, Store
 
 if TYPE_CHECKING:
     import polars as pl
-
-FILE = "table.parquet"
 
 
 def scan(cases: Sequence[Case], store: Store) -> "pl.LazyFrame":
@@ -42,12 +40,15 @@ def write(cases: Sequence[Case], store: Store) -> Path:
 
     Raises
     ------
+    ConfigError
+        Where there is a table that drumrs did not write.
     OSError
         Where it cannot be written; the cases' files are untouched.
     """
+    store.require_own()
     buffer = io.BytesIO()
     scan(cases, store).collect().write_parquet(buffer, compression="uncompressed")
-    path = store.folder / FILE
+    path = store.folder / TABLE
     write_whole(path, buffer.getvalue())
     return path
 

@@ -9,13 +9,13 @@ from multiprocessing.synchronize import Event
 from typing import NamedTuple
 
 from drumrs.config import Config
-from drumrs.protocol import finish
+from drumrs.runs import advance_to_end
 from drumrs.simulation import Simulation, info
 from drumrs.sweep.case import Case
 from drumrs.sweep.store import Store
 
 
-class Report(NamedTuple):
+class CaseOutcome(NamedTuple):
     """What became of a case: "finished", "failed" with the error's class and sentence, or "stopped"."""
 
     case: str
@@ -41,10 +41,10 @@ class Running:
             if self._stopped:
                 simulation.stop()
 
-        def report(step: int) -> None:
+        def on_progress(step: int) -> None:
             self._particle_steps[simulation] = float(count * step)
 
-        return report
+        return on_progress
 
     def end(self, simulation: Simulation) -> None:
         """Take a simulation out."""
@@ -68,7 +68,7 @@ class Running:
 _here = Running()
 
 
-def obey(halt: Event) -> None:
+def stop_with(halt: Event) -> None:
     """Make this process one that works for a sweep elsewhere, and stops when told so, not by Ctrl-C."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
 
@@ -79,7 +79,7 @@ def obey(halt: Event) -> None:
     threading.Thread(target=wait, daemon=True).start()
 
 
-def run_case(config_json: str, folder: str, running: Running | None = None) -> Report:
+def run_case(config_json: str, folder: str, running: Running | None = None) -> CaseOutcome:
     """Simulate a case and keep its results, or its error, in a sweep's folder.
 
     Parameters
@@ -93,7 +93,7 @@ def run_case(config_json: str, folder: str, running: Running | None = None) -> R
 
     Returns
     -------
-    Report
+    CaseOutcome
         What became of the case; a failure is reported, not raised.
 
     Raises
@@ -113,22 +113,22 @@ def run_case(config_json: str, folder: str, running: Running | None = None) -> R
     store = Store(folder)
     # Another sweep may have finished it while it stood in the queue; an older version may have left it all but its row.
     if store.fault(case) is None or store.renew(case):
-        return Report(case.id, "finished")
+        return CaseOutcome(case.id, "finished")
     try:
         kept = _simulate(case, store, running or _here)
     except OSError:
         raise
     except Exception as error:  # noqa: BLE001 - whatever is wrong with one case, the others go on
         store.write_error(case, error)
-        return Report(case.id, "failed", type(error).__name__, str(error))
-    return Report(case.id, "finished" if kept else "stopped")
+        return CaseOutcome(case.id, "failed", type(error).__name__, str(error))
+    return CaseOutcome(case.id, "finished" if kept else "stopped")
 
 
 def _simulate(case: Case, store: Store, running: Running) -> bool:
     simulation = Simulation(case.config)
-    report = running.begin(simulation)
+    on_progress = running.begin(simulation)
     try:
-        if not finish(simulation, report):
+        if not advance_to_end(simulation, on_progress):
             return False
         store.write(case, simulation.result(keep=False), _facts())
     finally:

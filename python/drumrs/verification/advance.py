@@ -1,12 +1,15 @@
 """`advance`: how the cases run their simulations, so that Ctrl-C ends those under way."""
 
+import threading
 from contextvars import ContextVar
 
-from drumrs.simulation import Simulation
-from drumrs.sweep.worker import Running
+from drumrs import Simulation
 
-# Those of the verification that this thread works for.
-under_way: ContextVar[Running] = ContextVar("under_way")
+# Set once the verification that this thread works for is broken off.
+broken_off: ContextVar[threading.Event | None] = ContextVar("broken_off", default=None)
+
+# How often a simulation under way looks whether it is [s].
+_PAUSE = 0.1
 
 
 class Halted(Exception):  # noqa: N818 - nothing is wrong with the simulation
@@ -21,10 +24,8 @@ def advance(simulation: Simulation, steps: int) -> None:
     Halted
         Where the verification was broken off.
     """
-    running = under_way.get(None) or Running()
-    running.begin(simulation)
-    try:
-        if not simulation.run_until(simulation.step + steps):
+    halt, end = broken_off.get(), simulation.step + steps
+    while simulation.step < end:
+        if halt is not None and halt.is_set():
             raise Halted
-    finally:
-        running.end(simulation)
+        simulation.run_until(end, wall_limit=_PAUSE)

@@ -6,9 +6,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from drumrs import Config, Simulation
 from drumrs.analysis import student_quantile
-from drumrs.config import Config
-from drumrs.simulation import Simulation
 from drumrs.verification import scenes, theory
 from drumrs.verification.case import case
 from drumrs.verification.evidence import Check, Evidence, Panel, Trace, checks_at, shared_curve

@@ -5,7 +5,7 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from drumrs.errors import DrumrsError
+from drumrs import DrumrsError
 from drumrs.verification.evidence import Evidence
 
 

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from types import MappingProxyType
 
-from drumrs.errors import ConfigError
+from drumrs import ConfigError
 from drumrs.verification import (
     adhesion,
     balances,

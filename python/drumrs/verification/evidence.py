@@ -38,7 +38,7 @@ class Check:
         return abs(self.measured - self.expected) <= self.tolerance
 
     @property
-    def strain(self) -> float:
+    def ratio(self) -> float:
         """The distance of the two numbers over the tolerance: above 1 where the check fails."""
         distance = abs(self.measured - self.expected)
         if distance == 0.0:
@@ -154,7 +154,7 @@ class Evidence:
     @property
     def worst(self) -> Check:
         """The check that is nearest to failing, or fails by most."""
-        return max(self.checks, key=lambda check: check.strain)
+        return max(self.checks, key=lambda check: check.ratio)
 
     @property
     def passed(self) -> bool:

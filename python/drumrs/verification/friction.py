@@ -10,7 +10,7 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from drumrs.state import State
+from drumrs import State
 from drumrs.verification import scenes, theory
 from drumrs.verification.case import case
 from drumrs.verification.evidence import Check, Evidence, Panel, Trace, checks, checks_at

@@ -9,7 +9,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from drumrs.simulation import Simulation
+from drumrs import Simulation
 from drumrs.verification import scenes, theory
 from drumrs.verification.case import case
 from drumrs.verification.evidence import Check, Evidence, Panel, Trace, checks_at

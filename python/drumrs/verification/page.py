@@ -7,6 +7,7 @@ from functools import cache
 from typing import TYPE_CHECKING, Any
 
 from drumrs.pages import environment, provenance, style, text_of
+from drumrs.pictures import attempt
 from drumrs.verification import theory
 from drumrs.verification.case import Trial
 from drumrs.verification.catalog import FAMILIES
@@ -44,21 +45,22 @@ def _times(tried: Sequence[Trial], wall_time: float, jobs: int) -> dict[str, str
     spent = sum(trial.wall_time for trial in tried)
     return {
         "cases": str(len(tried)),
-        "time taken": f"{provenance.format_duration(wall_time)}, {jobs} at once",
-        "time of all cases": provenance.format_duration(spent),
+        "time taken": f"{wall_time:.0f} s, {jobs} at once",
+        "time of all cases": f"{spent:.0f} s",
         "page written": provenance.now(),
     }
 
 
 def _picture(trial: Trial) -> str:
     """Return a case's plot as an address that holds it, empty where there is none."""
-    from drumrs import figures
-    from drumrs.verification.picture import agreement
+    if trial.evidence is not None:
+        with attempt(f"the plot of {trial.case.name}"):
+            from drumrs import figures
+            from drumrs.verification.picture import agreement
 
-    if trial.evidence is None:
-        return ""
-    drawn = figures.svg(agreement(trial.evidence.panel))
-    return f"data:image/svg+xml;base64,{base64.b64encode(drawn).decode('ascii')}"
+            drawn = figures.render(agreement(trial.evidence.panel), "svg")
+            return f"data:image/svg+xml;base64,{base64.b64encode(drawn).decode('ascii')}"
+    return ""
 
 
 def _theory() -> list["Markup"]:

@@ -3,23 +3,24 @@
 from itertools import cycle
 from typing import TYPE_CHECKING, Any
 
-import matplotlib as mpl
 import numpy as np
-from matplotlib.figure import Figure
 
-from drumrs.figures.shared import INK, drumrs_style
+from drumrs.figures import drumrs_style, line_colors, new_figure
 from drumrs.verification.evidence import Panel, Trace
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
-_SIZE = (5.0, 3.1)
+# What stands for several lines: nearly black.
+_INK = "0.15"
+_SIZE = (5.0, 3.1)  # inches
 _MARKERS = ("o", "s", "^", "D", "v", "P", "X", "*")
 # More points than this are drawn small.
 _MANY = 40
 
 
-def agreement(panel: Panel) -> Figure:
+def agreement(panel: Panel) -> "Figure":
     """Draw a case of the verification: points as measured, curves as expected.
 
     Parameters
@@ -28,12 +29,11 @@ def agreement(panel: Panel) -> Figure:
         Points, curves, and labels of the axes.
     """
     with drumrs_style():
-        figure = Figure(figsize=_SIZE)
+        figure = new_figure(*_SIZE)
         axes = figure.subplots()
-        colors = mpl.rcParams["axes.prop_cycle"].by_key()["color"]
-        looks = zip(cycle(colors), cycle(_MARKERS), strict=False)
+        looks = zip(cycle(line_colors()), cycle(_MARKERS), strict=False)
         for trace in panel.traces:
-            _draw(axes, trace, *(next(looks) if np.size(trace.x) else (INK, "")))
+            _draw(axes, trace, *(next(looks) if np.size(trace.x) else (_INK, "")))
         axes.set(xlabel=panel.x, ylabel=panel.y)
         if panel.logarithmic:
             axes.set(xscale="log", yscale="log")

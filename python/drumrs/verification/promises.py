@@ -9,9 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from drumrs.config import Config
-from drumrs.simulation import Simulation
-from drumrs.state import State
+from drumrs import Config, Simulation, State
 from drumrs.verification import scenes
 from drumrs.verification.advance import advance
 from drumrs.verification.case import case

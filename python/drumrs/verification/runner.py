@@ -2,6 +2,7 @@
 
 import json
 import math
+import threading
 import time
 import warnings
 from collections.abc import Sequence
@@ -10,12 +11,9 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from drumrs.errors import DrumrsWarning
-from drumrs.files import write_whole
-from drumrs.progress import Campaign, board
-from drumrs.sweep.crew import check_jobs, usable_cores
-from drumrs.sweep.worker import Running
-from drumrs.verification.advance import under_way
+from drumrs import DrumrsWarning, Task, job_count
+from drumrs.pages import write_page
+from drumrs.verification.advance import broken_off
 from drumrs.verification.case import Case, Trial
 from drumrs.verification.catalog import chosen, family_of
 from drumrs.verification.page import render
@@ -61,14 +59,14 @@ class Verification:
     def table(self) -> "pl.DataFrame":
         """Polars table, one row a case, with the check that is nearest to failing, or fails by most.
 
-        Its columns: family, case, title, source, quantity, unit, expected, measured, tolerance, strain (distance over
+        Its columns: family, case, title, source, quantity, unit, expected, measured, tolerance, ratio (distance over
         tolerance), checks (their number), passed, wall_time [s], error.
         """
         import polars as pl
 
         texts = ("family", "case", "title", "source", "quantity", "unit", "error")
         types: dict[str, Any] = dict.fromkeys(texts, pl.String)
-        types |= dict.fromkeys(("expected", "measured", "tolerance", "strain", "wall_time"), pl.Float64)
+        types |= dict.fromkeys(("expected", "measured", "tolerance", "ratio", "wall_time"), pl.Float64)
         types |= {"checks": pl.Int64, "passed": pl.Boolean}
         return pl.DataFrame([_row(trial) for trial in self.trials], schema_overrides=types)
 
@@ -85,11 +83,12 @@ class Verification:
 
         Raises
         ------
+        ConfigError
+            Where the file is there and was not written by drumrs.
         OSError
             Where the file cannot be written.
         """
-        write_whole(path, render(self.trials, self.wall_time, self.jobs).encode())
-        return Path(path)
+        return write_page(path, render(self.trials, self.wall_time, self.jobs))
 
 
 def _row(trial: Trial) -> dict[str, Any]:
@@ -105,7 +104,7 @@ def _row(trial: Trial) -> dict[str, Any]:
         "expected": worst.expected if worst else None,
         "measured": worst.measured if worst else None,
         "tolerance": worst.tolerance if worst else None,
-        "strain": worst.strain if worst else None,
+        "ratio": worst.ratio if worst else None,
         "checks": len(evidence.checks) if evidence is not None else 0,
         "passed": trial.passed,
         "wall_time": trial.wall_time,
@@ -135,7 +134,7 @@ def verify(
     jobs
         Cases at once; one a usable core unless given.
     progress
-        Whether to show progress: a bar in a terminal or notebook, else a line a minute on standard error.
+        Whether to show progress, as a `drumrs.Task` does.
 
     Returns
     -------
@@ -157,8 +156,7 @@ def verify(
     (True, ['restitution-clipped', 'stack'])
     """
     cases = chosen([only] if isinstance(only, str) else only)
-    check_jobs(jobs)
-    workers = jobs or usable_cores()
+    workers = job_count(jobs)
     began = time.perf_counter()
     trials = _run(cases, workers, progress=progress)
     return Verification(trials, time.perf_counter() - began, workers)
@@ -167,24 +165,24 @@ def verify(
 def _run(cases: Sequence[Case], workers: int, *, progress: bool) -> tuple[Trial, ...]:
     """Run the cases, the long ones first, and return them in their order."""
     order = sorted(cases, key=lambda case: -case.cost)
-    done, cost, trials = 0, 0.0, {}
-    running = Running()
-    threads = ThreadPoolExecutor(workers, "drumrs", initializer=under_way.set, initargs=(running,))
-    with board(show=progress) as shown, threads as pool, warnings.catch_warnings():
+    trials: dict[str, Trial] = {}
+    halt = threading.Event()
+    threads = ThreadPoolExecutor(workers, "drumrs", initializer=broken_off.set, initargs=(halt,))
+    task = Task(
+        "verification", sum(case.cost for case in cases), detail=f"0 of {len(cases)} cases", show=progress
+    )
+    with task, threads as pool, warnings.catch_warnings():
         # Some cases stick on purpose.
         warnings.simplefilter("ignore", DrumrsWarning)
-        campaign = Campaign(len(cases), sum(case.cost for case in cases), "verification", rated=False)
-        report = shown.add_campaign(campaign)
-        tasks = [pool.submit(case.run) for case in order]
+        futures = [pool.submit(case.run) for case in order]
         try:
-            for task in as_completed(tasks):
-                trial = task.result()
+            for future in as_completed(futures):
+                trial = future.result()
                 trials[trial.case.name] = trial
-                done, cost = done + 1, cost + trial.case.cost
-                report(done, cost)
+                task.advance(trial.case.cost, f"{len(trials)} of {len(cases)} cases")
         except BaseException:
-            # Threads cannot be interrupted from outside; the simulations can.
-            running.stop()
+            # Threads cannot be interrupted from outside; they look at this.
+            halt.set()
             pool.shutdown(wait=False, cancel_futures=True)
             raise
     return tuple(trials[case.name] for case in cases)

@@ -6,9 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from drumrs.config import Config, baseline
-from drumrs.simulation import Simulation
-from drumrs.state import State
+from drumrs import Config, Simulation, State, baseline
 from drumrs.verification.advance import advance
 
 Array = NDArray[np.float64]

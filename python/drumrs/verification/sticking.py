@@ -9,8 +9,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from drumrs.simulation import Simulation
-from drumrs.state import State
+from drumrs import Simulation, State
 from drumrs.verification import scenes, theory
 from drumrs.verification.advance import advance
 from drumrs.verification.case import case

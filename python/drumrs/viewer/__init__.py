@@ -1,10 +1,16 @@
 """The player: a run as one HTML page that needs nothing else, for a browser, a notebook or a report.
 
-`recording` turns frames and series into what the page reads, `page` puts pages together, `source` finds a run's files;
-the page itself is `player.html`, `player.css` and the scripts beside them. Sees frames and tables, never a simulation.
+`recording` turns frames and series into what the page reads, `page` puts pages together, `folder` finds a run
+and `source` reads it.
+In the browser, player.js is a player in any element of a page. Of its parts, stage.js draws the drum, plot.js curves,
+panel.js has their legend, controls.js buttons and keys, color.js what colors stand for; recording.js holds the frames
+and takes more of them while a run goes on. element.js is the element of the pages written here. `module` joins files
+into one module for other pages and widgets. Nothing here sees a simulation.
 """
 
-from drumrs.viewer.page import Player, assets
+from drumrs.viewer.bundle import module
+from drumrs.viewer.folder import find
+from drumrs.viewer.page import Player, script
 from drumrs.viewer.source import default_page, read
 
-__all__ = ["Player", "assets", "default_page", "read"]
+__all__ = ["Player", "default_page", "find", "module", "read", "script"]

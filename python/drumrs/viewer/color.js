@@ -1,4 +1,4 @@
-// Colors of the bundles: viridis, even to the eye and safe for every kind of color vision.
+// Colors of the bundles: what they stand for, and viridis, even to the eye and safe for every kind of color vision.
 
 const VIRIDIS = [
   "440154", "48186a", "472d7b", "424086", "3b528b", "33638d", "2c728e", "26818e", "21908c",
@@ -23,9 +23,73 @@ const PALETTE = Array.from({ length: LEVELS }, (_, level) => {
   return { fill: `rgb(${red} ${green} ${blue})`, light: luminance > LIGHT };
 });
 
-const GRADIENT = `linear-gradient(to right, ${Array.from({ length: 17 }, (_, k) => PALETTE[Math.round((k * 255) / 16)].fill)})`;
+// The scale as a CSS background.
+export const GRADIENT = `linear-gradient(to right, ${Array.from({ length: 17 }, (_, k) => PALETTE[Math.round((k * 255) / 16)].fill)})`;
 
 function shade(value, [lowest, highest]) {
   const share = highest > lowest ? (value - lowest) / (highest - lowest) : 0.5;
   return PALETTE[Math.round(Math.min(Math.max(share, 0), 1) * (LEVELS - 1))];
+}
+
+// Each mode gives every bundle a number, shown times `factor` in a unit. The ends of the scale are the least and the
+// greatest number unless the mode has a range. A mode with `marked` shows where bundles were at a time of the reader's
+// choice, so that mixing shows.
+export const MODES = {
+  speed: {
+    label: "Speed",
+    unit: "m/s",
+    factor: 1,
+    range: (recording) => [0, recording.speedScale],
+    value: (recording, k, scene) => scene.bundles[k].speed,
+  },
+  height: {
+    label: "Height at the marked time",
+    unit: "mm",
+    factor: 1000,
+    marked: true,
+    value: (recording, k, scene, mark) => recording.position(mark, k)[1],
+  },
+  distance: {
+    label: "Distance from the axis at the marked time",
+    unit: "mm",
+    factor: 1000,
+    marked: true,
+    value: (recording, k, scene, mark) => Math.hypot(...recording.position(mark, k)),
+  },
+  size: {
+    label: "Diameter",
+    unit: "mm",
+    factor: 1000,
+    value: (recording, k) => 2 * recording.radii[k],
+  },
+};
+
+// How a recording is colored: by a mode, with the frame `mark` for the modes that have a marked time.
+export class Coloring {
+  constructor(recording) {
+    this.recording = recording;
+    this.name = "speed";
+    this.mark = 0;
+  }
+
+  get mode() {
+    return MODES[this.name];
+  }
+
+  value(k, scene) {
+    return this.mode.value(this.recording, k, scene, this.mark);
+  }
+
+  // Where the two ends of the scale lie.
+  range(scene) {
+    if (this.mode.range) return this.mode.range(this.recording);
+    const values = scene.bundles.map((_, k) => this.value(k, scene));
+    return [Math.min(...values), Math.max(...values)];
+  }
+
+  // What each bundle is filled with, and whether it is light: { fill, light }.
+  shades(scene) {
+    const range = this.range(scene);
+    return scene.bundles.map((_, k) => shade(this.value(k, scene), range));
+  }
 }

@@ -2,21 +2,20 @@
 
 import html
 import json
-from functools import cache
-from importlib.resources import files
+import math
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Self
 
+from drumrs.config import Config
 from drumrs.errors import ConfigError
 from drumrs.files import write_whole
 from drumrs.frames import Frames
+from drumrs.viewer.bundle import module
 from drumrs.viewer.recording import recording
 
 if TYPE_CHECKING:
     import polars as pl
 
-# In the order in which they use each other; together they are one module, whose names stay inside.
-_SCRIPTS = ("color.js", "recording.js", "coloring.js", "plot.js", "stage.js", "player.js")
 _NOTEBOOK_HEIGHT = 700  # CSS pixels
 
 _PAGE = """<!doctype html>
@@ -33,7 +32,7 @@ body {{ max-width: 1240px; margin: 0 auto; padding: 12px; background: Canvas; }}
 </head>
 <body>
 {player}
-{assets}
+{script}
 </body>
 </html>
 """
@@ -60,6 +59,8 @@ class Player:
 
     Attributes
     ----------
+    title
+        What is written over the player.
     window
         Interval of the averages [s], `None` where there is none.
 
@@ -88,15 +89,35 @@ class Player:
             raise ConfigError("the run", problem=problem)
         self._frames = frames
         self._series = series
-        self._title = title
+        self.title = title
         self.window = window
+
+    @classmethod
+    def of(cls, config: Config, frames: Frames, series: "pl.DataFrame | None" = None, note: str = "") -> Self:
+        """Return the player of a run, with a title that says what was simulated.
+
+        Parameters
+        ----------
+        config
+            The configuration.
+        frames, series
+            What was recorded. Number of bundles and fill are those of the frames: a given start may have others than
+            the configuration.
+        note
+            Added to the title.
+        """
+        fill = math.fsum((2.0 * frames.radii) ** 2) / config.drum.diameter**2
+        title = config.title_of(frames.count, fill)
+        return cls(
+            frames, series, title=f"{title}: {note}" if note else title, window=config.run.averaging_window
+        )
 
     def __repr__(self) -> str:
         """Say what would be shown."""
         return f"<Player of {self._frames.count} bundles, {len(self._frames)} frames>"
 
     def element(self, *, autoplay: bool = False, start: float | None = None) -> str:
-        """Return the player as an HTML element; the page needs `assets` once, anywhere.
+        """Return the player as an HTML element; the page needs `script` once, anywhere.
 
         Parameters
         ----------
@@ -105,21 +126,20 @@ class Player:
         start
             Time to show first [s]; the first frame unless given.
         """
-        data = json.dumps(recording(self._frames, self._series, self._title, self.window), allow_nan=False)
+        data = json.dumps(recording(self._frames, self._series, self.title, self.window), allow_nan=False)
         # A title may hold any text, but none that would end the script.
         safe = data.replace("<", "\\u003c")
-        script = f'<script type="application/json">{safe}</script>'
         attributes = " autoplay" if autoplay else ""
         if start is not None:
             attributes += f' start="{start:g}"'
-        return f"<drumrs-player{attributes}>{script}</drumrs-player>"
+        return f'<drumrs-player{attributes}><script type="application/json">{safe}</script></drumrs-player>'
 
     def page(self, *, autoplay: bool = True) -> str:
         """Return the player as a whole HTML page."""
         return _PAGE.format(
-            title=html.escape(self._title or "drumrs"),
+            title=html.escape(self.title or "drumrs"),
             player=self.element(autoplay=autoplay),
-            assets=assets(),
+            script=script(),
         )
 
     def save(self, path: str | Path) -> Path:
@@ -142,22 +162,13 @@ class Player:
         )
 
 
-@cache
-def assets() -> str:
-    """Return the template and script that all players of a page share.
+def script() -> str:
+    """Return the script that all players of a page share, as an HTML element.
 
     Examples
     --------
-    >>> from drumrs.viewer import assets
-    >>> assets().startswith('<template id="drumrs-player">')
+    >>> from drumrs.viewer import script
+    >>> script().startswith('<script type="module">')
     True
     """
-    folder = files(__package__ or "drumrs.viewer")
-    markup, style, *scripts = (
-        folder.joinpath(name).read_text(encoding="utf-8") for name in ("player.html", "player.css", *_SCRIPTS)
-    )
-    script = "\n".join(scripts)
-    return (
-        f'<template id="drumrs-player">\n<style>\n{style}</style>\n{markup}</template>\n'
-        f'<script type="module">\n{script}</script>'
-    )
+    return f'<script type="module">\n{module("element.js")}</script>'

@@ -1,197 +1,119 @@
-// <drumrs-player>: one recorded run, played on a canvas, with its power and energies beside it.
+// A player of one recording in an element of a page: stage, plots and controls.
 //
-// The element holds its data as JSON in a script of its own; markup and style come from the template of the page.
-// Everything lives in the element's shadow tree and nothing in global names, so a page may hold many.
+//   const player = new Player(element, unpack(data));
+//   player.addEventListener("time", () => console.log(player.time));
+//   player.seek(2.5);
+//   player.recording.extend({ frames });     // while a run goes on; a player at the end stays at the end
+//   player.destroy();
+//
+// To read: time [s], playing, selected (number of a bundle, or null), recording. To call: play, pause, toggle, seek,
+// seekFrame, step, select, setMode, markTime, show, destroy. Events: "time", "select", "play", "pause".
+// Markup, style and listeners stay in a shadow tree of the player's own: a page may hold any number of them, of one
+// recording or of several.
 
-const KEYS = {
-  " ": (player) => player.toggle(),
-  ArrowLeft: (player, event) => player.step(event.shiftKey ? -10 : -1),
-  ArrowRight: (player, event) => player.step(event.shiftKey ? 10 : 1),
-  Home: (player) => player.seekFrame(0),
-  End: (player) => player.seekFrame(player.recording.frames - 1),
-  "+": (player) => player.changePace(1),
-  "=": (player) => player.changePace(1),
-  "-": (player) => player.changePace(-1),
-  c: (player) => player.nextMode(),
-  m: (player) => player.markNow(),
-  n: (player) => player.select(((player.stage.selected ?? -1) + 1) % player.recording.count),
-  Escape: (player) => player.select(null),
-};
+import { MARKUP, STYLE } from "./assets.js";
+import { readTheme } from "./canvas.js";
+import { Coloring, MODES } from "./color.js";
+import { Controls } from "./controls.js";
+import { Panel } from "./panel.js";
+import { Stage } from "./stage.js";
 
 // Longest time [s] that one picture may jump ahead: a hidden tab gets none, and is to go on where it was.
 const LONGEST_JUMP = 0.1;
 
-class DrumPlayer extends HTMLElement {
-  connectedCallback() {
-    if (this.recording) return;
-    const root = this.attachShadow({ mode: "open" });
-    root.append(document.getElementById("drumrs-player").content.cloneNode(true));
-    this.part_ = (name) => root.querySelector(`.${name}`);
-    this.recording = new Recording(JSON.parse(this.querySelector("script").textContent));
-    this.coloring = new Coloring(this.recording);
-    this.theme = {};
-    this.stage = new Stage(this.part_("stage"), this.recording, this.theme);
-    this.time = this.recording.times[this.recording.nearest(Number(this.getAttribute("start") ?? -Infinity))];
+export class Player extends EventTarget {
+  // `start` is the time [s] to show first; the first frame unless given.
+  constructor(element, recording, { start = -Infinity } = {}) {
+    super();
+    this.recording = recording;
+    this.coloring = new Coloring(recording);
+    this.rate = 1;
     this.playing = false;
-    this.fill();
-    this.listen();
-    this.watch();
+    this.time = recording.frames[recording.nearest(start)].time;
+    this.last = recording.end;
+    this.host = document.createElement("div");
+    const root = this.host.attachShadow({ mode: "open" });
+    root.innerHTML = `<style>${STYLE}</style>${MARKUP}`;
+    element.append(this.host);
+    this.theme = {};
+    this.ended = new AbortController();
+    this.build(root, this.ended.signal);
+    this.watch(root, this.ended.signal);
     this.refresh();
-    const still = matchMedia("(prefers-reduced-motion: reduce)").matches;
-    if (this.hasAttribute("autoplay") && !still) this.play();
   }
 
-  // Put in what depends on the run.
-  fill() {
-    const { recording } = this;
-    const title = recording.title || "Simulation";
-    this.part_("title").textContent = title;
-    this.part_("player").setAttribute("aria-label", `Player: ${title}`);
-    this.part_("stage").setAttribute("aria-label", `${recording.count} bundles in the drum: ${title}`);
-    this.part_("scrub").max = recording.frames - 1;
-    this.part_("bar").style.background = GRADIENT;
-    for (const [name, { label }] of Object.entries(MODES)) this.part_("mode").add(new Option(label, name));
-    this.part_("player").classList.toggle("charted", recording.panels.length > 0);
-    this.plots = recording.panels.map((panel) => this.addPanel(panel));
+  build(root, signal) {
+    const { recording, theme } = this;
+    const canvas = root.querySelector(".stage");
+    const onSeek = (time) => this.seek(time);
+    this.stage = new Stage(canvas, recording, theme);
+    this.controls = new Controls(root, this, signal);
+    this.panels = recording.panels.map((panel) => new Panel(root.querySelector(".panels"), panel, recording, theme, { onSeek, signal }));
+    root.querySelector(".player").classList.toggle("charted", this.panels.length > 0);
+    const select = (event) => this.select(this.stage.bundleAt(event.offsetX, event.offsetY, this.scene));
+    canvas.addEventListener("click", select, { signal });
   }
 
-  addPanel(panel) {
-    const box = make("div", "panel");
-    const heading = make("h4", "", panel.title);
-    heading.append(" ", make("span", "unit", `[${panel.unit}]`));
-    const list = make("ul", "readings");
-    const readings = panel.lines.map((line) => {
-      const item = make("li", "reading", `${line.name} `);
-      item.style.setProperty("--line", `var(--line-${line.color + 1})`);
-      item.append(make("b"));
-      list.append(item);
-      return item.lastChild;
-    });
-    const canvas = make("canvas");
-    canvas.setAttribute("role", "img");
-    canvas.setAttribute("aria-label", `${panel.title} over time: ${panel.lines.map((line) => line.name).join(", ")}`);
-    box.append(heading, list, canvas);
-    this.part_("panels").append(box);
-    const plot = new Plot(canvas, panel, this.recording, this.theme);
-    return Object.assign(plot, { readings });
+  // Follow the size of the element, the scheme of colors and a recording that grows.
+  watch(root, signal) {
+    this.sizes = new ResizeObserver(() => this.refresh());
+    for (const canvas of root.querySelectorAll("canvas")) this.sizes.observe(canvas);
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.refresh(), { signal });
+    this.recording.addEventListener("change", () => this.follow(), { signal });
   }
 
-  listen() {
-    const on = (name, event, act) => this.part_(name).addEventListener(event, act);
-    on("play", "click", () => this.toggle());
-    on("back", "click", () => this.step(-1));
-    on("on", "click", () => this.step(1));
-    on("scrub", "input", ({ target }) => this.seekFrame(Number(target.value)));
-    on("mode", "change", ({ target }) => this.setMode(target.value));
-    on("mark", "click", () => this.markNow());
-    on("marks", "change", ({ target }) => this.look({ marks: target.checked }));
-    on("ride", "change", ({ target }) => this.look({ riding: target.checked }));
-    on("stage", "click", (event) => this.select(this.stage.bundleAt(event.offsetX, event.offsetY, this.scene)));
-    for (const plot of this.plots) {
-      const seek = (event) => this.seek(plot.timeAt(event.offsetX));
-      plot.canvas.addEventListener("pointerdown", (event) => {
-        plot.canvas.setPointerCapture(event.pointerId);
-        seek(event);
-      });
-      plot.canvas.addEventListener("pointermove", (event) => event.buttons && seek(event));
-    }
-    this.addEventListener("keydown", (event) => this.press(event));
+  // Remove the player from the page, with all that it listens to.
+  destroy() {
+    this.pause();
+    this.sizes.disconnect();
+    this.ended.abort();
+    this.host.remove();
   }
 
-  // Follow the size of the element and the scheme of colors; a player alone on its page takes all keys.
-  watch() {
-    const sizes = new ResizeObserver(() => this.refresh());
-    for (const canvas of this.shadowRoot.querySelectorAll("canvas")) sizes.observe(canvas);
-    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.refresh());
-    document.addEventListener("keydown", (event) => {
-      const alone = document.querySelectorAll("drumrs-player").length === 1;
-      if (alone && event.target === document.body) this.press(event);
-    });
+  get selected() {
+    return this.stage.selected;
   }
 
-  press(event) {
-    const act = KEYS[event.key];
-    const inside = this.shadowRoot.activeElement;
-    const own = inside?.matches("select") || (inside?.matches("button, input, summary") && event.key === " ");
-    if (!act || own || event.ctrlKey || event.metaKey || event.altKey) return;
-    event.preventDefault();
-    act(this, event);
+  // Show what was added to the recording.
+  follow() {
+    if (this.time === this.last && !this.playing) this.time = this.recording.end;
+    this.last = this.recording.end;
+    this.controls.describe();
+    this.refresh();
   }
 
   // Read colors and font anew, and draw everything.
   refresh() {
-    const style = getComputedStyle(this);
-    const named = (name) => style.getPropertyValue(`--${name}`).trim();
-    for (const name of ["paper", "inside", "ink", "muted", "grid", "shade", "steel", "outline", "accent"]) {
-      this.theme[name] = named(name);
-    }
-    this.theme.lines = [1, 2, 3, 4].map((k) => named(`line-${k}`));
-    this.theme.font = `12px ${style.fontFamily}`;
-    for (const plot of this.plots) plot.stale = true;
+    Object.assign(this.theme, readTheme(this.host));
+    for (const { plot } of this.panels) plot.stale = true;
     this.draw();
   }
 
   draw() {
-    const { recording, time } = this;
-    this.scene = recording.scene(time);
+    this.scene = this.recording.scene(this.time);
     this.stage.draw(this.scene, this.coloring.shades(this.scene));
-    for (const plot of this.plots) {
-      plot.draw(time);
-      plot.panel.lines.forEach((line, k) => (plot.readings[k].textContent = show(plot.valueAt(line, time))));
-    }
-    this.write();
-  }
-
-  // Everything that is text and follows the time.
-  write() {
-    const { recording, time, scene } = this;
-    const rpm = (scene.spin * 30) / Math.PI;
-    this.part_("time").textContent = `${time.toFixed(2)} s`;
-    this.part_("turning").textContent = `${rpm.toFixed(1).replace("-", "−")} rpm, ${Math.abs(scene.drumAngle / 2 / Math.PI).toFixed(2)} turns`;
-    const frame = recording.nearest(time);
-    this.part_("scrub").value = frame;
-    const words = `${time.toFixed(2)} of ${recording.end.toFixed(2)} seconds, frame ${frame + 1} of ${recording.frames}`;
-    this.part_("scrub").setAttribute("aria-valuetext", words);
-    this.writeLegend();
-    this.writeSelected();
-  }
-
-  writeLegend() {
-    const { kind, mark } = this.coloring;
-    const [lowest, highest] = this.coloring.range(this.scene).map((value) => show(value * kind.scale));
-    const moment = kind.marked ? `, t = ${this.recording.times[mark].toFixed(2)} s` : "";
-    this.part_("what").textContent = `${kind.label}${moment} [${kind.unit}]`;
-    this.part_("lowest").textContent = lowest;
-    this.part_("highest").textContent = this.coloring.mode === "speed" ? `≥ ${highest}` : highest;
-  }
-
-  writeSelected() {
-    const chosen = this.stage.selected;
-    if (chosen === null) return;
-    const { x, y, speed } = this.scene.bundles[chosen];
-    const radius = show(1000 * Math.hypot(x, y));
-    this.part_("bundle").textContent = `Bundle ${chosen}: ${show(speed)} m/s, ${radius} mm from the axis`;
+    for (const panel of this.panels) panel.draw(this.time);
+    this.controls.write();
   }
 
   play() {
     this.pause();
-    if (this.time >= this.recording.end) this.time = this.recording.begin;
+    if (this.time >= this.recording.end) this.seek(this.recording.begin);
     this.setPlaying(true);
     let last = null;
     const advance = (now) => {
       const passed = last === null ? 0 : Math.min((now - last) / 1000, LONGEST_JUMP);
       last = now;
-      this.time = Math.min(this.time + passed * Number(this.part_("pace").value), this.recording.end);
-      this.draw();
-      if (this.time >= this.recording.end || !this.isConnected) this.pause();
-      else this.next = requestAnimationFrame(advance);
+      this.seek(Math.min(this.time + passed * this.rate, this.recording.end));
+      if (this.time >= this.recording.end || !this.host.isConnected) this.pause();
+      else if (this.playing) this.next = requestAnimationFrame(advance);
     };
     this.next = requestAnimationFrame(advance);
   }
 
   pause() {
     cancelAnimationFrame(this.next);
-    this.setPlaying(false);
+    if (this.playing) this.setPlaying(false);
   }
 
   toggle() {
@@ -201,66 +123,55 @@ class DrumPlayer extends HTMLElement {
 
   setPlaying(playing) {
     this.playing = playing;
-    this.part_("player").classList.toggle("playing", playing);
-    this.part_("play").setAttribute("aria-label", playing ? "Pause" : "Play");
+    this.controls.write();
+    this.dispatchEvent(new Event(playing ? "play" : "pause"));
   }
 
   seek(time) {
     this.time = time;
     this.draw();
+    this.dispatchEvent(new Event("time"));
   }
 
   seekFrame(frame) {
-    const last = this.recording.frames - 1;
-    this.seek(this.recording.times[Math.min(Math.max(frame, 0), last)]);
+    const last = this.recording.frames.length - 1;
+    this.seek(this.recording.frames[Math.min(Math.max(frame, 0), last)].time);
   }
 
   // Stepping stops the clock and lands on a frame, that is, on what was computed.
   step(frames) {
     this.pause();
     const here = this.recording.frameAt(this.time);
-    const between = this.recording.times[here] !== this.time;
+    const between = this.recording.frames[here].time !== this.time;
     this.seekFrame(here + frames + (between && frames < 0 ? 1 : 0));
   }
 
-  changePace(by) {
-    const choice = this.part_("pace");
-    choice.selectedIndex = Math.min(Math.max(choice.selectedIndex + by, 0), choice.length - 1);
-  }
-
+  // Choose what colors stand for: a name of MODES.
   setMode(name) {
-    this.coloring.mode = this.part_("mode").value = name;
+    this.coloring.name = name;
     this.draw();
   }
 
   nextMode() {
     const names = Object.keys(MODES);
-    this.setMode(names[(names.indexOf(this.coloring.mode) + 1) % names.length]);
+    this.setMode(names[(names.indexOf(this.coloring.name) + 1) % names.length]);
   }
 
-  // From now on the colors say where each bundle is at this moment, so that mixing shows.
-  markNow() {
+  // From now on the colors say where each bundle is at this time, so that mixing shows.
+  markTime() {
     this.coloring.mark = this.recording.nearest(this.time);
-    this.setMode(this.coloring.kind.marked ? this.coloring.mode : "height");
+    this.setMode(this.coloring.mode.marked ? this.coloring.name : "height");
   }
 
-  look(changes) {
+  // Change how the drum is shown: { marks, corotating }, as stage.js has them.
+  show(changes) {
     Object.assign(this.stage, changes);
     this.draw();
   }
 
   select(bundle) {
     this.stage.selected = bundle;
-    if (bundle === null) this.part_("bundle").textContent = "Choose a bundle to follow its path.";
     this.draw();
+    this.dispatchEvent(new Event("select"));
   }
 }
-
-function make(tag, name = "", text = "") {
-  const element = document.createElement(tag);
-  if (name) element.className = name;
-  element.textContent = text;
-  return element;
-}
-
-if (!customElements.get("drumrs-player")) customElements.define("drumrs-player", DrumPlayer);

@@ -1,40 +1,20 @@
-// Curves over time on a canvas, with a cursor.
+// Curves over time on a canvas of its own, with a cursor; the panel of a recording says what they are.
+//
+//   const plot = new Plot(canvas, panel, recording, readTheme(element));
+//   plot.draw(time);
+//
+// Set `stale` when the theme or the panel's data have changed; a new size is seen at the next drawing.
+
+import { prepare } from "./canvas.js";
+import { decades, powerOfTen, roundSteps } from "./format.js";
+import { mix } from "./recording.js";
 
 const LEFT = 46;
 const RIGHT = 10;
 const TOP = 8;
 const BOTTOM = 22;
 
-// Round numbers between two ends, some `wanted` of them: a list, and the step between them.
-function steps(lowest, highest, wanted) {
-  const rough = (highest - lowest) / wanted || 1;
-  const power = 10 ** Math.floor(Math.log10(rough));
-  const step = power * [1, 2, 5, 10].find((factor) => factor * power >= rough * 0.999);
-  const first = Math.ceil(lowest / step - 1e-9);
-  const count = Math.max(0, Math.floor(highest / step + 1e-9) - first + 1);
-  return { step, values: Array.from({ length: count }, (_, k) => Number(((first + k) * step).toPrecision(12))) };
-}
-
-function decades(lowest, highest) {
-  const first = Math.ceil(Math.log10(lowest) - 1e-9);
-  const count = Math.max(0, Math.floor(Math.log10(highest) + 1e-9) - first + 1);
-  return Array.from({ length: count }, (_, k) => 10 ** (first + k));
-}
-
-// Three digits, as a person would write them.
-function show(value) {
-  if (!Number.isFinite(value)) return "–";
-  value = Number(value.toPrecision(3));
-  const size = Math.abs(value);
-  if (size !== 0 && (size < 0.001 || size >= 1e5)) {
-    const exponent = Math.floor(Math.log10(size));
-    return `${show(value / 10 ** exponent)}·${power(10 ** exponent)}`;
-  }
-  const digits = Math.max(0, Math.min(4, 2 - Math.floor(Math.log10(size || 1))));
-  return value.toFixed(digits).replace("-", "−");
-}
-
-class Plot {
+export class Plot {
   constructor(canvas, panel, recording, theme) {
     Object.assign(this, { canvas, panel, recording, theme });
     this.first = panel === recording.panels[0];
@@ -132,7 +112,7 @@ class Plot {
   drawAxes(context) {
     const { theme, width, height, recording, panel } = this;
     const [lowest, highest] = panel.range;
-    const rows = panel.logarithmic ? decades(lowest, highest) : steps(lowest, highest, 4).values;
+    const rows = panel.logarithmic ? decades(lowest, highest) : roundSteps(lowest, highest, 4).values;
     context.lineWidth = 1;
     context.fillStyle = theme.muted;
     context.textAlign = "right";
@@ -140,11 +120,11 @@ class Plot {
     for (const value of rows) {
       const y = Math.round(this.y(value)) + 0.5;
       this.rule(context, theme.grid, [LEFT, y], [width - RIGHT, y]);
-      context.fillText(panel.logarithmic ? power(value) : String(value).replace("-", "−"), LEFT - 6, y);
+      context.fillText(panel.logarithmic ? powerOfTen(value) : String(value).replace("-", "−"), LEFT - 6, y);
     }
     context.textAlign = "center";
     context.textBaseline = "top";
-    const times = steps(recording.begin, recording.end, Math.min(6, width / 70)).values;
+    const times = roundSteps(recording.begin, recording.end, Math.min(6, width / 70)).values;
     const last = times.at(-1);
     for (const time of times) {
       const x = Math.round(this.x(time)) + 0.5;
@@ -180,11 +160,4 @@ class Plot {
     }
     context.stroke();
   }
-}
-
-// A power of ten with its exponent raised.
-function power(value) {
-  const exponent = Math.round(Math.log10(value));
-  const raised = String(Math.abs(exponent)).replace(/./g, (digit) => "⁰¹²³⁴⁵⁶⁷⁸⁹"[digit]);
-  return exponent === 0 ? "1" : exponent === 1 ? "10" : `10${exponent < 0 ? "⁻" : ""}${raised}`;
 }

@@ -1,50 +1,45 @@
-// What was recorded: frames as typed arrays, and the state of the scene at any time between them.
+// A recording: frames in the order of their times, and the scene at any time between them.
+//
+// A frame is { time, drumAngle, positions, angles, speeds }: seconds, radians, and arrays with an entry for each bundle
+// (two for positions: x and y [m]; angles [rad]; speeds [m/s]). A panel is what plot.js draws: { title, unit, range,
+// logarithmic, times, lines: [{ name, color, values }] }.
 
-// Typed arrays follow the machine's byte order, which is little-endian wherever a browser runs.
-function decode(base64, Kind) {
-  const text = atob(base64);
-  const bytes = new Uint8Array(text.length);
-  for (let k = 0; k < text.length; k++) bytes[k] = text.charCodeAt(k);
-  return new Kind(bytes.buffer);
-}
-
-const FULL = 65535;
-const TURN = 65536;
-
-class Recording {
-  constructor(data) {
-    this.title = data.title;
-    this.times = decode(data.times, Float64Array);
-    this.drumAngles = decode(data.drum_angles, Float64Array);
-    this.radii = decode(data.radii, Float32Array);
-    this.positions = decode(data.positions, Uint16Array);
-    this.angles = decode(data.angles, Uint16Array);
-    this.speeds = decode(data.speeds, Uint16Array);
-    this.reach = data.reach;
-    this.fastest = data.fastest;
-    this.speedScale = data.speed_scale;
-    this.drumRadius = data.drum_radius;
-    this.baffles = data.baffles;
-    this.walls = data.walls;
-    this.window = data.window;
-    this.panels = data.panels.map((panel) => ({
-      ...panel,
-      times: decode(panel.times, Float32Array),
-      lines: panel.lines.map((line) => ({ ...line, values: decode(line.values, Float32Array) })),
-    }));
-    this.frames = this.times.length;
-    this.count = this.radii.length;
-    this.begin = this.times[0];
-    this.end = this.times[this.frames - 1];
+export class Recording extends EventTarget {
+  // `reach` is half the width [m] of a square about the axis that holds everything; `window` is the interval of the
+  // averages [s] or null; `speedScale` is the speed [m/s] at the end of the color scale; there is at least one frame.
+  constructor({ title = "", radii, drumRadius, reach, baffles = [], walls = [], window = null, speedScale = 1, panels = [], frames }) {
+    super();
+    Object.assign(this, { title, radii, drumRadius, reach, baffles, walls, window, speedScale, panels, frames });
   }
 
-  // The last frame that is not later than a time.
+  get count() {
+    return this.radii.length;
+  }
+
+  get begin() {
+    return this.frames[0].time;
+  }
+
+  get end() {
+    return this.frames.at(-1).time;
+  }
+
+  // Add later frames while a run goes on; panels and scale, where given, take the place of the present ones. A panel
+  // keeps its lines, with more points. Whoever shows this recording hears of it by the event "change".
+  extend({ frames = [], panels = [], speedScale = this.speedScale }) {
+    this.frames.push(...frames);
+    panels.forEach((panel, k) => Object.assign(this.panels[k], panel));
+    this.speedScale = speedScale;
+    this.dispatchEvent(new Event("change"));
+  }
+
+  // The index of the last frame that is not later than a time.
   frameAt(time) {
     let low = 0;
-    let high = this.frames - 1;
+    let high = this.frames.length - 1;
     while (low < high) {
       const middle = (low + high + 1) >> 1;
-      if (this.times[middle] <= time) low = middle;
+      if (this.frames[middle].time <= time) low = middle;
       else high = middle - 1;
     }
     return low;
@@ -52,56 +47,81 @@ class Recording {
 
   nearest(time) {
     const frame = this.frameAt(time);
-    const later = Math.min(frame + 1, this.frames - 1);
-    return time - this.times[frame] <= this.times[later] - time ? frame : later;
+    const later = Math.min(frame + 1, this.frames.length - 1);
+    return time - this.frames[frame].time <= this.frames[later].time - time ? frame : later;
   }
 
-  // Two frames and how far a time lies from the first towards the second.
-  between(time) {
-    const frame = this.frameAt(time);
-    const next = Math.min(frame + 1, this.frames - 1);
-    const span = this.times[next] - this.times[frame];
-    return { frame, next, share: span > 0 ? Math.min(Math.max((time - this.times[frame]) / span, 0), 1) : 0 };
+  position(frame, bundle) {
+    const { positions } = this.frames[frame];
+    return [positions[2 * bundle], positions[2 * bundle + 1]];
   }
 
-  drumAngle({ frame, next, share }) {
-    return mix(this.drumAngles[frame], this.drumAngles[next], share);
-  }
-
-  // Angular velocity of the drum about a time [rad/s].
-  spin({ frame }) {
-    const first = Math.max(Math.min(frame, this.frames - 2), 0);
-    const last = Math.min(first + 1, this.frames - 1);
-    const span = this.times[last] - this.times[first];
-    return span > 0 ? (this.drumAngles[last] - this.drumAngles[first]) / span : 0;
-  }
-
-  coordinate(frame, bundle, axis) {
-    return ((2 * this.positions[2 * (frame * this.count + bundle) + axis]) / FULL - 1) * this.reach;
-  }
-
-  // Between two frames a bundle is drawn on the straight line from one recorded place to the next, and turned the
-  // shorter way round. On a frame the picture is what was computed; between two it is off by at most a (Δt)²/8 for
-  // an acceleration a: a millimeter or two at 25 frames a second.
-  bundle({ frame, next, share }, bundle) {
-    const here = frame * this.count + bundle;
-    const there = next * this.count + bundle;
-    const turned = ((this.angles[there] - this.angles[here] + 1.5 * TURN) % TURN) - 0.5 * TURN;
-    return {
-      x: mix(this.coordinate(frame, bundle, 0), this.coordinate(next, bundle, 0), share),
-      y: mix(this.coordinate(frame, bundle, 1), this.coordinate(next, bundle, 1), share),
-      angle: ((this.angles[here] + share * turned) / TURN) * 2 * Math.PI,
-      speed: (mix(this.speeds[here], this.speeds[there], share) / FULL) * this.fastest,
-    };
-  }
-
+  // The scene at a time: { time, drumAngle, spin, bundles: [{ x, y, angle, speed }] }, spin being that of the drum.
+  //
+  // Between two frames a bundle is on the straight line from one recorded place to the next, and turns the shorter way
+  // round. On a frame the picture is what was computed; between two it is off by at most a (Δt)²/8 for an acceleration
+  // a: a millimeter or two at 25 frames a second.
   scene(time) {
-    const moment = this.between(time);
-    const bundles = Array.from({ length: this.count }, (_, k) => this.bundle(moment, k));
-    return { time, bundles, drumAngle: this.drumAngle(moment), spin: this.spin(moment) };
+    const index = this.frameAt(time);
+    const from = this.frames[index];
+    const to = this.frames[Math.min(index + 1, this.frames.length - 1)];
+    const span = to.time - from.time;
+    const share = span > 0 ? Math.min(Math.max((time - from.time) / span, 0), 1) : 0;
+    const bundles = Array.from(this.radii, (_, k) => ({
+      x: mix(from.positions[2 * k], to.positions[2 * k], share),
+      y: mix(from.positions[2 * k + 1], to.positions[2 * k + 1], share),
+      angle: from.angles[k] + share * shorterWay(to.angles[k] - from.angles[k]),
+      speed: mix(from.speeds[k], to.speeds[k], share),
+    }));
+    return { time, bundles, drumAngle: mix(from.drumAngle, to.drumAngle, share), spin: this.spin(index) };
+  }
+
+  // Angular velocity of the drum [rad/s] after a frame, or before the last one.
+  spin(index) {
+    const first = Math.max(Math.min(index, this.frames.length - 2), 0);
+    const [from, to] = [this.frames[first], this.frames[Math.min(first + 1, this.frames.length - 1)]];
+    return to.time > from.time ? (to.drumAngle - from.drumAngle) / (to.time - from.time) : 0;
   }
 }
 
-function mix(from, to, share) {
+const FULL = 65535;
+const TURN = 65536;
+
+// Return the recording that recording.py has packed: base64 of little-endian arrays, those of frames one after another.
+export function unpack(data) {
+  const radii = decode(data.radii, Float32Array);
+  const count = radii.length;
+  const scaled = (packed, scale) => Float32Array.from(decode(packed, Uint16Array), scale);
+  const drumAngles = decode(data.drum_angles, Float64Array);
+  const positions = scaled(data.positions, (value) => ((2 * value) / FULL - 1) * data.reach);
+  const angles = scaled(data.angles, (value) => (value / TURN) * 2 * Math.PI);
+  const speeds = scaled(data.speeds, (value) => (value / FULL) * data.fastest);
+  const frames = Array.from(decode(data.times, Float64Array), (time, k) => ({
+    time,
+    drumAngle: drumAngles[k],
+    positions: positions.subarray(2 * k * count, 2 * (k + 1) * count),
+    angles: angles.subarray(k * count, (k + 1) * count),
+    speeds: speeds.subarray(k * count, (k + 1) * count),
+  }));
+  const panels = data.panels.map((panel) => ({
+    ...panel,
+    times: decode(panel.times, Float32Array),
+    lines: panel.lines.map((line) => ({ ...line, values: decode(line.values, Float32Array) })),
+  }));
+  const { title, reach, baffles, walls, window, drum_radius: drumRadius, speed_scale: speedScale } = data;
+  return new Recording({ title, radii, drumRadius, reach, baffles, walls, window, speedScale, panels, frames });
+}
+
+// Typed arrays follow the machine's byte order, which is little-endian wherever a browser runs.
+function decode(base64, Kind) {
+  return new Kind(Uint8Array.from(atob(base64), (character) => character.charCodeAt(0)).buffer);
+}
+
+export function mix(from, to, share) {
   return from + share * (to - from);
+}
+
+// An angle's equal between −π and π.
+function shorterWay(angle) {
+  return angle - 2 * Math.PI * Math.round(angle / (2 * Math.PI));
 }

@@ -1,18 +1,19 @@
-"""Where a run's frames lie: a folder of a run, its frames.parquet, or a case of a sweep."""
+"""Reads a run for the player: its frames, and the series and configuration that lie beside them."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from drumrs.config import Config
 from drumrs.errors import ConfigError
+from drumrs.files import read_object
 from drumrs.frames import Frames
+from drumrs.result import UNSTABLE, ended_unstable
+from drumrs.viewer.folder import FRAMES, case_of, config_of, find
 from drumrs.viewer.page import Player
 from drumrs.viewer.recording import MOST_PLACES
 
 if TYPE_CHECKING:
     import polars as pl
 
-_FRAMES = "frames.parquet"
 _SERIES = "series.parquet"
 
 
@@ -22,46 +23,40 @@ def read(path: str | Path) -> Player:
     Parameters
     ----------
     path
-        Folder of a run, a ``frames.parquet``, or a case ``<id>.frames.parquet`` of a sweep.
+        Folder of a run, a ``frames.parquet``, or a case of a sweep: its ``<id>.frames.parquet``, or the sweep's folder
+        with the beginning of the id, ``sweep/3f2a``.
 
     Raises
     ------
     ConfigError
-        Where there are no frames, or a file is not what its name says.
+        Where there are no frames, or those of several runs, or a file is not what its name says.
     """
-    path = _frames_file(Path(path))
+    path = find(Path(path))
     frames = _read_frames(path)
-    series = _read_series(path.with_name(path.name.removesuffix(_FRAMES) + _SERIES))
-    config = _read_config(path)
+    series = _read_series(path.with_name(path.name.removesuffix(FRAMES) + _SERIES))
+    config = config_of(path)
     if config is None:
-        return Player(frames, series, title=_name(path))
-    return Player(frames, series, title=config.title, window=config.run.averaging_window)
+        return Player(frames, series, title=case_of(path) or path.absolute().parent.name)
+    return Player.of(config, frames, series, _how_it_ended(path))
 
 
-def default_page(path: str | Path) -> Path:
-    """Return where the page of `read` goes unless told otherwise: beside the frames.
+def default_page(frames: Path) -> Path:
+    """Return where the page of a file of frames goes unless told otherwise: beside it.
 
     Examples
     --------
+    >>> from pathlib import Path
     >>> from drumrs.viewer import default_page
-    >>> default_page("sweep/3f2a.frames.parquet").name
+    >>> default_page(Path("sweep/3f2a.frames.parquet")).name
     '3f2a.player.html'
     """
-    path = _frames_file(Path(path))
-    case, frames, _ = path.name.rpartition(_FRAMES)
-    return path.with_name(f"{case}player.html" if frames else f"{path.stem}.player.html")
-
-
-def _frames_file(path: Path) -> Path:
-    return path / _FRAMES if path.is_dir() else path
+    case, found, _ = frames.name.rpartition(FRAMES)
+    return frames.with_name(f"{case}player.html" if found else f"{frames.stem}.player.html")
 
 
 def _read_frames(path: Path) -> Frames:
     from polars.exceptions import PanicException, PolarsError
 
-    if not path.is_file():
-        problem = "is not there, but must be the frames.parquet of a run, or its folder"
-        raise ConfigError(Path(path), problem=problem)
     try:
         return Frames.load(path, MOST_PLACES)
     except (PolarsError, PanicException, KeyError, ValueError, TypeError, OSError):
@@ -84,13 +79,7 @@ def _read_series(path: Path) -> "pl.DataFrame | None":
         ) from None
 
 
-def _read_config(path: Path) -> Config | None:
-    """Return the configuration beside the frames: config.toml in a run's folder, <id>.toml in a sweep's."""
-    stem = path.name.removesuffix(_FRAMES).rstrip(".")
-    file = path.with_name(f"{stem or 'config'}.toml")
-    return Config.read(file) if file.is_file() else None
-
-
-def _name(path: Path) -> str:
-    name = path.name.removesuffix(_FRAMES).rstrip(".")
-    return name or path.absolute().parent.name
+def _how_it_ended(path: Path) -> str:
+    """Return what is to be said of the end of a run: nothing where it went well."""
+    ended = read_object(path.with_name(UNSTABLE)) if path.name == FRAMES else None
+    return ended_unstable(ended["time"]) if ended is not None and "time" in ended else ""

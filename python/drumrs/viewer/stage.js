@@ -1,4 +1,13 @@
-// The drum and its load on a canvas.
+// The drum and its load on a canvas of its own; several may show one recording.
+//
+//   const stage = new Stage(canvas, recording, readTheme(element));
+//   stage.draw(recording.scene(time), coloring.shades(scene));
+//
+// Set `marks` (a radius on each bundle), `corotating` (seen from the drum, which stands still) and `selected` (number of
+// a bundle, or null) at will; the next drawing follows them.
+
+import { prepare } from "./canvas.js";
+import { roundSteps } from "./format.js";
 
 // Half the picture's width over the drum's radius: there is room for the arrow outside of the rim.
 const MARGIN = 1.13;
@@ -6,34 +15,21 @@ const ARROW = 1.075;
 const TICKS = 24;
 const TRAIL = 1; // seconds
 
-// Match a canvas to its size on the screen, in the screen's own dots, and return a context in CSS pixels.
-function prepare(canvas) {
-  const dots = window.devicePixelRatio || 1;
-  const width = Math.max(1, canvas.clientWidth);
-  const height = Math.max(1, canvas.clientHeight);
-  const [across, down] = [Math.round(width * dots), Math.round(height * dots)];
-  if (canvas.width !== across || canvas.height !== down) [canvas.width, canvas.height] = [across, down];
-  const context = canvas.getContext("2d");
-  context.setTransform(across / width, 0, 0, down / height, 0, 0);
-  context.clearRect(0, 0, width, height);
-  return { context, width, height };
-}
-
-class Stage {
+export class Stage {
   constructor(canvas, recording, theme) {
     this.canvas = canvas;
     this.recording = recording;
     this.theme = theme;
     this.marks = true;
-    this.riding = false;
+    this.corotating = false;
     this.selected = null;
   }
 
-  // From meters to pixels: y points up, and the picture turns with the drum where one rides with it.
+  // From meters to pixels: y points up, and a picture seen from the drum is turned back by its angle.
   frame(scene) {
     const { width, height } = this;
     const unit = Math.min(width, height) / (2 * MARGIN * this.recording.reach);
-    return { unit, x: width / 2, y: height / 2, turn: this.riding ? -scene.drumAngle : 0 };
+    return { unit, x: width / 2, y: height / 2, turn: this.corotating ? -scene.drumAngle : 0 };
   }
 
   draw(scene, shades) {
@@ -131,16 +127,17 @@ class Stage {
     }
   }
 
-  // The chosen bundle's ring, and its path over the last second as seen from where one looks.
+  // The chosen bundle's ring, and its path over the last second in the frame that is shown.
   drawSelected(scene) {
     const { context, recording, pixel, theme, selected } = this;
     const here = scene.bundles[selected];
     context.beginPath();
     context.moveTo(here.x, here.y);
     for (let frame = recording.frameAt(scene.time); frame >= 0; frame--) {
-      if (recording.times[frame] < scene.time - TRAIL) break;
-      const point = [0, 1].map((axis) => recording.coordinate(frame, selected, axis));
-      const back = this.riding ? scene.drumAngle - recording.drumAngles[frame] : 0;
+      const { time, drumAngle } = recording.frames[frame];
+      if (time < scene.time - TRAIL) break;
+      const point = recording.position(frame, selected);
+      const back = this.corotating ? scene.drumAngle - drumAngle : 0;
       const [sine, cosine] = [Math.sin(back), Math.cos(back)];
       context.lineTo(cosine * point[0] - sine * point[1], sine * point[0] + cosine * point[1]);
     }
@@ -179,7 +176,7 @@ class Stage {
   // A bar of a round length, so that sizes can be read off.
   drawScale(unit) {
     const { context, theme, height } = this;
-    const length = steps(0, 0.5 * this.recording.reach, 1).step;
+    const length = roundSteps(0, 0.5 * this.recording.reach, 1).step;
     const label = length < 1 ? `${Number((1000 * length).toPrecision(3))} mm` : `${length} m`;
     context.strokeStyle = context.fillStyle = theme.muted;
     context.lineWidth = 1.5;

@@ -7,8 +7,7 @@ import pytest
 
 import drumrs
 from drumrs.errors import ConfigError
-from drumrs.precision import Goal, _next_end, pursue
-from drumrs.progress import Board
+from drumrs.precision import Goal, _next_end, run_until_precise
 
 SHORT = ["--set", "load.count=20", "--set", "run.duration=0.2", "--set", "run.window=[0.1, 0.2]"]
 
@@ -91,7 +90,7 @@ def test_a_load_without_power_ends_at_the_limit():
     config = drumrs.baseline(fill=0.05).replace(
         {"run.duration": 0.2, "rotation.rpm": 0.0, "run.sample_every": 0.04, "run.window": [0.1, 0.2]}
     )
-    told = pursue(drumrs.Simulation(config), Goal(0.5, 0.3), Board())
+    told = run_until_precise(drumrs.Simulation(config), Goal(0.5, 0.3), progress=False)
     assert "the limit of 0.3 s is reached" in told
     assert "not known" in told
 

@@ -88,10 +88,10 @@ def test_figures_are_drawn_and_those_that_cannot_be_say_why(written, text):
         }
         assert files == {bool(one.address)}
         assert one.figure.title in text
-    missing = [one for one in drawn if one.missing]
+    missing = [one for one in drawn if one.reason]
     assert [one.figure.number for one in missing] == ["F3"]
-    assert f"Missing: {missing[0].missing}." in text
-    assert "75 % fill with baffles" in missing[0].missing
+    assert missing[0].reason in text
+    assert "75 % fill with baffles" in missing[0].reason
 
 
 def test_the_smaller_of_two_pictures_is_embedded(tmp_path):
@@ -240,7 +240,7 @@ def test_a_browser_shows_pictures_and_plays(opened):
     assert players.count() == 2
     # Style of the page must not reach into the player, nor be taken from it.
     assert opened.evaluate("getComputedStyle(document.body).fontFamily").startswith("system-ui")
-    players.nth(1).locator(".on").click()
+    players.nth(1).locator(".forward").click()
     assert players.nth(1).locator(".time").inner_text() == "0.24 s"
     assert players.nth(0).locator(".time").inner_text() == "0.20 s"
 

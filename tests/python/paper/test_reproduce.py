@@ -14,7 +14,7 @@ from small_study import SMALL
 TINY = replace(
     SMALL, duration=0.2, window=(0.1, 0.2), fills=(0.05,), fills_with_baffles=(0.05,), frictions=(0.0, 0.5)
 )
-FILES = {"report.html", "summary.md", "table.parquet", "figures", "runs"}
+FILES = {"drumrs-reproduction.json", "report.html", "summary.md", "table.parquet", "figures", "runs"}
 
 
 @pytest.fixture
@@ -29,12 +29,12 @@ def test_one_command_does_it_all_and_goes_on(drum, tmp_path):
     count = len(paper.cases("quick"))
     status, printed, told = drum("reproduce", "--quick", "--out", out, "--jobs", "1")
     assert status == 0
-    assert re.search(rf"quick study: {count} cases, \S+ particle-steps to do, about \d+ s on 1 core ", told)
+    assert re.search(rf"quick study: {count} cases, \S+ particle-steps to do, about \d+ s on 1 core\n", told)
     assert {path.name for path in out.iterdir()} == FILES
     assert re.findall(r"^ ?(C\d+) +(?:holds|does not hold|undecided) ", printed, re.MULTILINE) == [
         f"C{k}" for k in range(1, 15)
     ]
-    assert "not drawn: F3, for want of runs at 50 % fill with baffles" in printed
+    assert "F3 is not drawn. Missing: runs at 50 % fill with baffles" in printed
     assert printed.endswith(f"wrote {out / 'report.html'}\n")
     table, report = (out / "table.parquet").read_bytes(), (out / "report.html").read_text(encoding="utf-8")
     assert pl.read_parquet(out / "table.parquet").height == count
@@ -45,7 +45,7 @@ def test_one_command_does_it_all_and_goes_on(drum, tmp_path):
     verdicts = paper.judge(pl.read_parquet(out / "table.parquet"))
     assert all(f"{one.statement} **{one.verdict.capitalize()}.**" in summary for one in verdicts)
     assert all(part.sentence in summary for one in verdicts for part in one.parts)
-    assert "F3, Snapshots with baffles: not drawn, for want of runs at 50 % fill" in summary
+    assert "F3, Snapshots with baffles: not drawn. Missing: runs at 50 % fill" in summary
     shown = re.findall(r"\((figures/\S+)\)", summary)
     assert shown
     assert all((out / path).is_file() for path in shown)

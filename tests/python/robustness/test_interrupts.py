@@ -50,10 +50,10 @@ CALLS = {
         ["run", *UNTIL, "--out", "out"],
         r"interrupted at t = \d+\.\d+ s; go on with: drumrs run --resume out --until 0.0001 --limit 900",
     ),
-    "baseline": ("drumrs.protocol.finish", "", ["baseline", *LONG], "interrupted"),
+    "baseline": ("drumrs.runs.advance_to_end", "", ["baseline", *LONG], "interrupted"),
     "verification": ("drumrs.verification.runner._run", "", ["verify", *DEAR], "interrupted"),
     "study": (
-        "drumrs.sweep.engine._hand_out",
+        "drumrs.sweep.scheduler._schedule",
         "",
         ["reproduce", "--quick"],
         "interrupted; 0 cases are finished and kept, and the same sweep goes on with the others",
@@ -111,9 +111,9 @@ def test_ctrl_c_within_an_import_is_no_traceback(drum, tmp_path, monkeypatch):
     def missing() -> None:
         raise ImportError("no such module")
 
-    monkeypatch.setattr("drumrs.protocol.board", lambda **_: torn())
+    monkeypatch.setattr("drumrs.runs.Task", lambda *_, **__: torn())
     assert drum("baseline", "--out", tmp_path) == (130, "", "drumrs: interrupted\n")
-    monkeypatch.setattr("drumrs.protocol.board", lambda **_: missing())
+    monkeypatch.setattr("drumrs.runs.Task", lambda *_, **__: missing())
     with pytest.raises(ImportError):
         drum("baseline", "--out", tmp_path)
 
@@ -124,7 +124,7 @@ if __name__ == "__main__":
     base = drumrs.baseline(fill=0.05).replace({"run.frame_every": 1000.0})
     sweep = drumrs.Sweep(base, {"run.duration": [0.05, 500.0]})
     try:
-        sweep.run("out", executor="processes", jobs=2)
+        sweep.run("out", executor="processes", jobs=2, progress=False)
     except KeyboardInterrupt as interrupt:
         print(interrupt)
 """

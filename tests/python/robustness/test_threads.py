@@ -53,7 +53,7 @@ def test_a_running_simulation_is_not_run_by_a_second_thread(short):
 def test_a_callback_does_not_run_its_own_simulation(short):
     simulation = drumrs.Simulation(short)
     with pytest.raises(DrumrsError, match="is being run already"):
-        simulation.run(steps=100, progress=lambda _: simulation.run(steps=1))
+        simulation.run(steps=100, on_progress=lambda _: simulation.run(steps=1))
     simulation.run(steps=1)
 
 

@@ -9,8 +9,8 @@ import pytest
 
 import drumrs
 from drumrs.errors import ConfigError
-from drumrs.sweep import Case, read_study
-from drumrs.sweep.engine import shard_of
+from drumrs.sweep import Case, read_sweep
+from drumrs.sweep.scheduler import shard_of
 
 BASE = drumrs.baseline()
 
@@ -132,7 +132,7 @@ def test_shards_share_out_the_long_cases():
     assert [[case.config.load.fill for case in part] for part in parts] == [[0.5, 0.3, 0.1], [0.4, 0.2]]
 
 
-STUDY = """
+SWEEP = """
 seeds = 2
 [base]
 run.duration = 2.0
@@ -143,30 +143,30 @@ load.fill = [0.1, 0.2]
 """
 
 
-def test_study_file(tmp_path):
-    path = tmp_path / "study.toml"
-    path.write_text(STUDY)
-    sweep = read_study(path)
+def test_sweep_file(tmp_path):
+    path = tmp_path / "sweep.toml"
+    path.write_text(SWEEP)
+    sweep = read_sweep(path)
     assert values(sweep, "fill", "seed") == [(0.1, 0), (0.1, 1), (0.2, 0), (0.2, 1)]
     assert {case.config.load.diameter for case in sweep.cases} == {0.02}
     assert {case.config.contact.drum.friction for case in sweep.cases} == {0.3}
-    assert len(read_study(path, seeds=3)) == 6
+    assert len(read_sweep(path, seeds=3)) == 6
 
 
 def test_the_study_of_the_readme_is_one(tmp_path):
     readme = (Path(__file__).parents[3] / "README.md").read_text(encoding="utf-8")
     (study,) = re.findall(r"```toml\n(.*?)```", readme, re.DOTALL)
-    path = tmp_path / "study.toml"
+    path = tmp_path / "sweep.toml"
     path.write_text(study)
-    assert len(read_study(path)) == 18
+    assert len(read_sweep(path)) == 18
 
 
 @pytest.mark.parametrize(
     ("text", "sentence"),
     [
-        ("axis = 1", "axis is not a key of a study file; did you mean axes?"),
-        ("[load]\nfill = [0.1]", "load is not a key of a study file; did you mean base.load or axes.load?"),
-        ("zzz = 1", "zzz is not a key of a study file; the keys there are base, axes, seeds"),
+        ("axis = 1", "axis is not a key of a sweep file; did you mean axes?"),
+        ("[load]\nfill = [0.1]", "load is not a key of a sweep file; did you mean base.load or axes.load?"),
+        ("zzz = 1", "zzz is not a key of a sweep file; the keys there are base, axes, seeds"),
         ("base = 3", "base is 3, but must be a table"),
         ("[axes]", "axes is empty"),
         ("[axes.load]\nfil = [1]", "load.fil is not a key; did you mean load.fill?"),
@@ -176,8 +176,8 @@ def test_the_study_of_the_readme_is_one(tmp_path):
         ("seeds = [", "not valid TOML"),
     ],
 )
-def test_bad_study_file(drum, tmp_path, text, sentence):
-    path, out = tmp_path / "study.toml", tmp_path / "out"
+def test_bad_sweep_file(drum, tmp_path, text, sentence):
+    path, out = tmp_path / "sweep.toml", tmp_path / "out"
     path.write_text(text)
     status, printed, complaint = drum("sweep", path, "--out", out)
     assert (status, printed) == (2, "")
@@ -198,8 +198,8 @@ def test_bad_study_file(drum, tmp_path, text, sentence):
     ],
 )
 def test_bad_words(drum, tmp_path, words, sentence):
-    path, out = tmp_path / "study.toml", tmp_path / "out"
-    path.write_text(STUDY)
+    path, out = tmp_path / "sweep.toml", tmp_path / "out"
+    path.write_text(SWEEP)
     status, printed, complaint = drum("sweep", path, "--out", out, *words)
     assert (status, printed) == (2, "")
     assert sentence in complaint

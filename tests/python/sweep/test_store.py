@@ -238,9 +238,9 @@ def test_a_newer_folder_is_refused(copy, drum, mark):
     for use in (lambda: sweep.run(folder, progress=False), lambda: sweep.table(folder)):
         with pytest.raises(ConfigError, match="a newer drumrs made it"):
             use()
-    study = folder.parent / "study.toml"
-    study.write_text("seeds = 1")
-    status, _, complaint = drum("sweep", study, "--out", folder)
+    path = folder.parent / "sweep.toml"
+    path.write_text("seeds = 1")
+    status, _, complaint = drum("sweep", path, "--out", folder)
     assert (status, complaint.count("\n")) == (2, 1)
     assert {path.name: path.read_bytes() for path in folder.iterdir()} == before
 

@@ -2,13 +2,15 @@
 
 import base64
 import io
+import json
 import math
 
 import numpy as np
 import pytest
 
 from drumrs.frames import Frames
-from drumrs.viewer import Player, assets
+from drumrs.viewer import Player, module, script
+from drumrs.viewer.recording import recording
 from synthetic import series_of
 
 RADIUS = 0.2
@@ -54,14 +56,16 @@ class Shown:
 
     @property
     def time(self) -> float:
-        return self.page.evaluate("document.querySelector('drumrs-player').time")
+        return self.page.evaluate("document.querySelector('drumrs-player').player.time")
 
     def press(self, *keys):
         for key in keys:
             self.page.keyboard.press(key)
 
     def wait(self, condition):
-        self.page.wait_for_function(f"(player => {condition})(document.querySelector('drumrs-player'))")
+        self.page.wait_for_function(
+            f"(player => {condition})(document.querySelector('drumrs-player').player)"
+        )
 
     def color(self, x, y) -> tuple[int, int, int]:
         """Return the color of the drum's picture at a place in meters."""
@@ -140,23 +144,23 @@ def test_time_passes_as_fast_as_chosen(show):
     clock = shown.page.clock
     clock.install(time=0)
     clock.pause_at(1000)
-    start = """pace => {
-      const player = document.querySelector("drumrs-player");
-      player.shadowRoot.querySelector(".pace").value = pace;
+    start = """rate => {
+      const { player } = document.querySelector("drumrs-player");
+      player.rate = rate;
       player.seek(0);
       player.play();
     }"""
-    for pace in (0.1, 1, 4):
-        shown.page.evaluate(start, str(pace))
+    for rate in (0.1, 1, 4):
+        shown.page.evaluate(start, rate)
         clock.run_for(32)
-        first = shown.page.evaluate('document.querySelector("drumrs-player").time')
+        first = shown.page.evaluate('document.querySelector("drumrs-player").player.time')
         clock.run_for(160)
-        last = shown.page.evaluate('document.querySelector("drumrs-player").time')
-        assert (last - first) / 0.160 == pytest.approx(pace, rel=0.02)
+        last = shown.page.evaluate('document.querySelector("drumrs-player").player.time')
+        assert (last - first) / 0.160 == pytest.approx(rate, rel=0.02)
 
 
 def test_it_starts_where_told(show):
-    shown = show(f"<!doctype html>{Player(scene()).element(start=1.01)}{assets()}")
+    shown = show(f"<!doctype html>{Player(scene()).element(start=1.01)}{script()}")
     assert shown.time == pytest.approx(1.0)
     assert shown.part("time").inner_text() == "1.00 s"
 
@@ -167,7 +171,7 @@ def test_it_stops_at_the_end_and_starts_anew(show):
     assert shown.time == 3.0
     shown.part("play").click()
     shown.wait("player.time > 0.1 && player.time < 2.5")
-    shown.page.evaluate("document.querySelector('drumrs-player').seek(2.95)")
+    shown.page.evaluate("document.querySelector('drumrs-player').player.seek(2.95)")
     shown.wait("player.time === 3 && !player.playing")
 
 
@@ -182,9 +186,9 @@ def test_scrubbing_shows_the_frame(show):
 
 def test_stepping_lands_on_frames(show):
     shown = show()
-    shown.part("on").click()
+    shown.part("forward").click()
     assert shown.time == pytest.approx(0.04)
-    shown.page.evaluate("document.querySelector('drumrs-player').seek(0.05)")
+    shown.page.evaluate("document.querySelector('drumrs-player').player.seek(0.05)")
     shown.part("back").click()
     assert shown.time == pytest.approx(0.04)
     shown.part("back").click()
@@ -199,9 +203,9 @@ def test_keys_do_what_they_say(show):
     shown.press("Home")
     assert shown.time == 0.0
     shown.press("+", "+")
-    assert shown.part("pace").input_value() == "4"
+    assert shown.part("rate").input_value() == "4"
     shown.press("-", "-", "-", "-", "-", "-", "-")
-    assert shown.part("pace").input_value() == "0.1"
+    assert shown.part("rate").input_value() == "0.1"
     shown.press(" ")
     shown.wait("player.playing")
     shown.press(" ")
@@ -210,10 +214,10 @@ def test_keys_do_what_they_say(show):
 
 def test_space_on_a_button_presses_the_button_only(show):
     shown = show()
-    shown.part("on").focus()
+    shown.part("forward").focus()
     shown.press(" ")
     assert shown.time == pytest.approx(0.04)
-    assert not shown.page.evaluate("document.querySelector('drumrs-player').playing")
+    assert not shown.page.evaluate("document.querySelector('drumrs-player').player.playing")
     shown.part("play").focus()
     shown.press(" ")
     shown.wait("player.playing")
@@ -235,7 +239,7 @@ def test_colors_say_what_is_chosen(show):
     assert seen["distance"] == [last, last, first]
     assert seen["size"][0] == first
     assert seen["size"][2] == last
-    assert shown.part("what").inner_text() == "Speed [m/s]"
+    assert shown.part("quantity").inner_text() == "Speed [m/s]"
 
 
 def test_a_mark_keeps_colors_while_bundles_move(show):
@@ -243,7 +247,7 @@ def test_a_mark_keeps_colors_while_bundles_move(show):
     shown.part("marks").uncheck()
     shown.part("scrub").fill("39")
     shown.part("mark").click()
-    assert shown.part("what").inner_text() == "Height at the mark, t = 1.56 s [mm]"
+    assert shown.part("quantity").inner_text() == "Height at the marked time, t = 1.56 s [mm]"
     shown.press("End")
     # Above both others when it was marked, wherever it is now.
     assert shown.color(0.1 * math.cos(6.0), 0.1 * math.sin(6.0)) == (253, 231, 37)
@@ -257,7 +261,7 @@ def test_spin_marks_and_the_drum_s_frame(show):
     assert shown.pixels() != marked
     shown.press("End")
     baffle = shown.color(0.175 * math.cos(6.0), 0.175 * math.sin(6.0))
-    shown.part("ride").check()
+    shown.part("corotating").check()
     assert shown.color(0.175, 0.0) == baffle
 
 
@@ -272,7 +276,7 @@ def test_a_chosen_bundle_is_followed(show):
     shown.press("Escape", "n")
     assert shown.part("bundle").inner_text() == "Bundle 0: 0.00 m/s, 150 mm from the axis"
     shown.press("Escape")
-    assert shown.part("bundle").inner_text() == "Choose a bundle to follow its path."
+    assert shown.part("bundle").inner_text() == "Click a bundle to follow its path."
 
 
 def test_the_plot_follows_and_can_be_clicked(show):
@@ -321,30 +325,102 @@ def test_it_fits_a_phone(show, with_series):
     # Sharp: a dot of the canvas for every dot of the screen.
     wide = stage.bounding_box()["width"]
     shown.page.wait_for_function(
-        f"document.querySelector('drumrs-player').stage.canvas.width >= {3 * wide - 2}"
+        f"document.querySelector('drumrs-player').player.stage.canvas.width >= {3 * wide - 2}"
     )
 
 
 def test_players_on_one_page_do_not_know_of_each_other(show):
     players = [Player(scene(), title=title).element() for title in ("one", "two")]
     # The shared part may come before or after, and even twice.
-    shown = show(f"<!doctype html><meta charset=utf-8>{assets()}{''.join(players)}{assets()}")
+    shown = show(f"<!doctype html><meta charset=utf-8>{script()}{''.join(players)}{script()}")
     assert [shown.part("title", player).inner_text() for player in (0, 1)] == ["one", "two"]
     shown.press("ArrowRight")  # for neither, since nobody says for which
-    shown.part("on", 1).click()
-    times = "[...document.querySelectorAll('drumrs-player')].map(player => player.time)"
+    shown.part("forward", 1).click()
+    times = "[...document.querySelectorAll('drumrs-player')].map(element => element.player.time)"
     assert shown.page.evaluate(times) == pytest.approx([0.0, 0.04])
     shown.part("scrub", 0).focus()
     shown.press("End")
     assert shown.page.evaluate(times) == pytest.approx([3.0, 0.04])
-    ours = "['Recording', 'Stage', 'Plot', 'VIRIDIS', 'DrumPlayer', 'KEYS'].filter(name => name in window)"
+    ours = "['Recording', 'Stage', 'Plot', 'VIRIDIS', 'Player', 'KEYS'].filter(name => name in window)"
     assert shown.page.evaluate(ours) == []
+
+
+# A page as others write it: two players of one recording in elements of its own, and what they tell.
+EMBEDDED = """<!doctype html><meta charset=utf-8><div></div><div></div>
+<script type="application/json">{data}</script>
+<script type="module">
+{module}
+const recording = unpack(JSON.parse(document.querySelector("script").textContent));
+const show = (element) => new Player(element, recording, {{ start: 1 }});
+const [one, two] = [...document.querySelectorAll("div")].map(show);
+const told = [];
+for (const name of ["time", "select", "play", "pause"]) one.addEventListener(name, () => told.push(name));
+Object.assign(window, {{ recording, one, two, told }});
+</script>"""
+
+
+@pytest.fixture
+def embedded(show) -> Shown:
+    data = json.dumps(recording(scene(), series_of(7.0), "", None))
+    return show(EMBEDDED.format(data=data, module=module("player.js", "recording.js")))
+
+
+def test_players_in_elements_of_any_page(embedded):
+    ask = embedded.page.evaluate
+    elements = embedded.page.locator("div:not(div div)")
+    assert ask("[one.time, two.time]") == [1.0, 1.0]
+    elements.nth(0).locator(".forward").click()
+    elements.nth(0).locator(".stage").press("n")
+    assert ask("[one.time, two.time]") == pytest.approx([1.04, 1.0])
+    assert ask("[one.selected, two.selected]") == [0, None]
+    ask("one.play(); one.pause()")  # in one go, so that no frame is drawn between them
+    assert ask("told") == ["time", "select", "play", "pause"]
+    # Both draw the same at one time, each on canvases of its own.
+    ask("one.select(null); two.seek(one.time)")
+    pictures = [elements.nth(k).locator(".stage").evaluate("canvas => canvas.toDataURL()") for k in (0, 1)]
+    assert pictures[0] == pictures[1]
+
+
+def test_a_player_that_is_destroyed_leaves_nothing(embedded):
+    ask = embedded.page.evaluate
+    elements = embedded.page.locator("div:not(div div)")
+    ask("one.play(); one.destroy()")
+    assert ask("told") == ["play", "pause"]
+    assert elements.nth(0).inner_html() == ""
+    # It hears neither of the recording nor of the scheme of colors, while the other one does.
+    ask("one.draw = () => { throw new Error('drawn after its end'); }; recording.extend({})")
+    embedded.page.emulate_media(color_scheme="dark")
+    embedded.page.wait_for_timeout(50)
+    elements.nth(1).locator(".forward").click()
+    assert ask("two.time") == pytest.approx(1.04)
+
+
+def test_a_recording_grows_while_it_is_shown(embedded):
+    ask = embedded.page.evaluate
+    ask("""() => {
+      two.seek(recording.end);
+      const last = recording.frames.at(-1);
+      recording.extend({
+        frames: [0.5, 1].map((later) => ({ ...last, time: last.time + later, drumAngle: last.drumAngle + 2 * later })),
+        panels: [{ title: "Power", lines: recording.panels[0].lines }],
+        speedScale: 0.5,
+      });
+    }""")
+    # Who was at the end stays there; who was elsewhere, too.
+    assert ask("[one.time, two.time]") == [1.0, 4.0]
+    second = embedded.page.locator("div:not(div div)").nth(1)
+    assert second.locator(".scrub").get_attribute("aria-valuetext") == "4.00 of 4.00 seconds, frame 78 of 78"
+    assert second.locator(".turning").inner_text() == "19.1 rpm, 1.27 turns"
+    assert second.locator(".highest").inner_text() == "≥ 0.500"
+    second.locator(".stage").press("Home")
+    second.locator(".stage").press("End")
+    assert ask("two.time") == 4.0
 
 
 def test_a_notebook_frame_plays(show):
     shown = show(f"<!doctype html>{Player(scene())._repr_html_()}")
     inside = shown.page.frame_locator("iframe").locator("drumrs-player")
-    inside.locator(".on").click()
+    inside.locator(".forward").click()
     assert inside.locator(".time").inner_text() == "0.04 s"
 
 

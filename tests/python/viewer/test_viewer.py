@@ -156,9 +156,25 @@ def test_a_result_shows_itself(finished):
     assert len(data["baffles"]) == 3
 
 
+def test_titles_tell_what_was_simulated(tmp_path):
+    state = drumrs.State([[0.0, 0.0], [0.1, 0.0], [0.0, -0.1]], radii=[0.01, 0.02, 0.02])
+    config = drumrs.baseline().replace({"run.duration": 0.02})
+    simulation = drumrs.Simulation(config, state=state)
+    simulation.run()
+    result = simulation.result()
+    # 4 (0.01² + 0.02² + 0.02²)/0.475², where the configuration had 100 bundles and 25 %.
+    title = "3 bundles (1.6 % fill), no baffles, 54 rpm, seed 1"
+    assert drumrs.player(result).title == title
+    drumrs.save(result, tmp_path)
+    assert result.config.bundle_count == drumrs.Config.read(tmp_path / "config.toml").bundle_count == 3
+    assert drumrs.load(tmp_path).summary.bundle_count == 3
+    assert viewer.read(tmp_path).title == title
+    assert f"<title>{title}</title>" in (tmp_path / "player.html").read_text(encoding="utf-8")
+
+
 def test_view_writes_the_page_and_opens_it(finished, drum, monkeypatch):
     opened = []
-    monkeypatch.setattr("webbrowser.open", opened.append)
+    monkeypatch.setattr("webbrowser.open", lambda address: not opened.append(address))
     status, out, _ = drum("view", finished)
     page = finished / "player.html"
     assert (status, out) == (0, f"wrote {page}\n")
@@ -180,10 +196,96 @@ def test_view_reads_a_case_of_a_sweep(finished, drum, tmp_path):
     assert data["panels"][0]["title"] == "Speed of the bundles"
 
 
+@pytest.fixture(scope="module")
+def sweep(finished, tmp_path_factory):
+    """Return a folder with a sweep's folder of three cases that differ in fill and seed."""
+    folder = tmp_path_factory.mktemp("cases") / "study"
+    folder.mkdir()
+    for case, fill, seed in (("1a2b3c4d5e", 0.1, 0), ("1a9f3c4d5e", 0.1, 1), ("77003c4d5e", 0.2, 0)):
+        config = drumrs.baseline(fill).replace({"run.seed": seed})
+        (folder / f"{case}.toml").write_text(config.to_toml(), encoding="utf-8")
+        (folder / f"{case}.frames.parquet").write_bytes((finished / "frames.parquet").read_bytes())
+    return folder
+
+
+def test_view_lists_the_cases_of_a_sweep(sweep, drum):
+    status, out, err = drum("view", sweep, "--no-open")
+    assert (status, out) == (2, "")
+    assert err.splitlines() == [
+        f"drumrs: {str(sweep)!r} has 3 runs to view; choose one:",
+        f"  drumrs view {sweep}/1a2b3c4d  load.fill=0.1, run.seed=0",
+        f"  drumrs view {sweep}/1a9f3c4d  load.fill=0.1, run.seed=1",
+        f"  drumrs view {sweep}/77003c4d  load.fill=0.2, run.seed=0",
+    ]
+    # The folder above has nothing else.
+    assert drum("view", sweep.parent)[2].splitlines()[1:] == err.splitlines()[1:]
+
+
+@pytest.mark.parametrize(
+    ("words", "case"),
+    [
+        (["77"], "77003c4d5e"),
+        (["1a2b3c4d"], "1a2b3c4d5e"),
+        (["", "--case", "load.fill=.2"], "77003c4d5e"),
+        (["", "--case", "load.fill=0.1", "--case", "run.seed=1"], "1a9f3c4d5e"),
+        (["", "--case", "1a", "--case", "run.seed=1"], "1a9f3c4d5e"),
+    ],
+)
+def test_view_takes_a_case_by_id_or_values(words, case, sweep, drum):
+    start, *options = words
+    page = sweep / f"{case}.player.html"
+    assert drum("view", sweep / start, *options, "--no-open") == (0, f"wrote {page}\n", "")
+
+
+def test_view_says_which_cases_are_meant(sweep, drum):
+    status, _, err = drum("view", sweep / "1a", "--no-open")
+    assert status == 2
+    assert [line.split()[2][-8:] for line in err.splitlines()[1:]] == ["1a2b3c4d", "1a9f3c4d"]
+    status, _, err = drum("view", sweep, "--case", "load.fill=0.3")
+    assert (status, "has nothing to view with load.fill=0.3" in err) == (2, True)
+
+
+def test_view_finds_runs_in_folders(finished, drum, tmp_path):
+    (tmp_path / "one").mkdir()
+    for name in ("frames.parquet", "config.toml"):
+        (tmp_path / "one" / name).write_bytes((finished / name).read_bytes())
+    # The only one is meant.
+    assert drum("view", tmp_path, "--no-open")[1] == f"wrote {tmp_path / 'one' / 'player.html'}\n"
+    (tmp_path / "two").mkdir()
+    (tmp_path / "two" / "frames.parquet").write_bytes((finished / "frames.parquet").read_bytes())
+    assert drum("view", tmp_path)[2].count(f"  drumrs view {tmp_path}/") == 2
+
+
+@pytest.mark.parametrize(
+    ("there", "says"),
+    [
+        ("records/", "its run has not come to an end; go on with: drumrs run --resume"),
+        (
+            "3f2a.series.parquet",
+            "its cases keep no frames, as run.frame_every is not smaller than run.duration",
+        ),
+        ("notes.txt", "there is no frames.parquet in it, nor in its folders; it holds notes.txt"),
+    ],
+)
+def test_view_says_why_there_is_nothing(there, says, drum, tmp_path):
+    place = tmp_path / there
+    place.mkdir() if there.endswith("/") else place.touch()
+    status, _, err = drum("view", tmp_path)
+    assert status == 2
+    assert f"{str(tmp_path)!r} has nothing to view: {says}" in err
+
+
+def test_view_without_a_browser_says_where_the_page_is(finished, drum, monkeypatch):
+    monkeypatch.setattr("webbrowser.open", lambda _: False)
+    status, _, err = drum("view", finished)
+    assert status == 0
+    assert f"found no browser here; open {(finished / 'player.html').as_uri()} in one" in err
+
+
 @pytest.mark.parametrize(
     ("name", "content", "says"),
     [
-        ("missing.parquet", None, "is not there, but must be the frames.parquet of a run, or its folder"),
+        ("missing.parquet", None, "is not there, but must be the frames.parquet of a run, its folder, or"),
         ("text.parquet", b"no parquet at all", "holds no frames, but must be a file that drumrs wrote"),
         ("cut.parquet", "frames.parquet", "holds no frames, but must be a file that drumrs wrote"),
         ("foreign.parquet", "series.parquet", "holds no frames, but must be a file that drumrs wrote"),

@@ -1,8 +1,9 @@
 """Facts about a study: how much was computed and how long it took, and how to cite."""
 
-from drumrs.pages.provenance import format_duration, now
+from drumrs.pages.provenance import now
 from drumrs.paper.data import StudyData
 from drumrs.paper.report.table1 import scientific
+from drumrs.progress import format_duration
 
 # The citation, as in CITATION.cff.
 SOFTWARE = "drumrs: discrete-element simulation of loads tumbling in a rotating drum"

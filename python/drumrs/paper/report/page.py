@@ -15,7 +15,7 @@ from drumrs.paper.data import StudyData
 from drumrs.paper.figures import FIGURES
 from drumrs.paper.report import checks, facts, headline, pictures, table1
 from drumrs.paper.verdict import FAILS, HOLDS, UNDECIDED
-from drumrs.viewer import assets
+from drumrs.viewer import script
 
 if TYPE_CHECKING:
     from jinja2 import Template
@@ -77,7 +77,7 @@ def render(data: StudyData, drawn: list[pictures.Picture]) -> str:
         drawn={one.figure.number for one in drawn if one.address},
         names={number: _NAMES.get(number, f"Figure {number[1:]}") for number in FIGURES},
         players=shown,
-        player_assets=assets() if shown else "",
+        player_script=script() if shown else "",
         **_study(data),
         **_model(),
         **_checks(data),

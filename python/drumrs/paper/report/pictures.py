@@ -9,6 +9,7 @@ from drumrs.paper.cases import BASELINE_FILL
 from drumrs.paper.data import StudyData
 from drumrs.paper.figures import FIGURES, PaperFigure
 from drumrs.paper.verdict import MissingError
+from drumrs.pictures import attempt
 from drumrs.viewer import Player
 
 _KINDS = {".svg": "image/svg+xml", ".png": "image/png"}
@@ -24,13 +25,13 @@ class Picture:
         Its number, title and caption.
     address
         The picture itself as an address, empty where it could not be drawn.
-    missing
-        What it lacks to be drawn.
+    reason
+        Why it could not be drawn, in a sentence.
     """
 
     figure: PaperFigure
     address: str = ""
-    missing: str = ""
+    reason: str = ""
 
 
 def draw(data: StudyData, folder: Path) -> list[Picture]:
@@ -46,16 +47,18 @@ def draw(data: StudyData, folder: Path) -> list[Picture]:
 
 
 def _draw(figure: PaperFigure, data: StudyData, folder: Path) -> Picture:
-    from drumrs import figures
-
-    try:
-        drawn = figure.draw(data)
-    except MissingError as missing:
-        return Picture(figure, missing=str(missing))
     paths = [folder / f"{figure.number}{ending}" for ending in _KINDS]
-    for path in paths:
-        figures.write(drawn, path)
-    return Picture(figure, embedded(paths))
+    with attempt(f"figure {figure.number}") as made:
+        from drumrs import figures
+
+        try:
+            drawn = figure.draw(data)
+        except MissingError as missing:
+            return Picture(figure, reason=f"Missing: {missing}.")
+        for path in paths:
+            figures.write(drawn, path)
+        return Picture(figure, embedded(paths))
+    return Picture(figure, reason=f"{made.failure}.")
 
 
 def embedded(paths: Iterable[Path]) -> str:
@@ -73,6 +76,8 @@ def players(data: StudyData) -> list[Player]:
             case = data.cases(BASELINE_FILL, baffles=baffles)[0]
         except MissingError:
             continue
-        frames, series = data.sweep.frames(case, data.folder), data.sweep.series(case, data.folder)
-        found.append(Player(frames, series, title=case.config.title, window=case.config.run.averaging_window))
+        config = case.config
+        with attempt(f"the player of {config.title}"):
+            frames, series = data.sweep.frames(case, data.folder), data.sweep.series(case, data.folder)
+            found.append(Player.of(config, frames, series))
     return found

@@ -9,6 +9,7 @@ from drumrs.paper.data import StudyData
 from drumrs.paper.report import facts, headline
 from drumrs.paper.report.pictures import Picture
 from drumrs.paper.verdict import FAILS, HOLDS, UNDECIDED, Verdict
+from drumrs.progress import format_duration
 
 _MARKS = {HOLDS: "", FAILS: "**No.** ", UNDECIDED: "*Open.* "}
 
@@ -44,7 +45,7 @@ def _opening(data: StudyData) -> Iterator[str]:
     yield (
         f"Written by `drumrs reproduce`: {told['runs finished']} runs of {run.duration:g} s, averaged over "
         f"{run.averaging_window[0]:g}–{run.averaging_window[1]:g} s, {seeds} seed{'s' if seeds > 1 else ''} a case; "
-        f"{told['particle-steps']} particle-steps, which took {provenance.format_duration(spent / 2.0)} on two cores "
+        f"{told['particle-steps']} particle-steps, which took {format_duration(spent / 2.0)} on two cores "
         f"({told.get('speed of one run', 'speed not known')} each). drumrs {provenance.versions()['drumrs']}."
     )
     yield ""
@@ -87,8 +88,8 @@ def _figures(drawn: list[Picture]) -> Iterator[str]:
     for picture in drawn:
         figure = picture.figure
         yield ""
-        if picture.missing:
-            yield f"{figure.number}, {figure.title}: not drawn, for want of {picture.missing}."
+        if picture.reason:
+            yield f"{figure.number}, {figure.title}: not drawn. {picture.reason}"
             continue
         yield f"![{figure.title}](figures/{figure.number}.png)"
         yield ""

@@ -1,9 +1,7 @@
-"""`Crew`: who runs the cases: threads of this process, spawned processes, or an executor that was given."""
+"""`Workers`: who runs the cases: threads of this process, spawned processes, or an executor that was given."""
 
 import multiprocessing
-import os
 import signal
-import sys
 from collections.abc import Iterator
 from concurrent.futures import Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
 from contextlib import contextmanager, nullcontext
@@ -11,16 +9,16 @@ from dataclasses import dataclass
 from multiprocessing.synchronize import Event
 
 from drumrs.errors import ConfigError
+from drumrs.jobs import MOST_JOBS, job_count
 from drumrs.sweep.case import Case
-from drumrs.sweep.worker import Report, Running, obey, run_case
+from drumrs.sweep.worker import CaseOutcome, Running, run_case, stop_with
 
-_MOST_JOBS = 1024
 # Enough to keep a worker busy until the next case is handed out.
 _SPARE = 2
 
 
 @dataclass(frozen=True)
-class Crew:
+class Workers:
     """Workers, and how many cases may be in their hands at once.
 
     Attributes
@@ -40,7 +38,7 @@ class Crew:
     running: Running | None = None
     halt: Event | None = None
 
-    def submit(self, case: Case, folder: str) -> "Future[Report]":
+    def submit(self, case: Case, folder: str) -> "Future[CaseOutcome]":
         """Hand out a case.
 
         Raises
@@ -51,7 +49,7 @@ class Crew:
         arguments = (case.config.model_dump_json(), folder)
         extra = () if self.running is None else (self.running,)
         try:
-            with _deaf_children() if self.halt is not None else nullcontext():
+            with _children_without_interrupts() if self.halt is not None else nullcontext():
                 return self.executor.submit(run_case, *arguments, *extra)
         except Exception as error:  # noqa: BLE001 - every executor has a class of its own for it
             raise ConfigError("executor", problem=f"takes no work, but must be open: {error}") from None
@@ -69,7 +67,7 @@ class Crew:
 
 
 @contextmanager
-def _deaf_children() -> Iterator[None]:
+def _children_without_interrupts() -> Iterator[None]:
     """Hold Ctrl-C back for a moment: a process started meanwhile never hears it, not even while it imports."""
     if not hasattr(signal, "pthread_sigmask"):
         yield
@@ -81,16 +79,9 @@ def _deaf_children() -> Iterator[None]:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
-def usable_cores() -> int:
-    """Return the number of cores that this process may use."""
-    if sys.platform == "linux":
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1
-
-
 @contextmanager
-def crew(executor: Executor | str | None, jobs: int | None) -> Iterator[Crew]:
-    """Gather a crew, and send it home at the end unless it was given.
+def open_workers(executor: Executor | str | None, jobs: int | None) -> Iterator[Workers]:
+    """Open an executor, and shut it down at the end unless it was given.
 
     Parameters
     ----------
@@ -102,38 +93,23 @@ def crew(executor: Executor | str | None, jobs: int | None) -> Iterator[Crew]:
     Raises
     ------
     ConfigError
-        Where no crew can be had of these.
+        Where there is no such executor.
     """
-    check_jobs(jobs)
-    count = jobs or usable_cores()
+    count = job_count(jobs)
     if executor is None or executor == "threads":
         with ThreadPoolExecutor(count, thread_name_prefix="drumrs") as pool:
-            yield Crew(pool, count + _SPARE, Running())
+            yield Workers(pool, count + _SPARE, Running())
     elif executor == "processes":
         context = multiprocessing.get_context("spawn")
         halt = context.Event()
-        with ProcessPoolExecutor(count, context, obey, (halt,)) as processes:
-            yield Crew(processes, count + _SPARE, halt=halt)
+        with ProcessPoolExecutor(count, context, stop_with, (halt,)) as processes:
+            yield Workers(processes, count + _SPARE, halt=halt)
     elif isinstance(executor, Executor):
         _refuse_fork(executor)
         running = Running() if isinstance(executor, ThreadPoolExecutor) else None
-        yield Crew(executor, jobs or _MOST_JOBS, running)
+        yield Workers(executor, jobs or MOST_JOBS, running)
     else:
         raise ConfigError("executor", executor, "'threads', 'processes' or an Executor")
-
-
-def check_jobs(jobs: int | None) -> None:
-    """Refuse a number of jobs that is none.
-
-    Raises
-    ------
-    ConfigError
-        Where it is not a whole number within the limits.
-    """
-    if jobs is None:
-        return
-    if isinstance(jobs, bool) or not isinstance(jobs, int) or not 1 <= jobs <= _MOST_JOBS:
-        raise ConfigError("jobs", jobs, f"a whole number from 1 to {_MOST_JOBS}", bound=_MOST_JOBS)
 
 
 def _refuse_fork(executor: Executor) -> None:

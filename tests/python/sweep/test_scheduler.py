@@ -12,8 +12,8 @@ import pytest
 
 import drumrs
 from drumrs.errors import ConfigError
-from drumrs.sweep import Case, engine, run_case, worker
-from drumrs.sweep.worker import Report
+from drumrs.sweep import Case, run_case, scheduler, worker
+from drumrs.sweep.worker import CaseOutcome
 
 BASE = drumrs.baseline(fill=0.05).replace({"run.duration": 0.05, "run.frame_every": 0.05})
 SOFT = {
@@ -37,20 +37,20 @@ class Recorder(Executor):
         self.pool = ThreadPoolExecutor(2)
         self.lock = threading.Lock()
         self.order: list[str] = []
-        self.flying = self.most = 0
+        self.in_flight = self.most = 0
 
     def submit(self, function, /, *arguments):
         self.order.append(json.loads(arguments[0])["load"]["fill"])
         with self.lock:
-            self.flying += 1
-            self.most = max(self.most, self.flying)
+            self.in_flight += 1
+            self.most = max(self.most, self.in_flight)
         future = self.pool.submit(function, *arguments)
         future.add_done_callback(self._landed)
         return future
 
     def _landed(self, _: Future) -> None:
         with self.lock:
-            self.flying -= 1
+            self.in_flight -= 1
 
 
 def test_long_cases_first_and_few_at_once(tmp_path):
@@ -168,7 +168,7 @@ def test_bad_shard(tmp_path, shard):
         ({"executor": 3}, "executor is 3, but must be"),
     ],
 )
-def test_bad_crew(tmp_path, arguments, sentence):
+def test_bad_executor_or_jobs(tmp_path, arguments, sentence):
     with pytest.raises(ConfigError, match=sentence):
         drumrs.Sweep(BASE).run(tmp_path / "out", **arguments)
     assert not (tmp_path / "out").exists()
@@ -227,7 +227,7 @@ def test_a_worker_that_dies_with_a_case_fails_it(tmp_path):
 
 def test_workers_of_another_version_are_refused(tmp_path):
     with pytest.raises(ConfigError, match="workers with another version of drumrs"):
-        drumrs.Sweep(BASE).run(tmp_path, Answering(Report("other", "finished")), progress=False)
+        drumrs.Sweep(BASE).run(tmp_path, Answering(CaseOutcome("other", "finished")), progress=False)
 
 
 @pytest.mark.parametrize("room", range(10))
@@ -269,8 +269,8 @@ def test_an_interrupt_stops_what_runs_and_keeps_what_is_finished(tmp_path, monke
             raise KeyboardInterrupt
         return real_wait(*arguments, **options)
 
-    real_wait = engine.wait
-    monkeypatch.setattr(engine, "wait", interrupted_wait)
+    real_wait = scheduler.wait
+    monkeypatch.setattr(scheduler, "wait", interrupted_wait)
     began = time.monotonic()
     with pytest.raises(KeyboardInterrupt, match="interrupted; 1 cases are finished and kept"):
         sweep.run(tmp_path, executor, progress=False)

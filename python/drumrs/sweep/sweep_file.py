@@ -16,8 +16,8 @@ if TYPE_CHECKING:
 _KEYS = ("base", "axes", "seeds")
 
 
-def read_study(path: str | Path, seeds: "Seeds" = None) -> Sweep:
-    r"""Read a study file.
+def read_sweep(path: str | Path, seeds: "Seeds" = None) -> Sweep:
+    r"""Read a sweep file.
 
     ``[base]`` holds keys laid over the baseline, ``[axes]`` a list of values for each key to vary, ``seeds`` a list of
     seeds or their number. Keys are dotted or stand in tables, as in a case file.
@@ -37,16 +37,16 @@ def read_study(path: str | Path, seeds: "Seeds" = None) -> Sweep:
     Examples
     --------
     >>> import pathlib, tempfile
-    >>> from drumrs.sweep import read_study
-    >>> path = pathlib.Path(tempfile.mkdtemp(), "study.toml")
+    >>> from drumrs.sweep import read_sweep
+    >>> path = pathlib.Path(tempfile.mkdtemp(), "sweep.toml")
     >>> _ = path.write_text("seeds = 2\n[base]\nrun.duration = 1.0\n[axes]\nload.fill = [0.1, 0.2]\n")
-    >>> len(read_study(path).cases)
+    >>> len(read_sweep(path).cases)
     4
     """
     content = read_layer(path)
     for key in content:
         if key not in _KEYS:
-            raise ConfigError(key, content[key], problem="is not a key of a study file", hint=_meant(key))
+            raise ConfigError(key, content[key], problem="is not a key of a sweep file", hint=_meant(key))
     base, axes = (_table(content, key) for key in ("base", "axes"))
     return Sweep(
         Config().replace(base or {}),

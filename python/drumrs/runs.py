@@ -1,14 +1,18 @@
-"""A whole run: from the start to the end of the configuration's duration, with progress and checkpoints."""
+"""Whole runs: from the start to the end of the configuration's duration, with progress and checkpoints."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 from drumrs.config import Config
-from drumrs.progress import Board, Journey, board
+from drumrs.progress import Task, with_prefix
 from drumrs.result import Result
 from drumrs.run_folder import RunFolder
 from drumrs.simulation import Simulation
+
+# From so many bundles on the packing takes seconds, and is shown.
+_LARGE_LOAD = 20_000
 
 
 def run(
@@ -25,7 +29,7 @@ def run(
     threads
         Threads that share a step; the result is the same for any number.
     progress
-        Whether to show progress: a bar in a terminal or notebook, else a line a minute on standard error.
+        Whether to show progress, as a `drumrs.Task` does.
 
     Returns
     -------
@@ -48,20 +52,62 @@ def run(
     (40, 2)
     """
     config = Config.read(config) if isinstance(config, (str, Path)) else config
-    simulation = Simulation(config, seed, threads)
-    with board(show=progress) as shown:
-        finish(simulation, announce(shown, simulation))
+    with packing(config, show=progress):
+        simulation = Simulation(config, seed, threads)
+    run_to_end(simulation, progress=progress)
     return simulation.result(keep=False)
 
 
-def announce(shown: Board, simulation: Simulation, label: str = "") -> Callable[[int], None]:
-    """Put a simulation on a board of progress."""
-    journey = Journey(label, simulation.step, simulation.last_step, simulation.time_step, simulation.count)
-    return shown.add(journey)
+def packing(config: Config, *, show: bool) -> Task:
+    """Return the task within which a simulation of the configuration is to be made, shown where the load is large."""
+    count = config.bundle_count
+    return Task(f"packing {count} bundles", 0, show=show and count >= _LARGE_LOAD)
 
 
-def finish(
-    simulation: Simulation, report: Callable[[int], None] | None = None, folder: RunFolder | None = None
+def run_to_end(
+    simulation: Simulation, folder: RunFolder | None = None, *, label: str = "", progress: bool = True
+) -> None:
+    """Run to the end of the duration as `advance_to_end` does, and show how far it is."""
+    with progress_of(simulation, label, show=progress) as on_progress:
+        advance_to_end(simulation, on_progress, folder)
+
+
+@contextmanager
+def progress_of(
+    simulation: Simulation, label: str = "", *, show: bool = True
+) -> Iterator[Callable[[int], None]]:
+    """Show how far a simulation is on its way to the end of its duration.
+
+    Parameters
+    ----------
+    simulation
+        What is going to run.
+    label
+        What to call it.
+    show
+        Whether to show anything.
+
+    Yields
+    ------
+    Callable
+        To be called with the step number.
+    """
+    count, last, time_step = simulation.count, simulation.last_step, simulation.time_step
+    size = f"{count} bundle{'s' if count > 1 else ''}, {with_prefix(last)}steps"
+    name = f"{label}: {size}" if label else size
+    with Task(name, last * count, "particle-steps", done=simulation.step * count, show=show) as task:
+
+        def on_progress(step: int) -> None:
+            task.update(step * count, f"{step * time_step:.2f} of {last * time_step:.2f} s")
+
+        on_progress(simulation.step)
+        yield on_progress
+
+
+def advance_to_end(
+    simulation: Simulation,
+    on_progress: Callable[[int], None] | None = None,
+    folder: RunFolder | None = None,
 ) -> bool:
     """Run to the end of the duration, writing records as they come, and a checkpoint at once, every so often, and last.
 
@@ -69,7 +115,7 @@ def finish(
     ----------
     simulation
         What to run.
-    report
+    on_progress
         Called with the step number.
     folder
         Where to keep records and checkpoints. An unstable run leaves the last good one, Ctrl-C one of that moment,
@@ -85,20 +131,20 @@ def finish(
     def after_slice(step: int) -> None:
         if folder is not None:
             folder.flush(simulation)
-        if report is not None:
-            report(step)
+        if on_progress is not None:
+            on_progress(step)
 
     _save(simulation, folder)
     going = True
     while going and simulation.step < simulation.last_step:
         try:
-            going = simulation.run_until(simulation.last_step, wall_limit=pause, progress=after_slice)
+            going = simulation.run_until(simulation.last_step, wall_limit=pause, on_progress=after_slice)
         except (KeyboardInterrupt, MemoryError):
             _save(simulation, folder)
             raise
         _save(simulation, folder)
-    if report is not None:
-        report(simulation.step)
+    if on_progress is not None:
+        on_progress(simulation.step)
     return going
 
 
@@ -123,13 +169,17 @@ def run_side_by_side(cases: Mapping[str, Config], *, progress: bool = True) -> d
         Results by label, in the order of `cases`.
     """
     simulations = {label: Simulation(config) for label, config in cases.items()}
-    with board(show=progress) as shown, ThreadPoolExecutor(len(simulations)) as pool:
-        tasks = [
-            pool.submit(finish, simulation, announce(shown, simulation, label))
+    with ExitStack() as tasks, ThreadPoolExecutor(len(simulations)) as pool:
+        runs = [
+            pool.submit(
+                advance_to_end,
+                simulation,
+                tasks.enter_context(progress_of(simulation, label, show=progress)),
+            )
             for label, simulation in simulations.items()
         ]
         try:
-            for task in tasks:
+            for task in runs:
                 task.result()
         except BaseException:
             # Threads cannot be interrupted from outside; the simulations can.

@@ -8,11 +8,11 @@ from pathlib import Path
 
 from drumrs.errors import ConfigError
 from drumrs.files import NO_ROOM
-from drumrs.progress import Board, Campaign, board
+from drumrs.progress import Task
 from drumrs.sweep.case import Case
-from drumrs.sweep.crew import Crew, crew
+from drumrs.sweep.executors import Workers, open_workers
 from drumrs.sweep.store import Store
-from drumrs.sweep.worker import Report
+from drumrs.sweep.worker import CaseOutcome
 
 # How often progress is shown; a Ctrl-C is seen at once.
 _TICK = 0.25
@@ -57,7 +57,7 @@ class Outcome:
 
 
 @dataclass(frozen=True)
-class Order:
+class RunOptions:
     """How to run: who, how many at once, which part, whether to try failed cases again."""
 
     executor: Executor | str | None = None
@@ -79,7 +79,7 @@ class _Tally:
     cost: float = 0.0
 
 
-def run_cases(cases: Sequence[Case], folder: Path, order: Order) -> Outcome:
+def run_cases(cases: Sequence[Case], folder: Path, options: RunOptions) -> Outcome:
     """Run what is not finished yet, long cases first.
 
     Raises
@@ -92,14 +92,14 @@ def run_cases(cases: Sequence[Case], folder: Path, order: Order) -> Outcome:
         After Ctrl-C; what is finished is kept.
     """
     ordered = sorted(cases, key=lambda case: (-case.cost, case.id))
-    mine = shard_of(ordered, order.shard)
+    mine = shard_of(ordered, options.shard)
     store, tally = Store(folder), _Tally()
-    with _clear_words(store, tally), crew(order.executor, order.jobs) as workers:
+    with _say_what_is_kept(store, tally), open_workers(options.executor, options.jobs) as workers:
         store.open()
-        waiting = _take_stock(mine, store, tally, retry=order.retry)
-        with board(show=order.progress) as shown:
-            _name_replaced(tally.replaced, shown)
-            _hand_out(waiting, workers, store, tally, shown)
+        waiting = _take_stock(mine, store, tally, retry=options.retry)
+        with _task(waiting, tally, show=options.progress) as task:
+            _name_replaced(tally.replaced, task)
+            _schedule(waiting, workers, store, tally, task)
     own = {case.id for case in mine}
     left = [case for case in ordered if case.id not in own and not store.is_settled(case)]
     return Outcome(
@@ -112,15 +112,24 @@ def run_cases(cases: Sequence[Case], folder: Path, order: Order) -> Outcome:
     )
 
 
-def _name_replaced(sentences: Sequence[str], shown: Board) -> None:
+def _task(waiting: Sequence[Case], tally: _Tally, *, show: bool) -> Task:
+    settled = len(tally.finished) + len(tally.failed)
+    label = f"sweep, {settled} cases settled before" if settled else "sweep"
+    cost = sum(case.cost for case in waiting)
+    return Task(
+        label, cost, "particle-steps", detail=f"0 of {len(waiting)} cases", show=show and bool(waiting)
+    )
+
+
+def _name_replaced(sentences: Sequence[str], task: Task) -> None:
     for sentence in sentences[:_MOST_NAMED]:
-        shown.note(f"{sentence}; it is computed again")
+        task.note(f"{sentence}; it is computed again")
     if len(sentences) > _MOST_NAMED:
-        shown.note(f"… and {len(sentences) - _MOST_NAMED} more are computed again")
+        task.note(f"… and {len(sentences) - _MOST_NAMED} more are computed again")
 
 
 @contextmanager
-def _clear_words(store: Store, tally: _Tally) -> Iterator[None]:
+def _say_what_is_kept(store: Store, tally: _Tally) -> Iterator[None]:
     """Say, where a sweep is broken off, what is kept and how to go on."""
     try:
         yield
@@ -174,30 +183,30 @@ def _take_stock(cases: Sequence[Case], store: Store, tally: _Tally, *, retry: bo
     return waiting
 
 
-def _hand_out(waiting: Sequence[Case], workers: Crew, store: Store, tally: _Tally, shown: Board) -> None:
-    """Keep the crew busy until every case is settled."""
-    report = shown.add_campaign(Campaign(len(waiting), sum(case.cost for case in waiting)))
+def _schedule(waiting: Sequence[Case], workers: Workers, store: Store, tally: _Tally, task: Task) -> None:
+    """Keep the workers busy until every case is settled."""
     queue = iter(waiting)
-    flying: dict[Future[Report], Case] = {}
+    in_flight: dict[Future[CaseOutcome], Case] = {}
     try:
         while True:
-            while len(flying) < workers.limit and (case := next(queue, None)) is not None:
-                flying[workers.submit(case, str(store.folder))] = case
-            if not flying:
+            while len(in_flight) < workers.limit and (case := next(queue, None)) is not None:
+                in_flight[workers.submit(case, str(store.folder))] = case
+            if not in_flight:
                 return
-            done, _ = wait(flying, timeout=_TICK, return_when=FIRST_COMPLETED)
+            done, _ = wait(in_flight, timeout=_TICK, return_when=FIRST_COMPLETED)
             for future in done:
-                case = flying.pop(future)
-                _enter(case, _told(future, case, store), tally)
-            report(tally.settled, tally.cost + workers.particle_steps())
+                case = in_flight.pop(future)
+                _count(case, _outcome_of(future, case, store), tally)
+            cost = tally.cost + workers.particle_steps()
+            task.update(cost, f"{tally.settled} of {len(waiting)} cases")
     except BaseException:
-        for future in flying:
+        for future in in_flight:
             future.cancel()
         workers.stop()
         raise
 
 
-def _told(future: "Future[Report]", case: Case, store: Store) -> Report:
+def _outcome_of(future: "Future[CaseOutcome]", case: Case, store: Store) -> CaseOutcome:
     """Return what the worker reports, or that it was lost with the case."""
     try:
         told = future.result()
@@ -205,14 +214,14 @@ def _told(future: "Future[Report]", case: Case, store: Store) -> Report:
         raise
     except Exception as error:  # noqa: BLE001 - executors say in classes of their own that a worker died
         store.write_error(case, error)
-        return Report(case.id, "failed", type(error).__name__, str(error))
+        return CaseOutcome(case.id, "failed", type(error).__name__, str(error))
     if told.case != case.id:
         problem = "has workers with another version of drumrs, but must have workers with this one"
         raise ConfigError("executor", problem=problem)
     return told
 
 
-def _enter(case: Case, told: Report, tally: _Tally) -> None:
+def _count(case: Case, told: CaseOutcome, tally: _Tally) -> None:
     tally.settled += 1
     tally.cost += case.cost
     if told.status == "finished":

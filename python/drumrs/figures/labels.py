@@ -1,0 +1,17 @@
+"""Labels of axes and titles of plots, each in one place, with the unit in brackets."""
+
+TIME = "time [s]"
+SPEED = "speed of the bundles [m/s]"
+CENTER_OF_MASS = "Center of mass from the axis [mm]"
+ENERGY_STORED = "Energy stored [J/m]"
+ENERGY_RESIDUAL = "Energy ledger: relative residual"
+POWERS = "Power of the drum and losses, means over {:.2g} s [W/m]"
+
+FILL = "fill N d²/D² [%]"
+DRUM_POWER = "drum power [W per m of depth]"
+SPECIFIC_POWER = "specific power [W/kg]"
+NORMAL_TANGENTIAL_RATIO = "N/T, normal over tangential power"
+FRICTION = "coefficient of friction μ"
+RESTITUTION = "coefficient of restitution e"
+SIZE_RATIO = "drum over bundle diameter D/d"
+DRUM_SPEED = "drum speed [rpm]"

@@ -1,0 +1,34 @@
+"""How many cases run at once."""
+
+import os
+import sys
+
+from drumrs.errors import ConfigError
+
+MOST_JOBS = 1024
+
+
+def job_count(jobs: int | None = None) -> int:
+    """Return how many cases are to run at once.
+
+    Parameters
+    ----------
+    jobs
+        What was asked for; one a core that this process may use unless given.
+
+    Raises
+    ------
+    ConfigError
+        Where it is not a whole number within the limits.
+
+    Examples
+    --------
+    >>> import drumrs
+    >>> drumrs.job_count(3), drumrs.job_count() >= 1
+    (3, True)
+    """
+    if jobs is None:
+        return len(os.sched_getaffinity(0)) if sys.platform == "linux" else os.cpu_count() or 1
+    if isinstance(jobs, bool) or not isinstance(jobs, int) or not 1 <= jobs <= MOST_JOBS:
+        raise ConfigError("jobs", jobs, f"a whole number from 1 to {MOST_JOBS}", bound=MOST_JOBS)
+    return jobs

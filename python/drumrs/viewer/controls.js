@@ -1,0 +1,108 @@
+// Buttons, keys and text of a player: what the reader does becomes a call of the player, what changes is written.
+//
+// The markup is player.html; its parts are found by their classes, so nothing needs an id.
+
+import { GRADIENT, MODES } from "./color.js";
+import { formatNumber } from "./format.js";
+
+const KEYS = {
+  " ": (player) => player.toggle(),
+  ArrowLeft: (player, event) => player.step(event.shiftKey ? -10 : -1),
+  ArrowRight: (player, event) => player.step(event.shiftKey ? 10 : 1),
+  Home: (player) => player.seekFrame(0),
+  End: (player) => player.seekFrame(player.recording.frames.length - 1),
+  "+": (player, event, controls) => controls.changeRate(1),
+  "=": (player, event, controls) => controls.changeRate(1),
+  "-": (player, event, controls) => controls.changeRate(-1),
+  c: (player) => player.nextMode(),
+  m: (player) => player.markTime(),
+  n: (player) => player.select(((player.selected ?? -1) + 1) % player.recording.count),
+  Escape: (player) => player.select(null),
+};
+
+export class Controls {
+  // The listeners end with `signal`.
+  constructor(root, player, signal) {
+    Object.assign(this, { root, player });
+    this.part = (name) => root.querySelector(`.${name}`);
+    const on = (name, event, act) => this.part(name).addEventListener(event, act, { signal });
+    on("play", "click", () => player.toggle());
+    on("back", "click", () => player.step(-1));
+    on("forward", "click", () => player.step(1));
+    on("scrub", "input", ({ target }) => player.seekFrame(Number(target.value)));
+    on("rate", "change", ({ target }) => (player.rate = Number(target.value)));
+    on("mode", "change", ({ target }) => player.setMode(target.value));
+    on("mark", "click", () => player.markTime());
+    on("marks", "change", ({ target }) => player.show({ marks: target.checked }));
+    on("corotating", "change", ({ target }) => player.show({ corotating: target.checked }));
+    root.addEventListener("keydown", (event) => this.press(event), { signal });
+    this.part("bar").style.background = GRADIENT;
+    for (const [name, { label }] of Object.entries(MODES)) this.part("mode").add(new Option(label, name));
+    this.describe();
+  }
+
+  // Write what depends on the recording and not on the time.
+  describe() {
+    const { recording } = this.player;
+    const title = recording.title || "Simulation";
+    this.part("title").textContent = title;
+    this.part("player").setAttribute("aria-label", `Player: ${title}`);
+    this.part("stage").setAttribute("aria-label", `${recording.count} bundles in the drum: ${title}`);
+    this.part("scrub").max = recording.frames.length - 1;
+  }
+
+  // Do what a key stands for, unless the control that has the focus needs the key itself.
+  press(event) {
+    const act = KEYS[event.key];
+    const inside = this.root.activeElement;
+    const own = inside?.matches("select") || (inside?.matches("button, input, summary") && event.key === " ");
+    if (!act || own || event.ctrlKey || event.metaKey || event.altKey) return;
+    event.preventDefault();
+    act(this.player, event, this);
+  }
+
+  changeRate(by) {
+    const choice = this.part("rate");
+    choice.selectedIndex = Math.min(Math.max(choice.selectedIndex + by, 0), choice.length - 1);
+    this.player.rate = Number(choice.value);
+  }
+
+  // Write everything that follows the time, the colors and the selection.
+  write() {
+    const { recording, time, scene, playing, coloring } = this.player;
+    const rpm = (scene.spin * 30) / Math.PI;
+    this.part("time").textContent = `${time.toFixed(2)} s`;
+    this.part("turning").textContent = `${rpm.toFixed(1).replace("-", "−")} rpm, ${Math.abs(scene.drumAngle / 2 / Math.PI).toFixed(2)} turns`;
+    const frame = recording.nearest(time);
+    this.part("scrub").value = frame;
+    const words = `${time.toFixed(2)} of ${recording.end.toFixed(2)} seconds, frame ${frame + 1} of ${recording.frames.length}`;
+    this.part("scrub").setAttribute("aria-valuetext", words);
+    this.part("player").classList.toggle("playing", playing);
+    this.part("play").setAttribute("aria-label", playing ? "Pause" : "Play");
+    this.part("mode").value = coloring.name;
+    this.writeLegend();
+    this.writeSelected();
+  }
+
+  writeLegend() {
+    const { recording, coloring, scene } = this.player;
+    const { mode, mark } = coloring;
+    const [lowest, highest] = coloring.range(scene).map((value) => formatNumber(value * mode.factor));
+    const moment = mode.marked ? `, t = ${recording.frames[mark].time.toFixed(2)} s` : "";
+    this.part("quantity").textContent = `${mode.label}${moment} [${mode.unit}]`;
+    this.part("lowest").textContent = lowest;
+    // Speeds beyond the end of the scale have its last color.
+    this.part("highest").textContent = coloring.name === "speed" ? `≥ ${highest}` : highest;
+  }
+
+  writeSelected() {
+    const { selected, scene } = this.player;
+    let words = "Click a bundle to follow its path.";
+    if (selected !== null) {
+      const { x, y, speed } = scene.bundles[selected];
+      const distance = formatNumber(1000 * Math.hypot(x, y));
+      words = `Bundle ${selected}: ${formatNumber(speed)} m/s, ${distance} mm from the axis`;
+    }
+    this.part("bundle").textContent = words;
+  }
+}
