@@ -188,5 +188,5 @@ def show(value: object) -> str:
     return text if len(text) <= _LONGEST_VALUE else f"{text[: _LONGEST_VALUE - 1]}…"
 
 
-def _with_hint(sentence: str, hint: str) -> str:
-    return f"{sentence}; {hint}" if hint else sentence
+def _with_hint(message: str, hint: str) -> str:
+    return f"{message}; {hint}" if hint else message

@@ -60,7 +60,7 @@ class Simulation(HasRecords):
     Raises
     ------
     ConfigError
-        Where no such simulation can be; the sentence names key, value and limit.
+        Where no such simulation can be; the error has key, value and limit.
 
     Warns
     -----
@@ -104,8 +104,8 @@ class Simulation(HasRecords):
         self._start(config, core)
         require_samples(config, self.time_step)
         require_memory(config, self.time_step, self._records.sizes, with_frames=in_memory)
-        for sentence in self.warnings:
-            warnings.warn(sentence, DrumrsWarning, stacklevel=2)
+        for message in self.warnings:
+            warnings.warn(message, DrumrsWarning, stacklevel=2)
 
     def _start(self, config: Config, core: _core.Simulation) -> None:
         self._config = config
@@ -144,7 +144,7 @@ class Simulation(HasRecords):
         Raises
         ------
         UnstableError
-            Where the state stops meaning anything; the sentence names step and bundle.
+            Where the run becomes unstable; the error has bundle, step, time and place.
         DrumrsError
             Where another thread is running this simulation.
         """
@@ -314,7 +314,7 @@ class Simulation(HasRecords):
 
     @property
     def warnings(self) -> list[str]:
-        """What this simulation does that one may not expect, a sentence each; they are warned of at the start."""
+        """What this simulation does that one may not expect, a message each; they are warned of at the start."""
         return self._core.warnings
 
     def summary(self, window: tuple[float, float] | None = None) -> Summary:

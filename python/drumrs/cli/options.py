@@ -17,7 +17,7 @@ Settings = Annotated[
     Parameter(
         name="--set",
         negative="",
-        help="KEY=VALUE, a layer over the file; may be repeated. VALUE is a TOML literal, a bare word a string.",
+        help="KEY=VALUE, in place of the file's value; may be repeated. VALUE is as in TOML; a bare word is a string.",
     ),
 ]
 
@@ -46,7 +46,7 @@ def _number(_: object, tokens: Sequence[Token]) -> float:
 # The types of options that are a number, or a whole number.
 NUMBER = Parameter(converter=_number)
 WHOLE = Parameter(converter=_whole)
-Seed = Annotated[int | None, WHOLE, Parameter(help="Seed of the random start, over all layers.")]
+Seed = Annotated[int | None, WHOLE, Parameter(help="Seed of the random start, in place of run.seed.")]
 Threads = Annotated[
     int, WHOLE, Parameter(help="Threads that share a step; the result is the same for any number.")
 ]
@@ -54,9 +54,9 @@ Jobs = Annotated[int | None, WHOLE, Parameter(help="Cases at once; one a usable 
 
 
 def layered(case: Path | None, settings: Sequence[str] | None, seed: int | None) -> Config:
-    """Lay a case file over the baseline, settings over the file, the seed over all."""
+    """Return the baseline with the keys of a case file, then of settings, then the seed in place of its own."""
     if case is not None and str(case).endswith(("]", "}")) and not case.exists():
-        raise stands_alone(str(case))
+        raise cut_by_shell(str(case))
     upper = nest(parse_settings(settings or []))
     layers = [read_layer(case), upper] if case is not None else [upper]
     if seed is not None:
@@ -68,8 +68,8 @@ def layered(case: Path | None, settings: Sequence[str] | None, seed: int | None)
     return Config.model_validate(values)
 
 
-def stands_alone(words: str) -> ConfigError:
-    """Return the error that a shell has cut words off a value, with how to keep them together."""
+def cut_by_shell(words: str) -> ConfigError:
+    """Return the error that the shell has cut words off a value, with how to keep them together."""
     hint = "a value with spaces needs quotes: --set 'KEY=[1, 2]'"
     return ConfigError(repr(words), words, problem="stands alone", hint=hint)
 

@@ -108,8 +108,8 @@ def _soften(config: Config, factor: float | None) -> Config:
     if factor is None:
         return config
     changes = softening(config, factor, "--softer")
-    told = ", ".join(f"{key} {before:.4g} → {after:.4g}" for key, (before, after) in changes.items())
-    sys.stderr.write(f"drumrs: --softer {factor:g} changes {told}\n")
+    changed = ", ".join(f"{key} {before:.4g} → {after:.4g}" for key, (before, after) in changes.items())
+    sys.stderr.write(f"drumrs: --softer {factor:g} changes {changed}\n")
     return config.softer(factor)
 
 

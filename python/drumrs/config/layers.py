@@ -41,7 +41,7 @@ def nest(dotted: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def merge(
-    model: type[BaseModel], lower: Mapping[str, Any], upper: Mapping[str, Any], at: str = ""
+    model: type[BaseModel], lower: Mapping[str, Any], upper: Mapping[str, Any], prefix: str = ""
 ) -> dict[str, Any]:
     """Merge two layers, `upper` over `lower`; one of an either–or pair takes the place of the other.
 
@@ -53,13 +53,13 @@ def merge(
     pair = cast("_Paired", model).pair or ()
     chosen = [key for key in pair if upper.get(key) is not None]
     if len(chosen) > 1:
-        raise ConfigError(**both_given(at, chosen, upper))
+        raise ConfigError(**both_given(prefix, chosen, upper))
     merged = {key: value for key, value in lower.items() if not (chosen and key in pair)}
     for key, value in upper.items():
-        part = table_type(model, key)
+        table = table_type(model, key)
         below = merged.get(key)
-        if part is not None and isinstance(value, Mapping) and isinstance(below, Mapping):
-            merged[key] = merge(part, below, value, f"{at}{key}.")
+        if table is not None and isinstance(value, Mapping) and isinstance(below, Mapping):
+            merged[key] = merge(table, below, value, f"{prefix}{key}.")
         elif value is None:
             merged.pop(key, None)
         else:

@@ -1,4 +1,4 @@
-"""Softer springs and the time step to match: what changes, and from what to what."""
+"""Softer springs, with the time step to match: the keys that change and their values."""
 
 import math
 import numbers

@@ -145,7 +145,7 @@ class LinearContact(ConfigTable):
 
 
 class _PartialContact(ConfigTable):
-    """Some keys of a contact table; the rest is that of a whole one."""
+    """Those keys of a contact table that differ for some species; the others are taken from the whole table."""
 
     normal_stiffness: Positive | None = None
     stiffness_ratio: Positive | None = None

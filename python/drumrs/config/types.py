@@ -1,4 +1,4 @@
-"""Types of the configuration's values: what they accept, and the words in which a refusal says so."""
+"""Types of the configuration's values: what they accept, and their limits in words for error messages."""
 
 import numbers
 from dataclasses import dataclass
@@ -11,7 +11,7 @@ from drumrs.config.derived import GREATEST_BAFFLES, GREATEST_COUNT, GREATEST_SPE
 
 @dataclass(frozen=True)
 class Limit:
-    """What a field accepts, as the end of the sentence "KEY is VALUE, but must be …"."""
+    """What a field accepts, as the end of the message "KEY is VALUE, but must be …"."""
 
     text: str
 
