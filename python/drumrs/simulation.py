@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from drumrs import _core
 from drumrs.checkpoint import read_checkpoint, write_checkpoint
-from drumrs.config import Config
+from drumrs.config import Config, require_config
 from drumrs.config.messages import both_given
 from drumrs.errors import CheckpointError, ConfigError, DrumrsError, DrumrsWarning
 from drumrs.limits import (
@@ -35,7 +35,6 @@ from drumrs.state import State
 
 Array = NDArray[np.float64]
 
-_MAKE_CONFIG = "drumrs.Config.read(path) reads a file, drumrs.baseline().replace({...}) changes some keys"
 _SIMULATE_FIRST = (
     "run() without arguments simulates all of run.duration, and summary((start, end)) averages over a part"
 )
@@ -86,14 +85,13 @@ class Simulation(HasRecords):
         in_memory: bool = True,
     ) -> None:
         check_threads(threads)
-        if not isinstance(config, Config):
-            raise ConfigError("config", config, "a Config", hint=_MAKE_CONFIG)
+        config = require_config(config)
         if state is not None and not isinstance(state, State):
             raise ConfigError("state", state, "a drumrs.State", hint="drumrs.State(positions) makes one")
         config = config if seed is None else config.replace({"run.seed": seed})
         if state is None and not config.drum.rim:
             limit = "true where no initial state is given"
-            raise ConfigError("drum.rim", False, limit)
+            raise ConfigError("drum.rim", False, limit, problem=f"is false, but must be {limit}")
         arrays = None if state is None else state.arrays()
         if arrays is not None and len(arrays["positions"]) != config.bundle_count:
             config = config.replace({"load.count": len(arrays["positions"])})

@@ -5,7 +5,7 @@ the tables of keys, `config` the whole configuration; `layers` merges tables, `m
 `toml_writer` writes TOML with comments, `to_core` translates for the compiled core, `derived` asks it what follows.
 """
 
-from drumrs.config.config import Config, baseline, read_layer
+from drumrs.config.config import Config, baseline, read_layer, require_config
 from drumrs.config.derived import Derived, DerivedContact
 from drumrs.config.layers import merge, nest, parse_settings
 from drumrs.config.messages import dotted_keys
@@ -40,4 +40,5 @@ __all__ = [
     "nest",
     "parse_settings",
     "read_layer",
+    "require_config",
 ]

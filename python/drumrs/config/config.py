@@ -209,6 +209,20 @@ class Config(Tables):
         return json.dumps(core_config(self, self.bundle_count))
 
 
+def require_config(config: object) -> Config:
+    """Return a configuration; refuse what is none, and say how to get one.
+
+    Raises
+    ------
+    ConfigError
+        Where it is not a `Config`.
+    """
+    if isinstance(config, Config):
+        return config
+    hint = "drumrs.Config.read(path) reads a file, drumrs.baseline().replace({...}) changes some keys"
+    raise ConfigError("config", config, "a Config", hint=hint)
+
+
 def read_layer(path: str | Path) -> dict[str, Any]:
     """Read a file of configuration keys as a layer: TOML, or JSON where the name ends with ``.json``.
 
