@@ -2,7 +2,7 @@
 
 With --sobol the cases are those of a Sobol sequence, which fills the ranges more evenly still.
 
-Needs `pip install 'drumrs[design]'`.
+The hypercube is SciPy's.
 """
 
 import argparse

@@ -3,7 +3,8 @@
 mod common;
 
 use common::*;
-use drumrs::observe::summary::{Spread, summarize};
+use drumrs::observe::averages::BlockError;
+use drumrs::observe::summary::summarize;
 use drumrs::simulation::Simulation;
 
 fn tumbled(seconds: f64) -> Simulation {
@@ -125,7 +126,7 @@ fn block_errors_meet_an_autoregressive_sequence() {
                 value
             })
             .collect();
-        let spread = Spread::of(&values, 0.01).unwrap();
+        let spread = BlockError::of(&values, 0.01).unwrap();
         error += spread.error / f64::from(sequences);
         time += spread.correlation_time / f64::from(sequences);
     }

@@ -1,20 +1,38 @@
-"""The compiled core: one simulation, and what it was built with."""
+"""The compiled core: one simulation, means over windows, and what it was built with."""
 
 from collections.abc import Callable
-from typing import Any, final
+from typing import Any, Final, TypeAlias, final
 
 import numpy as np
 from numpy.typing import NDArray
 
 __all__ = [
+    "FEWEST_BLOCKS",
     "Simulation",
+    "block_error",
     "close_fork_guard",
     "derived",
     "greatest_counts",
     "info",
+    "mean_rate",
+    "mean_ratio",
+    "mean_sampled",
     "open_fork_guard",
     "open_fork_guard_in_child",
+    "window",
 ]
+
+FEWEST_BLOCKS: Final[int]
+
+_Column: TypeAlias = NDArray[np.float64]
+_Error: TypeAlias = tuple[float, float, int]
+_Mean: TypeAlias = tuple[float, _Error | None]
+
+def block_error(values: _Column, interval: float) -> _Error | None: ...
+def mean_rate(times: _Column, cumulative: _Column) -> _Mean: ...
+def mean_ratio(times: _Column, numerator: _Column, denominator: _Column) -> _Mean | None: ...
+def mean_sampled(samples: _Column, interval: float) -> _Mean: ...
+def window(times: _Column, start: float, end: float) -> tuple[int, int]: ...
 
 @final
 class Simulation:

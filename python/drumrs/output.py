@@ -20,9 +20,6 @@ if TYPE_CHECKING:
 
     from drumrs.viewer import Player
 
-# What `draw` writes.
-PICTURES = ("time_series.png", "snapshots.png", "player.html")
-
 
 def player(run: Result | UnstableRun) -> "Player":
     """Return a run as a player: shown by a notebook, or written as one HTML file with its `save`.
@@ -76,6 +73,15 @@ def save(result: Result, folder: str | Path, *, pictures: bool = True, force: bo
     -----
     PictureWarning
         Where a picture or the player could not be made; everything else is there.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> import drumrs
+    >>> result = drumrs.run(drumrs.baseline(fill=0.1).replace({"run.duration": 0.1}), progress=False)
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     [path.name for path in drumrs.save(result, folder, pictures=False)]
+    ['config.toml', 'series.parquet', 'frames.parquet', 'summary.json']
     """
     folder = Path(folder)
     require_folder(folder, result.config, force=force, way="force=True")

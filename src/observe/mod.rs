@@ -1,5 +1,6 @@
 //! What is recorded of a simulation, and the statistics of it.
 
+pub mod averages;
 pub mod frames;
 pub mod memory;
 pub mod recorder;

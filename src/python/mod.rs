@@ -1,6 +1,7 @@
-//! The module `drumrs._core`: one class, and a description of this build.
+//! The module `drumrs._core`: one class, means over windows, and a description of this build.
 
 mod arrays;
+mod averages;
 mod error;
 mod fair_lock;
 mod fork_guard;
@@ -12,12 +13,17 @@ mod _core {
     use pyo3::prelude::*;
     use pyo3::types::PyDict;
 
+    #[pymodule_export]
+    use super::averages::{block_error, mean_rate, mean_ratio, mean_sampled, window};
     use super::error::to_python;
     #[pymodule_export]
     use super::simulation::Simulation;
     use crate::io::config::{MOST_BUNDLES, MOST_SPECIES, SimulationConfig};
     use crate::physics::drum::MOST_BAFFLES;
     use crate::simulation::derived::DerivedParameters;
+    /// The fewest blocks from which a standard error is taken.
+    #[pymodule_export]
+    const FEWEST_BLOCKS: usize = crate::observe::averages::FEWEST_BLOCKS;
 
     /// What this build is: version, profile, physics version, target, features of the CPU it runs on.
     #[pyfunction]

@@ -6,8 +6,6 @@ import shutil
 import hypothesis
 import pytest
 
-os.environ.setdefault("MPLBACKEND", "Agg")
-
 import drumrs
 from drumrs.cli import run_command
 

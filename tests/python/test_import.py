@@ -10,7 +10,7 @@ import drumrs
 
 @pytest.mark.parametrize("statement", ["import drumrs", "import drumrs.cli", "import drumrs.paper"])
 def test_import_is_light(statement):
-    heavy = {"matplotlib", "polars", "rich.progress", "drumrs.verification"}
+    heavy = {"matplotlib", "polars", "rich.progress", "scipy", "shapely", "drumrs.verification"}
     code = f"{statement}; import sys; print({heavy} & set(sys.modules))"
     found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert found.stdout.strip() == "set()"

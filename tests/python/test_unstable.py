@@ -52,9 +52,11 @@ def test_resume_does_not_repeat_it(ended, drum):
         drumrs.load(folder)
 
 
-def test_the_folder_may_be_used_again(ended, drum):
+def test_the_folder_may_be_used_again_where_asked_for(ended, drum):
     folder, _ = ended
-    status, _, _ = drum("run", "--set", "load.count=5", "--set", "run.duration=0.03", "--out", str(folder))
+    status, _, _ = drum(
+        "run", "--set", "load.count=5", "--set", "run.duration=0.03", "--out", folder, "--force"
+    )
     assert status == 0
     assert not (folder / "unstable.json").exists()
     assert len(drumrs.load(folder).frames) > 0

@@ -1,4 +1,4 @@
-"""Means over a window with their standard errors, from block averages."""
+"""Means over a window with their standard errors, from block averages. The core computes them, as for the summary."""
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from drumrs.errors import ConfigError
+from drumrs import _core
 
 if TYPE_CHECKING:
     import polars as pl
@@ -14,12 +14,12 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 # Fewest blocks from which a standard error is taken.
-FEWEST_BLOCKS = 8
+FEWEST_BLOCKS = _core.FEWEST_BLOCKS
 
 
 @dataclass(frozen=True)
-class Spread:
-    """The uncertainty of a mean over correlated samples.
+class BlockError:
+    """The standard error of a mean over correlated samples.
 
     Attributes
     ----------
@@ -28,7 +28,7 @@ class Spread:
     correlation_time
         Integrated correlation time, in the unit of the interval.
     blocks
-        Number of independent blocks that the error rests on.
+        Number of blocks that the error was taken from.
     """
 
     error: float
@@ -44,8 +44,8 @@ class Mean:
     error: float | None
 
 
-def block_error(values: ArrayLike, interval: float) -> Spread | None:
-    """Return the standard error of the mean of correlated samples, by the method of the core.
+def block_error(values: ArrayLike, interval: float) -> BlockError | None:
+    """Return the standard error of the mean of correlated samples.
 
     Blocks are doubled in length while eight remain, and the greatest error found is kept: short blocks are
     correlated and tell too little (Flyvbjerg & Petersen, J. Chem. Phys. 91 (1989) 461).
@@ -53,64 +53,54 @@ def block_error(values: ArrayLike, interval: float) -> Spread | None:
     Parameters
     ----------
     values
-        Samples at equal intervals.
+        Samples at equal intervals, shape (n,).
     interval
         Time between them [s].
 
     Returns
     -------
-    Spread or None
+    BlockError or None
         `None` where there are fewer than eight samples.
 
     Examples
     --------
     >>> from drumrs.analysis import block_error
-    >>> spread = block_error([1.0, 3.0] * 8, interval=0.5)
-    >>> round(spread.error, 3), spread.blocks
+    >>> found = block_error([1.0, 3.0] * 8, interval=0.5)
+    >>> round(found.error, 3), found.blocks
     (0.258, 16)
     """
-    blocks = np.asarray(values, dtype=np.float64)
-    if len(blocks) < FEWEST_BLOCKS:
-        return None
-    plain = greatest = _squared_error(blocks)
-    count = len(blocks)
-    while len(blocks) // 2 >= FEWEST_BLOCKS:
-        blocks = _halved(blocks)
-        squared = _squared_error(blocks)
-        if squared > greatest:
-            greatest, count = squared, len(blocks)
-    inflation = greatest / plain if plain > 0.0 else 1.0
-    return Spread(float(np.sqrt(greatest)), 0.5 * inflation * interval, count)
+    found = _core.block_error(_plain(values), interval)
+    return BlockError(*found) if found is not None else None
 
 
-def _halved(blocks: Array) -> Array:
-    """Return blocks of twice the length; an odd one at the end is left out."""
-    pairs: Array = blocks[: len(blocks) // 2 * 2].reshape(-1, 2).mean(axis=1)
-    return pairs
+def mean_with_error(values: ArrayLike, interval: float) -> Mean:
+    """Return the mean of samples at equal intervals, with its standard error.
 
+    Parameters
+    ----------
+    values
+        Samples, shape (n,), one at least.
+    interval
+        Time between them [s].
 
-def _squared_error(values: Array) -> float:
-    """Return the squared standard error of the mean of independent values."""
-    return float(values.var(ddof=1)) / len(values)
-
-
-def longest_blocks(values: Array) -> tuple[Array, int]:
-    """Return the means over the longest blocks of which eight remain, and how many values make a block."""
-    blocks, length = values, 1
-    while len(blocks) // 2 >= FEWEST_BLOCKS:
-        blocks, length = _halved(blocks), 2 * length
-    return blocks, length
+    Examples
+    --------
+    >>> from drumrs.analysis import mean_with_error
+    >>> mean_with_error([1.0, 2.0, 6.0], interval=0.5)
+    Mean(value=3.0, error=None)
+    """
+    return _mean(*_core.mean_sampled(_plain(values), interval))
 
 
 def rate_with_error(series: "pl.DataFrame", column: str, window: tuple[float, float]) -> Mean:
-    """Return the mean rate of a running integral over a window, with its standard error.
+    """Return the mean rate of a cumulative column over a window, with its standard error.
 
     Parameters
     ----------
     series
         Table of a run, one row a sample.
     column
-        A running integral such as ``"work_drum"`` [J/m].
+        An integral since t = 0 such as ``"work_drum"`` [J/m].
     window
         Start and end [s]; they snap to the samples nearest to them.
 
@@ -132,9 +122,8 @@ def rate_with_error(series: "pl.DataFrame", column: str, window: tuple[float, fl
     >>> rate_with_error(series, "work_drum", (0.0, 2.0))
     Mean(value=2.0, error=None)
     """
-    steps = Stretch.of(series, window)
-    spread = block_error(steps.rates(column), steps.interval)
-    return Mean(steps.rate(column), spread.error if spread is not None else None)
+    rows = SeriesWindow.of(series, window)
+    return _mean(*_core.mean_rate(rows.times, rows.column(column)))
 
 
 def ratio_with_error(
@@ -150,7 +139,7 @@ def ratio_with_error(
     series
         Table of a run, one row a sample.
     numerator, denominator
-        Running integrals, such as ``"dissipated_normal"`` and ``"dissipated_sliding"`` [J/m].
+        Cumulative columns, such as ``"dissipated_normal"`` and ``"dissipated_sliding"`` [J/m].
     window
         Start and end [s].
 
@@ -158,35 +147,62 @@ def ratio_with_error(
     -------
     Mean or None
         `None` where the denominator does not change.
+
+    Raises
+    ------
+    ConfigError
+        Where the window holds fewer than two samples.
+
+    Examples
+    --------
+    >>> import polars as pl
+    >>> from drumrs.analysis import ratio_with_error
+    >>> series = pl.DataFrame({"time": [0.0, 1.0], "normal": [0.0, 3.0], "sliding": [1.0, 3.0]})
+    >>> ratio_with_error(series, "normal", "sliding", (0.0, 1.0))
+    Mean(value=1.5, error=None)
     """
-    steps = Stretch.of(series, window)
-    below = steps.rate(denominator)
-    if below == 0.0:
-        return None
-    ratio = steps.rate(numerator) / below
-    spread = block_error(steps.rates(numerator) - ratio * steps.rates(denominator), steps.interval)
-    return Mean(ratio, spread.error / abs(below) if spread is not None else None)
+    rows = SeriesWindow.of(series, window)
+    found = _core.mean_ratio(rows.times, rows.column(numerator), rows.column(denominator))
+    return _mean(*found) if found is not None else None
+
+
+def ratio_of_sums(numerators: Array, denominators: Array) -> Mean | None:
+    """Return the ratio of two sums over equal intervals, with the error that `ratio_with_error` takes."""
+    sums = (np.concatenate([[0.0], np.cumsum(terms)]) for terms in (numerators, denominators))
+    found = _core.mean_ratio(np.arange(len(numerators) + 1.0), *sums)
+    return _mean(*found) if found is not None else None
+
+
+def longest_blocks(values: Array) -> tuple[Array, int]:
+    """Return the means over the longest blocks of which eight remain, and how many values make a block."""
+    length = 1 << max((len(values) // FEWEST_BLOCKS).bit_length() - 1, 0)
+    count = len(values) // length
+    blocks: Array = values[: count * length].reshape(count, length).mean(axis=1)
+    return blocks, length
 
 
 @dataclass(frozen=True, eq=False)
-class Stretch:
-    """The rows of a series within a window, and what happens between them."""
+class SeriesWindow:
+    """The rows of a series within a window, from the sample nearest to its start to that nearest to its end."""
 
     rows: "pl.DataFrame"
 
     @classmethod
-    def of(cls, series: "pl.DataFrame", window: tuple[float, float]) -> "Stretch":
-        """Choose the rows from the sample nearest to the window's start to that nearest to its end."""
-        times = series["time"].to_numpy()
-        first, last = (int(np.abs(times - time).argmin()) if len(times) else 0 for time in window)
-        if not first < last:
-            raise ConfigError("window", window, "one that holds at least two samples of the run")
+    def of(cls, series: "pl.DataFrame", window: tuple[float, float]) -> "SeriesWindow":
+        """Choose the rows.
+
+        Raises
+        ------
+        ConfigError
+            Where they are fewer than two.
+        """
+        first, last = _core.window(_plain(series["time"]), *window)
         return cls(series[first : last + 1])
 
     @property
     def times(self) -> Array:
         """Times of the rows [s]."""
-        return self.rows["time"].to_numpy()
+        return self.column("time")
 
     @property
     def interval(self) -> float:
@@ -194,15 +210,19 @@ class Stretch:
         times = self.times
         return float(times[-1] - times[0]) / (len(times) - 1)
 
-    def rates(self, column: str) -> Array:
-        """Mean rates of a running integral between the rows."""
-        return np.diff(self.rows[column].to_numpy()) / np.diff(self.times)
+    def column(self, name: str) -> Array:
+        """Values of a column, shape (rows,)."""
+        return _plain(self.rows[name])
 
-    def rate(self, column: str) -> float:
-        """Mean rate of a running integral over the whole."""
-        values, times = self.rows[column].to_numpy(), self.times
-        return float((values[-1] - values[0]) / (times[-1] - times[0]))
+    def rates(self, cumulative: str) -> Array:
+        """Mean rates of a cumulative column from row to row, shape (rows − 1,)."""
+        return np.diff(self.column(cumulative)) / np.diff(self.times)
 
-    def values(self, column: str) -> Array:
-        """Values that close the intervals: all rows but the first."""
-        return self.rows[column].to_numpy()[1:]
+
+def _mean(value: float, found: tuple[float, float, int] | None) -> Mean:
+    return Mean(value, found[0] if found is not None else None)
+
+
+def _plain(values: ArrayLike) -> Array:
+    """Return numbers as the core takes them: in a row, of double precision."""
+    return np.ascontiguousarray(values, dtype=np.float64)

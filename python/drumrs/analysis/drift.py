@@ -1,12 +1,18 @@
-"""Whether a load was steady: slopes within a window, and means that differ from one stretch of time to the next."""
+"""Whether a load was steady: slopes within a window, and ratios that differ from one part of the run to the next."""
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from drumrs.analysis.blocks import FEWEST_BLOCKS, Array, Stretch, longest_blocks, ratio_with_error
-from drumrs.analysis.quantiles import student_probability
+from drumrs.analysis.blocks import (
+    FEWEST_BLOCKS,
+    Array,
+    SeriesWindow,
+    longest_blocks,
+    rate_with_error,
+    ratio_with_error,
+)
 from drumrs.analysis.seeds import disagreement
 
 if TYPE_CHECKING:
@@ -16,8 +22,8 @@ if TYPE_CHECKING:
 FALSE_ALARMS = 1e-3
 # The load is steady after about that long [s], says the paper.
 _SETTLED = 5.0
-# Stretches of time that are compared are half as long as the window: long enough for an error of their own.
-_PER_WINDOW = 2
+# Parts of the run that are compared are half as long as the window: long enough for an error of their own.
+_PARTS_OF_A_WINDOW = 2
 
 
 @dataclass(frozen=True)
@@ -47,15 +53,15 @@ class Drift:
 
 
 @dataclass(frozen=True)
-class Wandering:
-    """How a mean differs from one stretch of time to the next.
+class StateSwitching:
+    """How a mean differs from one part of a run to the next.
 
     Attributes
     ----------
     spread
-        Greatest less least.
+        Greatest mean less least, in the mean's unit.
     significance
-        Probability of means so different in a steady run; small means that the load passes between states.
+        Probability of means so different in a steady run; small where the load switches slowly between states.
     """
 
     spread: float
@@ -65,8 +71,8 @@ class Wandering:
 def drift(series: "pl.DataFrame", window: tuple[float, float], column: str = "work_drum") -> Drift | None:
     """Test whether a rate drifts within a window.
 
-    A straight line is drawn through the means over the longest blocks of which eight remain, and its slope
-    compared with its standard error by Student's distribution.
+    A straight line is fitted to the means over the longest blocks of which eight remain, and its slope compared with
+    its standard error by Student's distribution.
 
     Parameters
     ----------
@@ -75,7 +81,7 @@ def drift(series: "pl.DataFrame", window: tuple[float, float], column: str = "wo
     window
         Start and end [s].
     column
-        A running integral; the drum's work unless given.
+        A cumulative column; the drum's work unless given.
 
     Returns
     -------
@@ -91,75 +97,85 @@ def drift(series: "pl.DataFrame", window: tuple[float, float], column: str = "wo
     >>> drift(warming, (0.0, 10.0)).drifting
     True
     """
-    stretch = Stretch.of(series, window)
-    return _drift(stretch.rates(column), stretch.interval, stretch.rate(column))
+    rows = SeriesWindow.of(series, window)
+    return _drift(rows.rates(column), rows.interval, rate_with_error(series, column, window).value)
 
 
 def ratio_drift(
     series: "pl.DataFrame", numerator: str, denominator: str, window: tuple[float, float]
 ) -> Drift | None:
-    """Test whether the ratio of two rates drifts within a window, as `drift` does for one."""
-    stretch = Stretch.of(series, window)
-    below = stretch.rate(denominator)
-    if below == 0.0:
-        return None
-    ratio = stretch.rate(numerator) / below
-    # To first order the ratio departs from its mean by this.
-    departures = (stretch.rates(numerator) - ratio * stretch.rates(denominator)) / below
-    return _drift(departures, stretch.interval, ratio)
-
-
-def _drift(values: Array, interval: float, mean: float) -> Drift | None:
-    if len(values) < FEWEST_BLOCKS:
-        return None
-    blocks, length = longest_blocks(values)
-    times = length * interval * (np.arange(len(blocks)) - (len(blocks) - 1) / 2.0)
-    squares = float(times @ times)
-    slope = float(times @ blocks) / squares
-    rest = blocks - blocks.mean() - slope * times
-    freedom = len(blocks) - 2
-    error = float(np.sqrt(rest @ rest / freedom / squares))
-    change = slope * interval * len(values) / abs(mean) if mean else 0.0
-    return Drift(slope, change, _significance(slope, error, freedom))
-
-
-def _significance(slope: float, error: float, freedom: int) -> float:
-    if error == 0.0:
-        return 1.0 if slope == 0.0 else 0.0
-    return 1.0 - student_probability(abs(slope) / error, freedom)
-
-
-def wandering(
-    series: "pl.DataFrame",
-    numerator: str,
-    denominator: str,
-    window: tuple[float, float],
-    settled: float = _SETTLED,
-) -> Wandering | None:
-    """Test whether a ratio differs from one stretch of time to the next.
-
-    A load may pass slowly between states, each of them steady over a window. So the time since it settled is
-    cut into stretches half as long as the window, and their ratios are compared by their own errors.
+    """Test whether the ratio of two rates drifts within a window, as `drift` does for one rate.
 
     Parameters
     ----------
     series
         Table of a run, one row a sample.
     numerator, denominator
-        Running integrals.
+        Cumulative columns.
     window
-        Start and end [s]; the last stretch ends with it.
-    settled
-        When the first may start [s].
+        Start and end [s].
 
     Returns
     -------
-    Wandering or None
-        `None` where there is no time but the window, or too few samples.
+    Drift or None
+        `None` where the denominator does not change, or the window holds fewer than eight intervals.
     """
-    length = (window[1] - window[0]) / _PER_WINDOW
+    rows, ratio = SeriesWindow.of(series, window), ratio_with_error(series, numerator, denominator, window)
+    if ratio is None:
+        return None
+    below = rate_with_error(series, denominator, window).value
+    # To first order the ratio departs from its mean by this.
+    departures = (rows.rates(numerator) - ratio.value * rows.rates(denominator)) / below
+    return _drift(departures, rows.interval, ratio.value)
+
+
+def _drift(values: Array, interval: float, mean: float) -> Drift | None:
+    # Not `scipy.stats.linregress`: that module takes every worker of a sweep a second to load.
+    from scipy import special
+
+    if len(values) < FEWEST_BLOCKS:
+        return None
+    blocks, length = longest_blocks(values)
+    if np.ptp(blocks) == 0.0:
+        return Drift(0.0, 0.0, 1.0)
+    times = length * interval * np.arange(len(blocks))
+    coefficients, covariance = np.polyfit(times, blocks, 1, cov=True)
+    slope, error = float(coefficients[0]), max(float(covariance[0, 0]) ** 0.5, np.finfo(float).tiny)
+    change = slope * interval * len(values) / abs(mean) if mean else 0.0
+    return Drift(slope, change, 2.0 * float(special.stdtr(len(blocks) - 2, -abs(slope) / error)))
+
+
+def state_switching(
+    series: "pl.DataFrame",
+    numerator: str,
+    denominator: str,
+    window: tuple[float, float],
+    settled: float = _SETTLED,
+) -> StateSwitching | None:
+    """Test whether a load switches slowly between states that differ in a ratio.
+
+    Each state may look steady over a window. So the run since the load settled is cut into parts half as long as
+    the window, and their ratios are compared by their own errors (a χ² test).
+
+    Parameters
+    ----------
+    series
+        Table of a run, one row a sample.
+    numerator, denominator
+        Cumulative columns.
+    window
+        Start and end [s]; the last part ends with it.
+    settled
+        When the first part may start [s].
+
+    Returns
+    -------
+    StateSwitching or None
+        `None` where there is no time but the window, or a part holds too few samples.
+    """
+    length = (window[1] - window[0]) / _PARTS_OF_A_WINDOW
     count = int((window[1] - settled) / length + 1e-9)
-    if count <= _PER_WINDOW:
+    if count <= _PARTS_OF_A_WINDOW:
         return None
     ends = [window[1] - length * k for k in range(count)]
     ratios = [ratio_with_error(series, numerator, denominator, (end - length, end)) for end in ends]
@@ -167,4 +183,4 @@ def wandering(
     if len(known) < count:
         return None
     values = [ratio.value for ratio in known]
-    return Wandering(max(values) - min(values), disagreement(values, [ratio.error for ratio in known]))
+    return StateSwitching(max(values) - min(values), disagreement(values, [ratio.error for ratio in known]))

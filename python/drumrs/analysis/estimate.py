@@ -4,8 +4,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from drumrs.analysis.quantiles import student_quantile
-
+# Probability that an interval holds the true mean, unless another is asked for.
 LEVEL = 0.95
 
 
@@ -54,9 +53,11 @@ class Estimate:
 
     def interval(self, level: float = LEVEL) -> Interval:
         """Return Student's interval, which holds the true mean with probability `level`."""
+        from scipy import special
+
         if not self.error:
             return Interval(self.mean, 0.0)
-        return Interval(self.mean, student_quantile(level, self.freedom) * self.error)
+        return Interval(self.mean, float(special.stdtrit(self.freedom, 0.5 + 0.5 * level)) * self.error)
 
     def __sub__(self, other: "Estimate") -> "Estimate":
         """Return the difference of two independent means."""

@@ -5,7 +5,6 @@ from collections.abc import Sequence
 
 from drumrs.analysis.blocks import FEWEST_BLOCKS
 from drumrs.analysis.estimate import LEVEL, Estimate, Interval
-from drumrs.analysis.quantiles import chi_square_tail
 
 # Blocks see nothing slower than their run: where a load passes between two states (50 % fill), the ratio's means over
 # 2 s lie four of their errors from the mean of the run. So the error of one run alone is doubled.
@@ -96,9 +95,11 @@ def disagreement(values: Sequence[float], errors: Sequence[float | None]) -> flo
     float
         1 where there is one seed only, or an error is not known or 0.
     """
+    from scipy import special
+
     if len(values) <= 1 or any(not error for error in errors):
         return 1.0
     weights = [1.0 / (error or 1.0) ** 2 for error in errors]
     mean = math.fsum(w * value for w, value in zip(weights, values, strict=True)) / math.fsum(weights)
     squares = math.fsum(w * (value - mean) ** 2 for w, value in zip(weights, values, strict=True))
-    return chi_square_tail(squares, len(values) - 1)
+    return float(special.chdtrc(len(values) - 1, squares))

@@ -2,10 +2,8 @@
 
 from typing import TYPE_CHECKING
 
-import numpy as np
-
-from drumrs.analysis.blocks import Mean, Stretch, block_error, rate_with_error, ratio_with_error
-from drumrs.analysis.drift import FALSE_ALARMS, drift, ratio_drift, wandering
+from drumrs.analysis.blocks import Mean, SeriesWindow, mean_with_error, rate_with_error, ratio_with_error
+from drumrs.analysis.drift import FALSE_ALARMS, drift, ratio_drift, state_switching
 from drumrs.energies import losses
 
 if TYPE_CHECKING:
@@ -60,8 +58,8 @@ def statistics(
         ``angular_momentum_per_mass`` [m²/s], 0 for a load that stays where it is, however it rocks.
         All with ``…_error``; `None` where not defined.
         ``drift``: change of the drum's specific power within the window over its mean, ``share_drift``: that of the
-        normal damping's share in all dissipation, ``wandering``: how that share differs between stretches of time;
-        each with the ``…_significance`` of `Drift` and `Wandering`.
+        normal damping's share in all dissipation, ``wandering``: how much that share differs between parts of the run;
+        each with the ``…_significance`` of `Drift` and `StateSwitching`.
         ``drifting``: whether one of the three is beyond chance (one in a thousand) and above a hundredth.
     """
     means: dict[str, Mean | None] = {
@@ -88,13 +86,13 @@ def _steadiness(series: "pl.DataFrame", window: tuple[float, float]) -> dict[str
     whole = series.with_columns(taken)
     share = (_LOSSES[0], "dissipated", window)
     mean, power = ratio_with_error(whole, *share), drift(series, window)
-    share_drift, passing = ratio_drift(whole, *share), wandering(whole, *share)
+    share_drift, switching = ratio_drift(whole, *share), state_switching(whole, *share)
     changes = {
         "drift": (power.change, power.significance) if power else None,
         "share_drift": (share_drift.change * mean.value, share_drift.significance)
         if share_drift and mean
         else None,
-        "wandering": (passing.spread, passing.significance) if passing else None,
+        "wandering": (switching.spread, switching.significance) if switching else None,
     }
     columns: dict[str, float | bool | None] = {}
     for name, found in changes.items():
@@ -111,8 +109,6 @@ def _scaled(mean: Mean, mass: float) -> Mean:
 
 
 def _sampled(series: "pl.DataFrame", column: str, window: tuple[float, float]) -> Mean:
-    """Return the mean of a quantity that is sampled, not integrated."""
-    steps = Stretch.of(series, window)
-    values = steps.values(column)
-    spread = block_error(values, steps.interval)
-    return Mean(float(np.mean(values)), spread.error if spread is not None else None)
+    """Return the mean of a state over the samples that close the intervals of a window."""
+    rows = SeriesWindow.of(series, window)
+    return mean_with_error(rows.column(column)[1:], rows.interval)

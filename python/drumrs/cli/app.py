@@ -34,12 +34,12 @@ app = App(
     help_epilogue=(
         "Examples:\n\n"
         "- `drumrs reproduce --quick` runs the paper's study in small and writes out/report.html\n"
-        "- `drumrs baseline --out out` runs the paper's drum without and with baffles\n"
+        "- `drumrs baseline` runs the paper's drum without and with baffles\n"
         "- `drumrs config > case.toml` writes every key, with unit and meaning\n"
-        "- `drumrs run case.toml --set contact.bundle.friction=0.3 --out out`\n"
+        "- `drumrs run case.toml --set contact.bundle.friction=0.3 --out out/case`\n"
         "- `drumrs run --set 'run.window=[5, 15]' --set run.duration=15 --seed 2 --json`\n"
-        "- `drumrs run --resume out` goes on after Ctrl-C or a power cut\n"
-        "- `drumrs view out` plays the run in the browser\n"
+        "- `drumrs run --resume out/case` goes on after Ctrl-C or a power cut\n"
+        "- `drumrs view out/case` plays the run in the browser\n"
         "- `drumrs sweep sweep.toml --out out/sweep` runs many cases\n"
         "- `drumrs verify` holds drumrs against formulas and its own promises"
     ),

@@ -19,7 +19,7 @@ from drumrs.runs import run_side_by_side
 def baseline(
     *,
     fill: float = 0.25,
-    out: Path = Path("out"),
+    out: Path = Path("out/baseline"),
     set_: Settings = None,
     seed: Seed = None,
     force: Annotated[bool, Parameter(negative="")] = False,

@@ -66,10 +66,9 @@ def run(
         Replace the run that the folder of `--out` holds. Files that drumrs did not write are never overwritten.
     """
     if resume is not None:
-        if case is not None or set_ or seed is not None or out is not None or softer is not None:
-            problem = (
-                "takes the case from its folder, so CASE, --set, --seed, --softer and --out must not be given"
-            )
+        if case is not None or set_ or seed is not None or out is not None or softer is not None or force:
+            others = "CASE, --set, --seed, --softer, --out and --force"
+            problem = f"takes the case from its folder, so {others} must not be given"
             raise ConfigError("--resume", str(resume), problem=problem)
         out = resume
         begun = RunFolder(out)

@@ -30,10 +30,11 @@ def sweep(
 ) -> int:
     """Run the cases of a sweep file that are not finished yet, and write the table of all that are.
 
-    The file has `[base]`, keys of `drumrs config` laid over the baseline; `[axes]`, a list of values for each key to
-    vary, every combination of which is a case; and `seeds`, a list of seeds or their number. The same command goes on
-    after Ctrl-C, a power cut or a change of the file; what is finished is not simulated again. Of every case the series
-    is kept, by `run.sample_every`, and the frames where `run.frame_every` is smaller than `run.duration`.
+    The file has `[base]`, keys of `drumrs config` laid over the baseline, or over the case file that its key `file`
+    names (`base = "case.toml"` is short for that alone); `[axes]`, a list of values for each key to vary, every
+    combination of which is a case; and `seeds`, a list of seeds or their number. The same command goes on after Ctrl-C,
+    a power cut or a change of the file; what is finished is not simulated again. Of every case the series is kept, by
+    `run.sample_every`, and the frames where `run.frame_every` is smaller than `run.duration`.
 
     The table that is printed begins with the case's id, as short as tells the cases of the folder apart; W/kg is the
     power over the load's mass, N/T the power that goes into normal contacts over that into tangential ones. Where a

@@ -9,6 +9,7 @@ from cyclopts import Parameter
 
 from drumrs.cli.tables import print_paths
 from drumrs.errors import ConfigError
+from drumrs.pages import check_page
 
 
 def view(
@@ -36,6 +37,8 @@ def view(
     from drumrs import viewer
 
     frames = viewer.find(run, case or [])
+    if out is not None:
+        check_page(out, "--out")
     page = out or viewer.default_page(frames)
     player = viewer.read(frames)
     try:

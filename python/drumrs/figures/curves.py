@@ -41,7 +41,8 @@ class Labels:
 def curves(points: "pl.DataFrame", labels: Labels) -> "Figure":
     """Draw means with their 95 % intervals, one line a label.
 
-    Open markers are of loads that drift. Where seeds disagree, each is a faint dot.
+    Open markers are of loads that drift, that is, whose averages have not settled. Where seeds disagree, each is a
+    faint dot.
 
     Parameters
     ----------
@@ -55,6 +56,15 @@ def curves(points: "pl.DataFrame", labels: Labels) -> "Figure":
     ------
     ValueError
         Where there is nothing to draw.
+
+    Examples
+    --------
+    >>> import polars
+    >>> from drumrs import figures
+    >>> rows = {"label": ["bare drum"] * 2, "x": [0.1, 0.2], "mean": [0.8, 1.1], "half_width": [0.1, 0.1]}
+    >>> rows |= {"drifting": [False] * 2, "disagree": [False] * 2, "values": [[0.8], [1.1]]}
+    >>> labels = figures.Labels("fill [%]", "specific power [W/kg]", x_scale=100.0)
+    >>> figure = figures.curves(polars.DataFrame(rows), labels)
     """
     if points.is_empty():
         raise ValueError("points is empty, but must hold at least one point")

@@ -22,9 +22,19 @@ def time_series(series: "pl.DataFrame", window: tuple[float, float] | None = Non
     Parameters
     ----------
     series
-        Table of a run, one row a sample.
+        Table of a run, one row a sample: `Result.series` or `Simulation.series`.
     window
         Interval of the averages [s], shaded.
+
+    Examples
+    --------
+    >>> import drumrs
+    >>> from drumrs import figures
+    >>> simulation = drumrs.Simulation(drumrs.baseline(fill=0.1))
+    >>> simulation.run(duration=0.1)
+    >>> figure = figures.time_series(simulation.series)
+    >>> [axes.get_title(loc="left") for axes in figure.axes][1:3]
+    ['Energy stored [J/m]', 'Energy ledger: relative residual']
     """
     panels: tuple[Callable[[Axes, dict[str, Array]], None], ...] = (
         _power,

@@ -27,7 +27,17 @@ _STYLE = Path(__file__).with_name("drumrs.mplstyle")
 
 @contextmanager
 def drumrs_style() -> Iterator[None]:
-    """Draw in drumrs's style within: matplotlib's defaults and drumrs.mplstyle, nothing of a user's matplotlibrc."""
+    """Draw in drumrs's style within: matplotlib's defaults and drumrs.mplstyle, nothing of a user's matplotlibrc.
+
+    Examples
+    --------
+    >>> from drumrs import figures
+    >>> with figures.drumrs_style():
+    ...     figure = figures.new_figure(4.0, 3.0)
+    ...     _ = figure.subplots().plot([0.0, 1.0], [0.0, 2.0])
+    >>> figures.render(figure, "png")[1:4]
+    b'PNG'
+    """
     with style.context(_STYLE, after_reset=True):
         yield
 
@@ -45,6 +55,13 @@ def line_colors() -> list[str]:
 
 def write(figure: Figure, path: str | Path) -> None:
     """Write a figure as PNG or SVG, as the name's ending says; the same figure gives the same bytes.
+
+    Parameters
+    ----------
+    figure
+        The figure.
+    path
+        File whose name ends in ``.png`` or ``.svg``.
 
     Raises
     ------

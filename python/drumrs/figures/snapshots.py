@@ -24,7 +24,17 @@ _PANEL = 3.1  # inches
 
 @dataclass(frozen=True)
 class View:
-    """One frame to be drawn, and what to write above it."""
+    """One frame to be drawn, and what to write above it.
+
+    Attributes
+    ----------
+    frames
+        Frames of a run.
+    index
+        Which of them; the last one unless given.
+    label
+        Written before the time.
+    """
 
     frames: Frames
     index: int = -1
@@ -45,7 +55,7 @@ def snapshot(frames: Frames, index: int = -1, label: str = "") -> "Figure":
     frames
         Frames of a run.
     index
-        Which of them.
+        Which of them; the last one unless given.
     label
         Written before the time.
 
@@ -63,10 +73,25 @@ def snapshot(frames: Frames, index: int = -1, label: str = "") -> "Figure":
 def snapshots(views: Sequence[View]) -> "Figure":
     """Draw several frames in a row, on one scale of speed.
 
+    Parameters
+    ----------
+    views
+        The frames, of one run or of several, as `snapshot` draws each.
+
     Raises
     ------
     ValueError
         Where there is nothing to draw.
+
+    Examples
+    --------
+    >>> import drumrs
+    >>> from drumrs import figures
+    >>> simulation = drumrs.Simulation(drumrs.baseline(fill=0.1))
+    >>> simulation.run(duration=0.1)
+    >>> figure = figures.snapshots([figures.View(simulation.frames, index, "10 % fill") for index in (0, -1)])
+    >>> [axes.get_title() for axes in figure.axes[:2]]
+    ['10 % fill, t = 0.00 s', '10 % fill, t = 0.08 s']
     """
     if not views:
         raise ValueError("views is empty, but must hold at least one frame")

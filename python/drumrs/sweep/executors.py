@@ -1,4 +1,4 @@
-"""`Workers`: who runs the cases: threads of this process, spawned processes, or an executor that was given."""
+"""Executors of a sweep: threads of this process, spawned processes, or one that was given; and how to stop them."""
 
 import multiprocessing
 import signal
@@ -19,7 +19,7 @@ _SPARE = 2
 
 @dataclass(frozen=True)
 class Workers:
-    """Workers, and how many cases may be in their hands at once.
+    """An executor, how many cases it gets at once, and how to stop those under way.
 
     Attributes
     ----------

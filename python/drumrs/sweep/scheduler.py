@@ -1,4 +1,4 @@
-"""The engine: which cases are to be run, in which order, and what becomes of them."""
+"""The scheduler: which cases are to be run, in which order, and what becomes of them."""
 
 from collections.abc import Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
@@ -17,6 +17,8 @@ from drumrs.sweep.worker import CaseOutcome
 # How often progress is shown; a Ctrl-C is seen at once.
 _TICK = 0.25
 _MOST_NAMED = 10
+# Reading what is finished takes seconds from so many cases on, and is shown.
+_MANY = 500
 
 
 @dataclass(frozen=True)
@@ -58,7 +60,7 @@ class Outcome:
 
 @dataclass(frozen=True)
 class RunOptions:
-    """How to run: who, how many at once, which part, whether to try failed cases again."""
+    """How to run a sweep: the arguments of `Sweep.run`."""
 
     executor: Executor | str | None = None
     jobs: int | None = None
@@ -85,7 +87,7 @@ def run_cases(cases: Sequence[Case], folder: Path, options: RunOptions) -> Outco
     Raises
     ------
     ConfigError
-        Where the order or the folder is not accepted; nothing has been simulated then.
+        Where an option or the folder is not accepted; nothing has been simulated then.
     OSError
         Where results cannot be written; what is finished is kept.
     KeyboardInterrupt
@@ -96,7 +98,13 @@ def run_cases(cases: Sequence[Case], folder: Path, options: RunOptions) -> Outco
     store, tally = Store(folder), _Tally()
     with _say_what_is_kept(store, tally), open_workers(options.executor, options.jobs) as workers:
         store.open()
-        waiting = _take_stock(mine, store, tally, retry=options.retry)
+        show = options.progress and len(mine) >= _MANY
+        with Task("looking for finished cases", len(mine), "cases", show=show) as task:
+            waiting = []
+            for case in mine:
+                if _is_waiting(case, store, tally, retry=options.retry):
+                    waiting.append(case)
+                task.advance()
         with _task(waiting, tally, show=options.progress) as task:
             _name_replaced(tally.replaced, task)
             _schedule(waiting, workers, store, tally, task)
@@ -165,22 +173,18 @@ def shard_of(ordered: Sequence[Case], shard: tuple[int, int] | None) -> list[Cas
     return list(ordered[part - 1 :: parts])
 
 
-def _take_stock(cases: Sequence[Case], store: Store, tally: _Tally, *, retry: bool) -> list[Case]:
-    """Enter what is known of the cases, and return those to be run."""
-    waiting = []
-    for case in cases:
-        store.require_names(case)
-        fault = store.fault(case)
-        error = None if retry else store.error(case)
-        if fault is None:
-            tally.finished.add(case.id)
-        elif error is not None:
-            tally.failed[case.id] = Failure(case, str(error.get("error")), str(error.get("message")))
-        else:
-            waiting.append(case)
-            if fault:
-                tally.replaced.append(fault)
-    return waiting
+def _is_waiting(case: Case, store: Store, tally: _Tally, *, retry: bool) -> bool:
+    """Enter what is known of a case, and tell whether it is to be run."""
+    store.require_names(case)
+    fault = store.fault(case)
+    error = None if retry else store.error(case)
+    if fault is None:
+        tally.finished.add(case.id)
+    elif error is not None:
+        tally.failed[case.id] = Failure(case, str(error.get("error")), str(error.get("message")))
+    elif fault:
+        tally.replaced.append(fault)
+    return fault is not None and error is None
 
 
 def _schedule(waiting: Sequence[Case], workers: Workers, store: Store, tally: _Tally, task: Task) -> None:

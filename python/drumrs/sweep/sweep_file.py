@@ -19,8 +19,9 @@ _KEYS = ("base", "axes", "seeds")
 def read_sweep(path: str | Path, seeds: "Seeds" = None) -> Sweep:
     r"""Read a sweep file.
 
-    ``[base]`` holds keys laid over the baseline, ``[axes]`` a list of values for each key to vary, ``seeds`` a list of
-    seeds or their number. Keys are dotted or stand in tables, as in a case file.
+    ``[base]`` holds keys laid over the baseline, or over the case file that its key ``file`` names, relative to
+    this one; ``base = "machine.toml"`` is short for that key alone. ``[axes]`` holds a list of values for each key to
+    vary, ``seeds`` a list of seeds or their number. Keys are dotted or stand in tables, as in a case file.
 
     Parameters
     ----------
@@ -32,7 +33,7 @@ def read_sweep(path: str | Path, seeds: "Seeds" = None) -> Sweep:
     Raises
     ------
     ConfigError
-        Where the file cannot be read, or a key or value is not accepted.
+        Where the file or that of its base cannot be read, or a key or value is not accepted.
 
     Examples
     --------
@@ -47,18 +48,32 @@ def read_sweep(path: str | Path, seeds: "Seeds" = None) -> Sweep:
     for key in content:
         if key not in _KEYS:
             raise ConfigError(key, content[key], problem="is not a key of a sweep file", hint=_meant(key))
-    base, axes = (_table(content, key) for key in ("base", "axes"))
+    axes = _table(content, "axes")
     return Sweep(
-        Config().replace(base or {}),
+        _base(content, Path(path).parent),
         None if axes is None else dict(_flat(axes)),
         content.get("seeds") if seeds is None else seeds,
     )
 
 
+def _base(content: Mapping[str, Any], folder: Path) -> Config:
+    """Read what all cases share: a case file, keys, or keys laid over a case file."""
+    if isinstance(content.get("base"), str):
+        return Config.read(folder / content["base"])
+    keys = dict(_table(content, "base") or {})
+    file = keys.pop("file", None)
+    if file is None:
+        return Config().replace(keys)
+    if not isinstance(file, str):
+        raise ConfigError("base.file", file, "the path of a case file")
+    return Config.read(folder / file).replace(keys)
+
+
 def _table(content: Mapping[str, Any], key: str) -> Mapping[str, Any] | None:
     table = content.get(key)
     if table is not None and not isinstance(table, Mapping):
-        raise ConfigError(key, table, "a table")
+        choice = " or the path of a case file" if key == "base" else ""
+        raise ConfigError(key, table, f"a table{choice}")
     return table
 
 
@@ -76,5 +91,5 @@ def _meant(key: str) -> str:
     if close:
         return f"did you mean {close[0]}?"
     if key.partition(".")[0] in set(dotted_keys(Config)):
-        return f"did you mean base.{key} or axes.{key}?"
+        return f"did you mean base.{key} or axes.{key}? (the case file of a base is base.file)"
     return f"the keys there are {', '.join(_KEYS)}"

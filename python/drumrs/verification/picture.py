@@ -5,15 +5,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from drumrs.figures import drumrs_style, line_colors, new_figure
+from drumrs.figures import INK, drumrs_style, line_colors, new_figure
 from drumrs.verification.evidence import Panel, Trace
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-# What stands for several lines: nearly black.
-_INK = "0.15"
 _SIZE = (5.0, 3.1)  # inches
 _MARKERS = ("o", "s", "^", "D", "v", "P", "X", "*")
 # More points than this are drawn small.
@@ -33,7 +31,7 @@ def agreement(panel: Panel) -> "Figure":
         axes = figure.subplots()
         looks = zip(cycle(line_colors()), cycle(_MARKERS), strict=False)
         for trace in panel.traces:
-            _draw(axes, trace, *(next(looks) if np.size(trace.x) else (_INK, "")))
+            _draw(axes, trace, *(next(looks) if np.size(trace.x) else (INK, "")))
         axes.set(xlabel=panel.x, ylabel=panel.y)
         if panel.logarithmic:
             axes.set(xscale="log", yscale="log")

@@ -64,7 +64,9 @@ def _scaled(config: Config, mass: float) -> Config:
     drum, load, run, contact = config.drum, config.load, config.run, config.contact
     changes: dict[str, Any] = {
         "drum.diameter": 4.0 * drum.diameter,
-        **{f"drum.baffles.{key}": 4.0 * getattr(drum.baffles, key) for key in ("height", "base", "tip")},
+        "drum.baffles.height": 4.0 * drum.baffles.height,
+        "drum.baffles.base": 4.0 * drum.baffles.base,
+        "drum.baffles.tip": 4.0 * drum.baffles.tip,
         "load.diameter": 4.0 * load.diameter,
         "load.density": load.density * mass / 16.0,
         "load.start_speed": 2.0 * load.start_speed,
@@ -73,8 +75,8 @@ def _scaled(config: Config, mass: float) -> Config:
         "run.sample_every": 2.0 * run.sample_every,
         "contact.drum.normal_damping": (contact.drum.normal_damping or 0.0) * mass / 2.0,
     }
-    for side in ("bundle", "drum"):
-        changes[f"contact.{side}.normal_stiffness"] = getattr(contact, side).normal_stiffness * mass / 4.0
+    for side, law in (("bundle", contact.bundle), ("drum", contact.drum)):
+        changes[f"contact.{side}.normal_stiffness"] = law.normal_stiffness * mass / 4.0
     return config.replace(changes)
 
 

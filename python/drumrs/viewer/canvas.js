@@ -15,7 +15,8 @@ export function prepare(canvas) {
   return { context, width, height };
 }
 
-// Read colors, line colors and font from an element's style: the CSS variables that player.css sets.
+// Read colors, line colors and font from an element's style: the CSS variables that player.css sets in a player, and
+// that a page sets for a stage or plot of its own.
 export function readTheme(element) {
   const style = getComputedStyle(element);
   const named = (name) => style.getPropertyValue(`--${name}`).trim();

@@ -43,14 +43,14 @@ export const MODES = {
     value: (recording, k, scene) => scene.bundles[k].speed,
   },
   height: {
-    label: "Height at the marked time",
+    label: "Height at marked time",
     unit: "mm",
     factor: 1000,
     marked: true,
     value: (recording, k, scene, mark) => recording.position(mark, k)[1],
   },
   distance: {
-    label: "Distance from the axis at the marked time",
+    label: "Distance from axis at marked time",
     unit: "mm",
     factor: 1000,
     marked: true,
@@ -83,8 +83,13 @@ export class Coloring {
   // Where the two ends of the scale lie.
   range(scene) {
     if (this.mode.range) return this.mode.range(this.recording);
-    const values = scene.bundles.map((_, k) => this.value(k, scene));
-    return [Math.min(...values), Math.max(...values)];
+    let [lowest, highest] = [Infinity, -Infinity];
+    for (let k = 0; k < scene.bundles.length; k++) {
+      const value = this.value(k, scene);
+      lowest = Math.min(lowest, value);
+      highest = Math.max(highest, value);
+    }
+    return [lowest, highest];
   }
 
   // What each bundle is filled with, and whether it is light: { fill, light }.

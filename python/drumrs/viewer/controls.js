@@ -88,7 +88,7 @@ export class Controls {
     const { recording, coloring, scene } = this.player;
     const { mode, mark } = coloring;
     const [lowest, highest] = coloring.range(scene).map((value) => formatNumber(value * mode.factor));
-    const moment = mode.marked ? `, t = ${recording.frames[mark].time.toFixed(2)} s` : "";
+    const moment = mode.marked ? `, t\u00a0=\u00a0${recording.frames[mark].time.toFixed(2)}\u00a0s` : "";
     this.part("quantity").textContent = `${mode.label}${moment} [${mode.unit}]`;
     this.part("lowest").textContent = lowest;
     // Speeds beyond the end of the scale have its last color.

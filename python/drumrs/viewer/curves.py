@@ -18,7 +18,7 @@ Array = NDArray[np.float64]
 _POINTS = 500
 # Fewer points than this are no curve.
 _FEWEST = 3
-# Share of a run in which the load falls and settles; it does not stretch the axes.
+# The first one in so many points, when the load falls and settles, does not stretch the axes.
 _START = 10
 
 
@@ -32,7 +32,21 @@ class Line:
 
 @dataclass(frozen=True)
 class Panel:
-    """Curves that share their axes."""
+    """Curves that share their axes.
+
+    Attributes
+    ----------
+    title, unit
+        What is drawn, and in which unit.
+    times
+        Times of the points [s].
+    lines
+        The curves.
+    limits
+        Lowest and highest value of the axis; what lies beyond is cut off.
+    logarithmic
+        Whether the axis is logarithmic.
+    """
 
     title: str
     unit: str
@@ -51,7 +65,7 @@ def panels_of_series(series: "pl.DataFrame") -> list[Panel]:
 
 
 def panels_of_frames(frames: Frames) -> list[Panel]:
-    """Return what frames alone can tell: the bundles' mean speed, and where their center is."""
+    """Return what frames alone can tell: the bundles' mean speed, and their mean position."""
     if len(frames) < _FEWEST:
         return []
     centers = 1e3 * frames.positions.mean(axis=1, dtype=float)

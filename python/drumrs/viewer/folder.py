@@ -29,6 +29,17 @@ def find(path: Path, wanted: Sequence[str] = ()) -> Path:
     ------
     ConfigError
         Where there is nothing to view, or there are several: they are listed.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> from drumrs.viewer import find
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     Path(folder, "1a2b.frames.parquet").touch()
+    ...     Path(folder, "3f2a.frames.parquet").touch()
+    ...     find(Path(folder, "3f")).name
+    '3f2a.frames.parquet'
     """
     if path.is_file():
         return path

@@ -4,14 +4,14 @@ import html
 import json
 import math
 from pathlib import Path
-from typing import TYPE_CHECKING, Self
+from typing import TYPE_CHECKING, Any, Self
 
 from drumrs.config import Config
 from drumrs.errors import ConfigError
 from drumrs.files import write_whole
 from drumrs.frames import Frames
 from drumrs.viewer.bundle import module
-from drumrs.viewer.recording import recording
+from drumrs.viewer.recording import pack
 
 if TYPE_CHECKING:
     import polars as pl
@@ -23,6 +23,7 @@ _PAGE = """<!doctype html>
 <head>
 <meta charset="utf-8">
 <meta name="viewport" content="width=device-width, initial-scale=1">
+<meta name="generator" content="drumrs">
 <meta name="color-scheme" content="light dark">
 <title>{title}</title>
 <style>
@@ -116,6 +117,10 @@ class Player:
         """Say what would be shown."""
         return f"<Player of {self._frames.count} bundles, {len(self._frames)} frames>"
 
+    def recording(self) -> dict[str, Any]:
+        """Return what a page reads, ready for JSON: `unpack` of recording.js makes a recording of it."""
+        return pack(self._frames, self._series, self.title, self.window)
+
     def element(self, *, autoplay: bool = False, start: float | None = None) -> str:
         """Return the player as an HTML element; the page needs `script` once, anywhere.
 
@@ -126,7 +131,7 @@ class Player:
         start
             Time to show first [s]; the first frame unless given.
         """
-        data = json.dumps(recording(self._frames, self._series, self.title, self.window), allow_nan=False)
+        data = json.dumps(self.recording(), allow_nan=False)
         # A title may hold any text, but none that would end the script.
         safe = data.replace("<", "\\u003c")
         attributes = " autoplay" if autoplay else ""

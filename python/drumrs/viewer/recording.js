@@ -16,6 +16,10 @@ export class Recording extends EventTarget {
     return this.radii.length;
   }
 
+  get greatestRadius() {
+    return this.radii.reduce((greatest, radius) => Math.max(greatest, radius));
+  }
+
   get begin() {
     return this.frames[0].time;
   }
@@ -27,7 +31,7 @@ export class Recording extends EventTarget {
   // Add later frames while a run goes on; panels and scale, where given, take the place of the present ones. A panel
   // keeps its lines, with more points. Whoever shows this recording hears of it by the event "change".
   extend({ frames = [], panels = [], speedScale = this.speedScale }) {
-    this.frames.push(...frames);
+    for (const frame of frames) this.frames.push(frame);
     panels.forEach((panel, k) => Object.assign(this.panels[k], panel));
     this.speedScale = speedScale;
     this.dispatchEvent(new Event("change"));

@@ -22,7 +22,7 @@ MOST_PLACES = 2_000_000
 _TYPICAL = 0.998
 
 
-def recording(
+def pack(
     frames: Frames,
     series: "pl.DataFrame | None",
     title: str,

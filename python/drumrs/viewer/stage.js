@@ -113,7 +113,7 @@ export class Stage {
   // A radius on each bundle shows how it spins: black on light colors, white on dark ones.
   drawMarks({ bundles }, shades) {
     const { context, recording, pixel } = this;
-    context.lineWidth = Math.min(1.5 * pixel, 0.25 * Math.max(...recording.radii));
+    context.lineWidth = Math.min(1.5 * pixel, 0.25 * recording.greatestRadius);
     for (const light of [true, false]) {
       context.beginPath();
       bundles.forEach(({ x, y, angle }, k) => {

@@ -9,7 +9,6 @@ import pytest
 import drumrs
 from drumrs import analysis
 from drumrs.analysis.blocks import longest_blocks
-from drumrs.analysis.quantiles import student_probability
 from drumrs.errors import ConfigError
 
 
@@ -33,7 +32,7 @@ def run(rates: dict[str, np.ndarray], interval: float = 0.02) -> pl.DataFrame:
     return pl.DataFrame({"time": interval * np.arange(count + 1), **sums})
 
 
-def test_block_error_is_the_cores():
+def test_means_and_errors_are_those_of_the_summary():
     config = drumrs.baseline(fill=0.1).replace(
         {"run.duration": 0.3, "run.window": [0.1, 0.3], "run.sample_every": 0.001}
     )
@@ -116,12 +115,11 @@ def test_a_lone_seed_has_no_interval_without_an_error():
         analysis.student([])
 
 
-def test_students_quantiles_are_those_of_the_tables():
+def test_intervals_are_those_of_students_tables():
     known = {(0.95, 1): 12.706, (0.95, 2): 4.303, (0.95, 7): 2.365, (0.95, 30): 2.042, (0.99, 9): 3.250}
     for (level, freedom), quantile in known.items():
-        assert analysis.student_quantile(level, freedom) == pytest.approx(quantile, abs=6e-4)
-    # Many degrees of freedom make it normal.
-    assert student_probability(1.0, 10_000) == pytest.approx(math.erf(math.sqrt(0.5)), abs=1e-4)
+        interval = analysis.Estimate(5.0, 2.0, freedom).interval(level)
+        assert interval.half_width == pytest.approx(2.0 * quantile, abs=1.2e-3)
 
 
 def test_ratio_counts_what_both_rates_share():
@@ -208,23 +206,23 @@ def test_drift_of_a_ratio():
     assert sum(one.drifting for one in steady) <= 2
 
 
-def test_loads_that_pass_between_states_wander():
+def test_loads_that_switch_slowly_between_states_are_found():
     random = np.random.default_rng(9)
     # 30 s in two states, the window [20, 30] within one of them.
     states = np.where((np.arange(1500) > 350) & (np.arange(1500) < 800), 2.2, 1.8)
     times = (20.0, 30.0)
     for _ in range(20):
-        found = analysis.wandering(ratio_run(random, states), "above", "below", times)
+        found = analysis.state_switching(ratio_run(random, states), "above", "below", times)
         assert found.significance < 1e-3
         assert found.spread == pytest.approx(0.4, abs=0.15)
     steady = [
-        analysis.wandering(ratio_run(random, np.full(1500, 2.0)), "above", "below", times).significance
+        analysis.state_switching(ratio_run(random, np.full(1500, 2.0)), "above", "below", times).significance
         for _ in range(300)
     ]
     assert sum(one < 1e-3 for one in steady) <= 2
     assert np.median(steady) == pytest.approx(0.5, abs=0.25)
-    assert analysis.wandering(ratio_run(random, states), "above", "below", (0.0, 6.0)) is None
-    assert analysis.wandering(ratio_run(random, states), "above", "below", (5.0, 25.0)) is None
+    assert analysis.state_switching(ratio_run(random, states), "above", "below", (0.0, 6.0)) is None
+    assert analysis.state_switching(ratio_run(random, states), "above", "below", (5.0, 25.0)) is None
 
 
 def test_longest_blocks():

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from drumrs import analysis
-from drumrs.analysis import depth, motion
+from drumrs.analysis import depth
 from drumrs.errors import ConfigError
 from drumrs.frames import Frames
 
@@ -14,6 +14,8 @@ RADIUS, DIAMETER = 1.0, 0.1
 TIMES = 0.04 * np.arange(151)
 OMEGA = 5.0
 WINDOW = (0.0, 6.0)
+# Five whole turns in the window.
+TURNING = 10.0 * math.pi / 6.0
 
 
 def turned(points: np.ndarray, angle: float) -> np.ndarray:
@@ -50,11 +52,43 @@ def moving(start: np.ndarray, omega: float = OMEGA) -> np.ndarray:
     return np.stack([turned(start, omega * time) for time in TIMES])
 
 
-@pytest.mark.parametrize("omega", [OMEGA, -OMEGA])
-def test_a_ring_that_centrifuges_is_carried_round(omega):
-    frames = made_up(moving(ring(40, 0.95), omega), omega)
-    # 40 bundles in 6 · 5 / 2π turns: whole passages only.
-    assert analysis.carried_round(frames, WINDOW).value == pytest.approx(1.0, abs=0.02)
+def rider(start: np.ndarray, omega: float = TURNING) -> Frames:
+    """Return a load that turns at the drum's angular velocity, or not at all, five whole turns long."""
+    return made_up(moving(start, omega), omega)
+
+
+def annulus(fill: float, size_ratio: float) -> np.ndarray:
+    """Return a square packing between the rim and the circle that leaves room for such a fill."""
+    line = np.arange(-1.0, 1.0, 2.0 * RADIUS / size_ratio) + 0.3 / size_ratio
+    points = np.stack(np.meshgrid(line, line), axis=-1).reshape(-1, 2)
+    distance = np.hypot(*points.T)
+    return points[(distance < RADIUS) & (distance > RADIUS * math.sqrt(1.0 - fill))]
+
+
+@pytest.mark.parametrize("omega", [TURNING, -TURNING])
+@pytest.mark.parametrize("fill", [0.1, 0.25, 0.5, 0.75, 1.0])
+@pytest.mark.parametrize("size_ratio", [10, 40])
+def test_a_load_that_rides_whole_is_carried_round_at_any_fill_and_size(fill, size_ratio, omega):
+    assert analysis.carried_round(rider(annulus(fill, size_ratio), omega), WINDOW).value == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize("speed", [0.0, 0.5, 1.5])
+def test_half_a_load_that_rides_counts_half(speed):
+    # The other half rests, or slides at half or one and a half of the drum's speed.
+    halves = [moving(annulus(0.5, 20), TURNING), moving(annulus(0.5, 20), speed * TURNING)]
+    frames = made_up(np.concatenate(halves, axis=1), TURNING)
+    assert analysis.carried_round(frames, WINDOW).value == pytest.approx(0.5)
+
+
+def test_a_load_at_rest_in_a_turning_drum_is_not_carried_round():
+    assert analysis.carried_round(made_up(moving(bed(), 0.0)), WINDOW).value == 0.0
+    assert analysis.carried_round(made_up(moving(bed(), 0.0), 0.0), WINDOW) is None
+
+
+def test_a_load_that_rocks_below_the_axis_is_not_carried_round():
+    # Rides up by 80° and slides back.
+    start, swing = np.array([[0.0, -0.95], [0.0, -0.3]]), np.minimum(TURNING * TIMES % 2.8, 1.4)
+    assert analysis.carried_round(made_up(np.stack([turned(start, a) for a in swing])), WINDOW).value == 0.0
 
 
 def test_time_along_the_rim_is_that_of_the_outer_layers_that_ride():
@@ -66,26 +100,34 @@ def test_time_along_the_rim_is_that_of_the_outer_layers_that_ride():
     assert analysis.along_the_rim(made_up(paths, omega=0.0), WINDOW) is None
 
 
-def test_half_a_load_carried_round():
-    both = np.concatenate([ring(30, 0.95), ring(30, 0.5)])
-    assert analysis.carried_round(made_up(moving(both)), WINDOW).value == pytest.approx(0.5, abs=0.02)
+def test_a_passage_counts_once_and_in_the_sense_of_rotation_only():
+    top = np.array([[0.0, 0.95]])
+    # An eighth of a turn to either side of the top, five frames each.
+    angles = np.linspace(-math.pi / 4.0, math.pi / 4.0, 11) + 0.01
+    for sense in (1.0, -1.0):
+        frames = made_up(
+            np.stack([turned(top, sense * a) for a in angles]), sense * math.pi / 20.0 / TIMES[1]
+        )
+        assert analysis.carried_round(frames, WINDOW).value == pytest.approx(4.0)
+        back = made_up(frames.positions[::-1].copy(), sense * math.pi / 20.0 / TIMES[1])
+        assert analysis.carried_round(back, WINDOW).value == 0.0
 
 
-def test_only_who_comes_to_the_top_passes_it():
-    angle, reach = 0.2, np.full(2, 0.85)
-    right, left = (0.95 * np.array([math.sin(a), math.cos(a)]) for a in (0.1, -0.1))
-    start = np.stack([right, left])
-    assert motion._passages(start, turned(start, angle), angle, reach) == 1
-    assert motion._passages(start, turned(start, -angle), -angle, reach) == 1
-    only_right, one = start[:1], reach[:1]
-    assert motion._passages(only_right, turned(only_right, angle), angle, one) == 1
-    assert motion._passages(only_right, turned(only_right, -angle), -angle, one) == 0
-
-
-@pytest.mark.parametrize("speed", [0.0, 0.5, 1.5])
+@pytest.mark.parametrize("speed", [0.5, 0.75, 1.25, 1.5])
 def test_what_slips_is_not_carried(speed):
     frames = made_up(moving(ring(40, 0.95), speed * OMEGA))
     assert analysis.carried_round(frames, WINDOW).value == 0.0
+
+
+@pytest.mark.parametrize("froude", [0.5, 0.9, 1.0])
+def test_what_is_thrown_over_the_axis_is_not_carried(froude):
+    """A parabola whose vertex lies above the axis, where it has the drum's angular velocity."""
+    height, gravity = 0.8, 9.81
+    omega = math.sqrt(froude * gravity / height)
+    times = TIMES[:21] - TIMES[10] + 0.001
+    path = np.column_stack([-omega * height * times, height - 0.5 * gravity * times**2])
+    frames = made_up(path[:, np.newaxis, :], omega)
+    assert analysis.carried_round(frames, (0.0, TIMES[20])).value == 0.0
 
 
 def test_what_flies_over_the_axis_is_not_carried():
@@ -160,19 +202,18 @@ def test_window_without_frames():
         analysis.carried_round(made_up(moving(bed())), (7.0, 8.0))
 
 
-def test_a_baffle_is_no_free_surface():
+def test_a_bundle_finds_room_beside_baffles_and_walls_only():
     baffle = np.array([[0.0, -0.95], [0.25, -0.95], [0.12, -0.6]])
-    start = bed()
-    # The bed makes room for the baffle, which is as large as several bundles.
-    near = (np.abs(start[:, 0] - 0.12) < 0.2) & (start[:, 1] < -0.55)
-    below = start[~near]
-    frames = made_up(moving(below))
-    with_baffle = Frames(**{**vars(frames), "baffles": (baffle,)})
-    places = depth._places(with_baffle, RADIUS)
-    assert not depth._is_inside(places, baffle).any()
-    assert depth._distance_to_outline(places, baffle).min() > DIAMETER / 2.0
+    wall = np.array([[0.4, 0.0], [0.8, 0.0]])
+    frames = made_up(moving(bed()))
     bare = depth._places(frames, RADIUS)
-    assert len(places) < len(bare)
-    assert depth._is_inside(np.array([[0.12, -0.8]]), baffle).all()
-    around = np.array([[0.12, -1.05], [0.45, -0.95], [0.12, -0.5]])
-    assert depth._distance_to_outline(around, baffle) == pytest.approx([0.1, 0.2, 0.1])
+    places = depth._places(Frames(**{**vars(frames), "baffles": (baffle,), "walls": (wall,)}), RADIUS)
+    taken = {tuple(place) for place in bare} - {tuple(place) for place in places}
+    # Within a radius of the wall, or of the triangle, or inside of that.
+    assert all((y > -0.05) if x > 0.34 else (y < -0.5) for x, y in taken)
+    assert (np.hypot(*(places - wall[1]).T) > 0.0).all()
+    near_the_wall = (np.abs(bare[:, 1]) <= 0.05) & (bare[:, 0] >= 0.4) & (bare[:, 0] <= 0.8)
+    inside = (bare[:, 1] > -0.95) & (bare[:, 1] < -0.7) & (np.abs(bare[:, 0] - 0.12) < 0.03)
+    assert near_the_wall.sum() > 10
+    assert inside.sum() > 3
+    assert all(tuple(place) in taken for place in bare[near_the_wall | inside])

@@ -55,7 +55,7 @@ def test_out_holds_everything(drum, tmp_path):
     assert status == 0
     assert "wall time [s]" in printed
     tables = "summary.json series.parquet frames.parquet config.toml"
-    names = f"{tables} snapshots.png time_series.png player.html checkpoint.bin"
+    names = f"{tables} snapshots.png time_series.png player.html checkpoint.bin drumrs-run.json"
     assert {path.name for path in out.iterdir()} == set(names.split())
     assert drumrs.load(out).config.run.seed == 7
     assert json.loads(pl.read_parquet_metadata(out / "series.parquet")["units"])["drum_power"] == "W/m"

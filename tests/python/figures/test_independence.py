@@ -10,7 +10,7 @@ import pytest
 from drumrs import figures
 from synthetic import made_up, series_of
 
-NOWHERE = "module://no_such_package.backend"
+NOWHERE = "no_such_backend"
 
 DRAW = """
 import sys

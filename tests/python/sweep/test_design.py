@@ -153,6 +153,30 @@ def test_sweep_file(tmp_path):
     assert len(read_sweep(path, seeds=3)) == 6
 
 
+@pytest.mark.parametrize("base", ['base = "../drums/machine.toml"', '[base]\nfile = "../drums/machine.toml"'])
+def test_a_sweep_file_may_name_its_base_relative_to_itself(tmp_path, monkeypatch, base):
+    for folder in ("drums", "studies"):
+        (tmp_path / folder).mkdir()
+    (tmp_path / "drums" / "machine.toml").write_text("drum.diameter = 0.52\nrun.duration = 2.0\n")
+    path = tmp_path / "studies" / "study.toml"
+    path.write_text(f"{base}\n[axes]\nload.fill = [0.1, 0.2]\n")
+    monkeypatch.chdir(tmp_path)
+    configs = [case.config for case in read_sweep("studies/study.toml").cases]
+    assert [(c.drum.diameter, c.run.duration, c.load.fill) for c in configs] == [
+        (0.52, 2.0, 0.1),
+        (0.52, 2.0, 0.2),
+    ]
+
+
+def test_keys_of_a_sweep_file_win_over_its_base(tmp_path):
+    (tmp_path / "machine.toml").write_text("drum.diameter = 0.52\nload.fill = 0.3\nrun.duration = 2.0\n")
+    path = tmp_path / "study.toml"
+    path.write_text('[base]\nfile = "machine.toml"\nrun.duration = 3.0\n[axes]\nload.count = [50]\n')
+    (case,) = read_sweep(path).cases
+    assert (case.config.drum.diameter, case.config.run.duration, case.config.load.count) == (0.52, 3.0, 50)
+    assert case.config.load.fill is None
+
+
 def test_the_study_of_the_readme_is_one(tmp_path):
     readme = (Path(__file__).parents[3] / "README.md").read_text(encoding="utf-8")
     (study,) = re.findall(r"```toml\n(.*?)```", readme, re.DOTALL)
@@ -167,7 +191,9 @@ def test_the_study_of_the_readme_is_one(tmp_path):
         ("axis = 1", "axis is not a key of a sweep file; did you mean axes?"),
         ("[load]\nfill = [0.1]", "load is not a key of a sweep file; did you mean base.load or axes.load?"),
         ("zzz = 1", "zzz is not a key of a sweep file; the keys there are base, axes, seeds"),
-        ("base = 3", "base is 3, but must be a table"),
+        ("base = 3", "base is 3, but must be a table or the path of a case file"),
+        ("base.file = 3", "base.file is 3, but must be the path of a case file"),
+        ("base = 'none.toml'", "none.toml', but must be one that can be read"),
         ("[axes]", "axes is empty"),
         ("[axes.load]\nfil = [1]", "load.fil is not a key; did you mean load.fill?"),
         ("[axes]\nload.fill = 0.1", "the axis load.fill is 0.1, but must be a list"),

@@ -14,7 +14,7 @@ import drumrs
 from drumrs import viewer
 from drumrs.frames import Frames
 from drumrs.viewer import curves
-from drumrs.viewer.recording import recording
+from drumrs.viewer.recording import pack
 from synthetic import series_of
 
 SCRIPT = re.compile(r'<script type="application/json">(.*?)</script>', re.DOTALL)
@@ -40,7 +40,7 @@ def read_back(text: str, kind: str) -> np.ndarray:
 
 def test_a_page_holds_what_was_recorded():
     frames = frames_of(drum_radius=0.2375)
-    data = recording(frames, None, "title", (0.0, 0.1))
+    data = pack(frames, None, "title", (0.0, 0.1))
     places = read_back(data["positions"], "<u2").reshape(4, 5, 2) / 65535 * 2.0 - 1.0
     assert np.abs(places * data["reach"] - frames.positions).max() < 5e-6
     turned = read_back(data["angles"], "<u2").reshape(4, 5) / 65536 * math.tau
@@ -59,13 +59,13 @@ def test_a_page_holds_what_was_recorded():
 )
 def test_the_picture_holds_everything(scene, reach):
     # Bundles outside of a small drum are still seen.
-    assert recording(frames_of(**scene), None, "", None)["reach"] == pytest.approx(reach, rel=0.05)
+    assert pack(frames_of(**scene), None, "", None)["reach"] == pytest.approx(reach, rel=0.05)
 
 
 def test_too_many_frames_are_thinned_evenly_and_the_end_stays(monkeypatch):
     monkeypatch.setattr("drumrs.viewer.recording.MOST_PLACES", 10)
     frames = frames_of(count=5, frames=7, drum_radius=0.3)
-    data = recording(frames, None, "", None)
+    data = pack(frames, None, "", None)
     assert read_back(data["times"], "<f8").tolist() == frames.times[[0, 4, 6]].tolist()
     assert len(read_back(data["positions"], "<u2")) == 3 * 5 * 2
 
@@ -73,7 +73,7 @@ def test_too_many_frames_are_thinned_evenly_and_the_end_stays(monkeypatch):
 def test_a_load_at_rest_has_a_scale():
     frames = frames_of(drum_radius=0.3)
     still = Frames(**{**vars(frames), "speeds": np.zeros_like(frames.speeds)})
-    assert recording(still, None, "", None)["speed_scale"] == 1.0
+    assert pack(still, None, "", None)["speed_scale"] == 1.0
 
 
 def test_curves_are_exact_means():
@@ -310,6 +310,16 @@ def test_view_refuses_a_damaged_series(finished, drum, tmp_path):
     status, _, err = drum("view", tmp_path)
     assert status == 2
     assert "series.parquet' is damaged, but must be the series that drumrs wrote" in err
+
+
+def test_view_overwrites_pages_of_its_own_only(finished, drum, tmp_path):
+    page = tmp_path / "page.html"
+    assert [drum("view", finished, "--out", page)[0] for _ in range(2)] == [0, 0]
+    page.write_text("<h1>Notes</h1>")
+    status, _, err = drum("view", finished, "--out", page)
+    assert status == 2
+    assert f"--out is {str(page)!r}, but must be a new file or a page of drumrs" in err
+    assert page.read_text() == "<h1>Notes</h1>"
 
 
 def test_view_refuses_a_page_that_cannot_be_written(finished, drum, tmp_path):

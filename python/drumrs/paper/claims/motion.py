@@ -76,7 +76,7 @@ def _passes(shares: Sequence[tuple[float, Interval]], level: float) -> tuple[flo
 def baffles_carry_the_load_round(results: Results) -> Iterator[Condition]:
     """Judge C11: carried "for most of the rotation cycle", the paper says, is a share of the time.
 
-    What centrifuges passes over the top along the rim; what mixes less, neighbors part less.
+    What centrifuges goes with the drum over the top; what mixes less, neighbors part less.
     """
     riding, carried = (
         results.curve("fill", column, baffles=True) for column in ("along_the_rim", "carried_round")

@@ -92,7 +92,7 @@ def _value(value: float | None, error: float | None) -> str:
 _TESTS = (
     ("drift", "power changes by {:+.0%}"),
     ("share_drift", "N’s share changes by {:+.2f}"),
-    ("wandering", "N’s share differs by {:.2f} between stretches"),
+    ("wandering", "N’s share differs by {:.2f} between parts of the run"),
 )
 
 
@@ -103,8 +103,3 @@ def _reasons(row: "Mapping[str, Any]") -> str:
         if row.get(name) is not None and row[f"{name}_significance"] < FALSE_ALARMS
     ]
     return ", ".join(told) if row["drifting"] else ""
-
-
-def worst(listed: list[Run], quantity: str) -> Run | None:
-    """Return the run with the greatest `residual` or `disagreement`, `None` where there is no run."""
-    return max(listed, key=lambda run: float(getattr(run, quantity)), default=None)

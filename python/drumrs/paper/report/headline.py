@@ -121,7 +121,7 @@ def _variations(data: StudyData) -> Sentence:
 def _motion(data: StudyData) -> Sentence:
     bare, baffled = _both(data, "fill", "carried_round")
     return Sentence(
-        "In a turn of the drum at 25 % fill, the share of the load that is carried over the top along the rim is "
+        "In a turn of the drum at 25 % fill, the share of the load that is carried over the top is "
         f"{_value(bare, 0.25)} without baffles and {_value(baffled, 0.25)} with them.",
         "F3",
     )

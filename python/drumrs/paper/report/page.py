@@ -137,8 +137,8 @@ def _checks(data: StudyData) -> dict[str, Any]:
         "runs": listed,
         "parameters": checks.PARAMETERS,
         "drifting": [run for run in listed if run.drifting],
-        "worst_residual": checks.worst(listed, "residual"),
-        "worst_disagreement": checks.worst(listed, "disagreement"),
+        "worst_residual": max(listed, key=lambda run: run.residual, default=None),
+        "worst_disagreement": max(listed, key=lambda run: run.disagreement, default=None),
         "tiny": lambda value: table1.scientific(value) if value else "0",
     }
 
