@@ -179,7 +179,9 @@ class PictureWarning(DrumrsWarning):
 
 
 def show(value: object) -> str:
-    """Show a value on one line, shortened where it is long."""
+    """Show a value on one line, shortened where it is long, but for paths."""
+    if isinstance(value, Path):
+        return repr(str(value))
     try:
         text = repr(list(value) if isinstance(value, tuple) else value).replace("\n", " ")
     except (RecursionError, ValueError):

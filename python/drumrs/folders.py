@@ -57,14 +57,14 @@ def require_own(folder: Path, kind: str, names: Sequence[str], option: str = "fo
     for other, called in KINDS.items():
         if other != kind and (folder / marker(other)).exists():
             limit = f"a new folder or one of {KINDS[kind]}: it is that of {called}"
-            raise ConfigError(option, str(folder), limit, hint="choose another")
+            raise ConfigError(option, folder, limit, hint="choose another")
     found = [name for name in names if (folder / name).exists()]
     if found and not (folder / marker(kind)).exists():
         limit = (
             f"a new folder or one that drumrs made: this one has a {found[0]} that is not overwritten, for drumrs did "
             "not write it"
         )
-        raise ConfigError(option, str(folder), limit, hint="choose another folder, or move the file away")
+        raise ConfigError(option, folder, limit, hint="choose another folder, or move the file away")
 
 
 def require_unused(
@@ -99,7 +99,7 @@ def require_unused(
     resume = f"go on with it: drumrs run --resume {folder}; " if left == ["checkpoint.bin"] else ""
     limit = f"a folder without {KINDS[kind]}: it holds that of {mark.get('title', 'an unknown case')}"
     hint = f"{resume}replace it: {force}; or choose another folder"
-    raise ConfigError(option, str(folder), limit, hint=hint)
+    raise ConfigError(option, folder, limit, hint=hint)
 
 
 def claim(folder: Path, kind: str, title: str, digest: str) -> None:

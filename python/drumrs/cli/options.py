@@ -79,8 +79,8 @@ def check_folder(folder: Path, option: str = "--out") -> None:
     try:
         existing = next(path for path in (folder.absolute(), *folder.absolute().parents) if path.exists())
     except OSError as error:
-        raise ConfigError(option, str(folder), f"a folder that can be written: {error.strerror}") from None
+        raise ConfigError(option, folder, f"a folder that can be written: {error.strerror}") from None
     if not existing.is_dir():
-        raise ConfigError(option, str(folder), f"a folder: {str(existing)!r} is a file")
+        raise ConfigError(option, folder, f"a folder: {str(existing)!r} is a file")
     if not os.access(existing, os.W_OK | os.X_OK):
-        raise ConfigError(option, str(folder), "a folder that can be written")
+        raise ConfigError(option, folder, "a folder that can be written")

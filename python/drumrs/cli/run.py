@@ -69,7 +69,7 @@ def run(
         if case is not None or set_ or seed is not None or out is not None or softer is not None or force:
             others = "CASE, --set, --seed, --softer, --out and --force"
             problem = f"takes the case from its folder, so {others} must not be given"
-            raise ConfigError("--resume", str(resume), problem=problem)
+            raise ConfigError("--resume", resume, problem=problem)
         out = resume
         begun = RunFolder(out)
         simulation = begun.load(threads)
@@ -128,7 +128,7 @@ def _require_folder(folder: Path, case: Path | None, *, force: bool) -> None:
     """Refuse a folder that holds another run, or the case file itself."""
     if case is not None and case.resolve().parent == folder.resolve() and case.name in RUN_FILES:
         limit = f"another folder than that of {str(case)!r}, which would be overwritten"
-        raise ConfigError("--out", str(folder), limit)
+        raise ConfigError("--out", folder, limit)
     require_own(folder, "run", RUN_FILES, "--out")
     if not force:
         require_unused(folder, "run", option="--out")
@@ -143,7 +143,7 @@ def _open_folder(path: Path | None, simulation: Simulation) -> RunFolder | None:
     try:
         folder.begin(simulation.config)
     except OSError as error:
-        raise ConfigError("--out", str(path), f"a folder that can be written: {error.strerror}") from None
+        raise ConfigError("--out", path, f"a folder that can be written: {error.strerror}") from None
     return folder
 
 

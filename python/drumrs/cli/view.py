@@ -45,7 +45,7 @@ def view(
         player.save(page)
     except OSError as error:
         limit = f"a file that can be written (--out): {error.strerror}"
-        raise ConfigError("the page", str(page), limit) from None
+        raise ConfigError("the page", page, limit) from None
     print_paths([page])
     if show and out is None and not _opens(page):
         sys.stderr.write(

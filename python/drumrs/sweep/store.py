@@ -62,7 +62,7 @@ class Store:
             if error.errno in NO_ROOM:
                 raise
             limit = f"a folder that can be written: {error.strerror}"
-            raise ConfigError("folder", str(self.folder), limit) from None
+            raise ConfigError("folder", self.folder, limit) from None
         self._remove_leftovers()
 
     def check_format(self) -> None:
@@ -73,7 +73,7 @@ class Store:
                 return
         except OSError as error:
             limit = f"a folder that can be read: {error.strerror}"
-            raise ConfigError("folder", str(self.folder), limit) from None
+            raise ConfigError("folder", self.folder, limit) from None
         mark = read_object(path)
         if mark is None or "format" not in mark:
             raise ConfigError(path, problem=f"is damaged, but must name the format of the folder, {FORMAT}")
