@@ -75,8 +75,8 @@ def measure(setting: Setting, seed: int, folder: Path) -> None:
         "softer": setting.softer,
         "seed": seed,
         "time_step": simulation.time_step,
-        "power": summary.specific_power,
-        "power_error": summary.specific_power_error,
+        "power": summary.drum_specific_power,
+        "power_error": summary.drum_specific_power_error,
         "ratio": ratio.value if ratio is not None else None,
         "ratio_error": ratio.error if ratio is not None else None,
         "numerical_share": summary.numerical_power / summary.drum_power,
@@ -84,7 +84,7 @@ def measure(setting: Setting, seed: int, folder: Path) -> None:
         "seconds": seconds,
     }
     kept.write_text(json.dumps(row), encoding="utf-8")
-    print(f"{kept.stem}: {summary.specific_power:.3f} W/kg, {seconds:.2f} s", flush=True)
+    print(f"{kept.stem}: {summary.drum_specific_power:.3f} W/kg, {seconds:.2f} s", flush=True)
 
 
 def means(table: pl.DataFrame) -> list[dict[str, Any]]:

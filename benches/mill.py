@@ -75,7 +75,10 @@ def of_study(path: Path) -> Iterator[dict[str, Any]]:
     for kind, rows in (("fill", over_fill), ("speed", over_speed)):
         keys = ["drum.baffles.count", "fill", "rotation.rpm", "drum.diameter"]
         for (baffles, fill, rpm, diameter), seeds in rows.sort(keys).group_by(keys, maintain_order=True):
-            values, errors = seeds["specific_power"].to_list(), seeds["specific_power_error"].to_list()
+            values, errors = (
+                seeds["drum_specific_power"].to_list(),
+                seeds["drum_specific_power_error"].to_list(),
+            )
             power = analysis.estimate(values, errors)
             scale = GRAVITY * diameter / 2.0 * rpm * math.pi / 30.0
             row = {"kind": kind, "baffles": baffles, "fill": fill, "rpm": rpm, "diameter": diameter}

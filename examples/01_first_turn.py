@@ -22,7 +22,7 @@ def main() -> None:
             config = config.replace({"run.duration": 0.06})
         result = drumrs.run(config, seed=1)
         summary = result.summary
-        print(f"{label}: {summary.specific_power:.3g} W/kg, N/T {summary.normal_tangential_ratio}")
+        print(f"{label}: {summary.drum_specific_power:.3g} W/kg, N/T {summary.work_ratio}")
         views.append(figures.View(result.frames, -1, label))
     picture = options.out / "first_turn.png"
     figures.write(figures.snapshots(views), picture)

@@ -28,7 +28,7 @@ def main() -> None:
 
     by_fill = sweep.table().collect().sort("load.fill", "drum.baffles.count", "seed")
     for (fill, baffles), runs in by_fill.group_by("load.fill", "drum.baffles.count", maintain_order=True):
-        power = student(runs["specific_power"].to_list(), runs["specific_power_error"].to_list())
+        power = student(runs["drum_specific_power"].to_list(), runs["drum_specific_power_error"].to_list())
         warning = "  drifting" if runs.select(pl.col("drifting").any()).item() else ""
         print(f"fill {fill:.0%}, {baffles} baffles: {power.mean:.3g} ± {power.half_width:.2g} W/kg{warning}")
     print(f"wrote {sweep.write_table()}")

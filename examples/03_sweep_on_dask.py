@@ -28,7 +28,7 @@ def main() -> None:
     with local as cluster, cluster.get_client() as client, client.get_executor() as executor:
         outcome = sweep.run(options.out.absolute(), executor)
     print(f"{outcome.finished} of {len(sweep)} cases are finished, {outcome.computed} of them just now")
-    print(sweep.table().select("load.fill", "contact.bundle.friction", "specific_power").collect())
+    print(sweep.table().select("load.fill", "contact.bundle.friction", "drum_specific_power").collect())
 
 
 # Worker processes import this file again: what starts them must not run there.

@@ -33,7 +33,7 @@ def main() -> None:
     with MPIPoolExecutor(max_workers=2) as executor:
         outcome = sweep.run(options.out.absolute(), executor)
     print(f"{outcome.finished} of {len(sweep)} cases are finished, {outcome.computed} of them just now")
-    print(sweep.table().select("load.fill", "rotation.rpm", "specific_power").collect())
+    print(sweep.table().select("load.fill", "rotation.rpm", "drum_specific_power").collect())
 
 
 # Ranks that MPI starts import this file again: what starts them must not run there.

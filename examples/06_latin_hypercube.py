@@ -50,7 +50,7 @@ def main() -> None:
     sweep = drumrs.Sweep.from_rows(base, rows, seeds=[1])
     sweep.run(options.out)
 
-    power = pl.col("specific_power")
+    power = pl.col("drum_specific_power")
     strengths = (
         sweep.table().select(pl.corr(key, power, method="spearman").alias(key) for key in RANGES).collect()
     )

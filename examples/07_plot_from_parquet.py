@@ -9,7 +9,7 @@ import polars as pl
 
 def means(table: Path) -> pl.DataFrame:
     """Read the specific power against fill and baffles: mean and standard error over seeds."""
-    power = pl.col("specific_power")
+    power = pl.col("drum_specific_power")
     return (
         pl.scan_parquet(table)
         # Sums of floats depend on their order; kept, they give the same bits every time.
@@ -40,7 +40,7 @@ def main() -> None:
         axes.errorbar(100.0 * line["fill"], line["mean"], line["error"], marker="o", capsize=2.0, label=label)
     axes.set(xlabel="Fill [%]", ylabel="Specific power [W/kg]", ylim=(0.0, None))
     axes.legend(frameon=False)
-    picture = options.out / "specific_power.png"
+    picture = options.out / "drum_specific_power.png"
     figure.savefig(picture, dpi=150)
     print(f"wrote {picture}")
 

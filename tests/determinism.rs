@@ -302,7 +302,7 @@ fn pieces_of_a_run_do_not_show() {
         config.rotation.knots = vec![[0.0, SPEED], [0.003, -SPEED], [0.006, 0.0]];
         let steps = 3000;
         let at_once = after(&config, 1, steps);
-        assert!(last(&at_once, "dissipated_normal") > 0.0 && last(&at_once, "work_rim") != 0.0);
+        assert!(last(&at_once, "dissipated_normal") > 0.0 && last(&at_once, "rim_work") != 0.0);
         for lengths in [&[1][..], &[7], &[50], &[1, 10, 989]] {
             let pieces = in_pieces(&config, steps, lengths);
             assert_eq!(bits(&at_once), bits(&pieces), "{baffle_count} baffles, pieces of {lengths:?}");
@@ -354,7 +354,7 @@ fn scaling_by_powers_of_two_scales_every_bit() {
                 assert_eq!(one.angular_velocities[i] * 0.5, other.angular_velocities[i]);
             }
             let energy = mass_factor * 4.0;
-            assert_eq!(last(&plain, "work_drum") * energy, last(&large, "work_drum"));
+            assert_eq!(last(&plain, "drum_work") * energy, last(&large, "drum_work"));
         }
     }
 }

@@ -141,7 +141,7 @@ fn a_paddle_strikes_with_its_own_speed() {
         run_through_contact(&mut simulation, 1000);
         simulation.run(2).unwrap();
         mean += simulation.state().particles.velocities[0].y / f64::from(onsets);
-        work += last(&simulation, "work_wall_1") / f64::from(onsets);
+        work += last(&simulation, "wall_1_work") / f64::from(onsets);
         loss += last(&simulation, "dissipated_normal") / f64::from(onsets);
         assert!(last(&simulation, "energy_residual") < 1e-12);
     }
@@ -194,7 +194,7 @@ fn trapezoids_and_polygons_run_with_a_closed_ledger() {
         let mut simulation = Simulation::new(config, 2, 1).unwrap();
         run(&mut simulation, 0.8);
         assert!(last(&simulation, "energy_residual") < 1e-11);
-        assert!(last(&simulation, "work_baffle_4") != 0.0);
+        assert!(last(&simulation, "baffle_4_work") != 0.0);
     }
 }
 

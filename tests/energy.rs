@@ -127,14 +127,14 @@ fn forces_and_power_are_those_of_the_weight() {
         let simulation = tumbled(&baseline(100, baffle_count), 3.0);
         let mut vertical = 0.0;
         for part in ["rim", "baffle_1", "baffle_2", "baffle_3"].iter().take(1 + baffle_count) {
-            let forces = column(&simulation, &format!("force_{part}_y"));
+            let forces = column(&simulation, &format!("{part}_force_y"));
             let window = &forces[forces.len() / 2..];
             vertical += window.iter().sum::<f64>() / window.len() as f64;
         }
         let weight = 100.0 * mass() * GRAVITY;
         assert!((vertical / weight + 1.0).abs() < 0.02, "{}", vertical / weight);
         let value = |name| statistic(&simulation, name, 1.5, simulation.time());
-        let scaled = value("specific_power") / (GRAVITY * DRUM_RADIUS * SPEED);
+        let scaled = value("drum_specific_power") / (GRAVITY * DRUM_RADIUS * SPEED);
         assert!(scaled > 0.05 && scaled < 1.0, "{scaled}");
         assert!(value("max_overlap_ratio") < 0.02);
     }
@@ -143,12 +143,12 @@ fn forces_and_power_are_those_of_the_weight() {
 #[test]
 fn the_drums_work_is_the_sum_of_its_parts() {
     let simulation = tumbled(&baseline(100, 3), 0.5);
-    let parts: f64 = ["work_rim", "work_baffle_1", "work_baffle_2", "work_baffle_3"]
+    let parts: f64 = ["rim_work", "baffle_1_work", "baffle_2_work", "baffle_3_work"]
         .map(|p| last(&simulation, p))
         .iter()
         .sum();
-    assert!((parts / last(&simulation, "work_drum") - 1.0).abs() < 1e-12);
-    assert!(last(&simulation, "work_baffle_2") != 0.0);
+    assert!((parts / last(&simulation, "drum_work") - 1.0).abs() < 1e-12);
+    assert!(last(&simulation, "baffle_2_work") != 0.0);
 }
 
 /// At a constant speed a part's work over an interval is its mean torque times the angle turned.
@@ -157,9 +157,9 @@ fn torque_times_angle_is_work_for_every_part() {
     let simulation = tumbled(&baseline(100, 3), 0.5);
     let angles = column(&simulation, "drum_angle");
     for part in ["drum", "rim", "baffle_1", "baffle_2", "baffle_3"] {
-        let name = if part == "drum" { "drum_torque".into() } else { format!("torque_{part}") };
+        let name = if part == "drum" { "drum_torque".into() } else { format!("{part}_torque") };
         let torques = column(&simulation, &name);
-        let works = column(&simulation, &format!("work_{part}"));
+        let works = column(&simulation, &format!("{part}_work"));
         let scale = works.iter().fold(0.0, |most: f64, work| most.max(work.abs()));
         for k in 1..works.len() {
             let work = torques[k] * (angles[k] - angles[k - 1]);

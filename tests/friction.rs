@@ -97,7 +97,7 @@ fn a_free_disc_rests_at_the_bottom_spinning() {
     let orbit = DRUM_RADIUS - RADIUS + overlap;
     let mut simulation = start(&config, single([0.0, -orbit], [0.0, 0.0], spin));
     run(&mut simulation, 2.0);
-    let power = statistic(&simulation, "specific_power", 1.0, 2.0);
+    let power = statistic(&simulation, "drum_specific_power", 1.0, 2.0);
     assert!(power.abs() < 1e-4, "{power}");
     let p = &simulation.state().particles;
     assert!(p.positions[0].x.abs() < 1e-4 && p.velocities[0].norm() < 1e-3, "{}", p.positions[0]);

@@ -162,7 +162,7 @@ fn the_ledger_closes_and_its_numerical_part_is_small() {
         for name in ["dissipated_normal", "dissipated_sliding"] {
             assert!(column(&simulation, name).is_sorted(), "{name} runs backwards");
         }
-        let numerical = last(&simulation, "numerical") / last(&simulation, "work_drum");
+        let numerical = last(&simulation, "numerical") / last(&simulation, "drum_work");
         assert!(numerical.abs() < 0.02, "{numerical}");
     }
 }

@@ -57,14 +57,14 @@ fn powers_are_differences_of_energies() {
     };
     let near = |one: f64, other: f64| (one - other).abs() <= 1e-12 * one.abs().max(other.abs());
     assert!(value("drum_power") != 0.0);
-    assert!(near(value("drum_power"), change("work_drum")));
-    assert!(near(value("specific_power"), change("work_drum") / simulation.mass()));
-    assert!(near(value("drum_torque"), change("work_drum") / SPEED));
+    assert!(near(value("drum_power"), change("drum_work")));
+    assert!(near(value("drum_specific_power"), change("drum_work") / simulation.mass()));
+    assert!(near(value("drum_torque"), change("drum_work") / SPEED));
     let normal = change("dissipated_normal") + change("elastic_normal");
     let tangential = change("dissipated_sliding") + change("elastic_tangential");
     assert!(near(value("normal_power"), normal) && near(value("tangential_power"), tangential));
-    assert!(near(value("normal_tangential_ratio"), normal / tangential));
-    assert!(near(value("work_normal_power"), normal) && near(value("work_tangential_power"), tangential));
+    assert!(near(value("work_ratio"), normal / tangential));
+    assert!(near(value("normal_power"), normal) && near(value("tangential_power"), tangential));
     // Springs, dashpots, sliding and the numerical share make up the work into contacts: what the drum gives and motion
     // does not take.
     let shares = normal + tangential + value("numerical_power");
@@ -98,12 +98,16 @@ fn what_is_not_defined_is_none() {
     let mut simulation = start(&config, single([0.0, 0.0], [1.0, 0.0], 0.0));
     run(&mut simulation, 0.05);
     let window = [0.0, 0.05];
-    assert_eq!(optional(&simulation, "normal_tangential_ratio", window), None, "nothing touches");
+    assert_eq!(optional(&simulation, "work_ratio", window), None, "nothing touches");
     assert_eq!(optional(&simulation, "drum_torque", window), Some(0.0));
     assert_eq!(optional(&simulation, "power_disagreement", window), Some(0.0));
     assert_eq!(optional(&simulation, "energy_residual", window), Some(0.0));
-    assert_eq!(optional(&simulation, "specific_power_error", [0.0, 0.007]), None, "seven intervals");
-    assert_eq!(optional(&simulation, "specific_power_error", [0.0, 0.008]), Some(0.0), "eight intervals");
+    assert_eq!(optional(&simulation, "drum_specific_power_error", [0.0, 0.007]), None, "seven intervals");
+    assert_eq!(
+        optional(&simulation, "drum_specific_power_error", [0.0, 0.008]),
+        Some(0.0),
+        "eight intervals"
+    );
 }
 
 /// A first-order autoregressive sequence: its integrated correlation time is ½ (1 + φ)/(1 − φ) intervals, and the mean
@@ -149,7 +153,8 @@ fn half_the_time_step_gives_the_same_means() {
         config.run.time_step = Some(time_step);
         let mut simulation = Simulation::new(config, 1, 1).unwrap();
         run(&mut simulation, 5.0);
-        ["specific_power", "specific_power_error"].map(|name| statistic(&simulation, name, 1.0, 5.0))
+        ["drum_specific_power", "drum_specific_power_error"]
+            .map(|name| statistic(&simulation, name, 1.0, 5.0))
     };
     let ([coarse, coarse_error], [fine, fine_error]) = (mean(1.48e-5), mean(7.4e-6));
     let error = (coarse_error * coarse_error + fine_error * fine_error).sqrt();

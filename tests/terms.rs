@@ -93,7 +93,7 @@ fn rolling_friction_holds_a_disc_up_in_a_turning_drum() {
     let value = |name| statistic(&simulation, name, 0.1, 0.5);
     let torque = weight() * (DRUM_RADIUS - RADIUS) * libm::sin(angle);
     assert!((value("drum_torque") / torque - 1.0).abs() < 1e-3, "{} {torque}", value("drum_torque"));
-    let share = last(&simulation, "dissipated_rolling") / last(&simulation, "work_drum");
+    let share = last(&simulation, "dissipated_rolling") / last(&simulation, "drum_work");
     assert!((share - 1.0).abs() < 1e-3, "{share}");
     assert!(value("power_disagreement") < 1e-9 && value("energy_residual") < 1e-11);
 }

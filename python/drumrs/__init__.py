@@ -18,13 +18,15 @@ from drumrs.frames import Frames
 from drumrs.jobs import job_count
 from drumrs.output import player, save
 from drumrs.progress import Task
+from drumrs.registry import Quantity, quantity
 from drumrs.result import Result, Summary, load
 from drumrs.runs import run
-from drumrs.simulation import Simulation, info, quantities, units
+from drumrs.simulation import Simulation, info
 from drumrs.state import State
 from drumrs.sweep import Case, Sweep
 
 if TYPE_CHECKING:
+    from drumrs.glossary import quantities
     from drumrs.verification import Verification, verify
 
 __version__ = version("drumrs")
@@ -37,6 +39,7 @@ __all__ = [
     "DrumrsError",
     "DrumrsWarning",
     "Frames",
+    "Quantity",
     "Result",
     "Simulation",
     "State",
@@ -53,17 +56,19 @@ __all__ = [
     "load",
     "player",
     "quantities",
+    "quantity",
     "run",
     "save",
-    "units",
     "verify",
 ]
 
 
 def __getattr__(name: str) -> Any:
-    """Make `drumrs.QUANTITIES`, the columns of a bare drum's series, and load the verification, on demand."""
-    if name == "QUANTITIES":
-        return quantities()
+    """Load on demand what most scripts do without: the table of quantities, and the verification."""
+    if name == "quantities":
+        from drumrs import glossary
+
+        return glossary.quantities
     if name in {"Verification", "verify"}:
         from drumrs import verification
 

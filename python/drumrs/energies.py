@@ -1,44 +1,37 @@
-"""Columns of the energies that contacts take and hold, and how pictures and statistics add them up."""
+"""How pictures and statistics add up the energies of contacts, and which of them they show."""
 
 from collections.abc import Iterable, Mapping
-from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import NDArray
 
+from drumrs.registry import quantity
+
 Array = NDArray[np.float64]
 
-# What takes energy, in words. A run without rolling resistance or tangential dashpot has none of the latter two.
-LOSSES = MappingProxyType(
-    {
-        "dissipated_normal": "normal damping",
-        "dissipated_sliding": "sliding",
-        "dissipated_tangential": "tangential damping",
-        "dissipated_rolling": "rolling",
-    }
-)
+# What every run loses; the others are shown where they are not zero.
 _ALWAYS = ("dissipated_normal", "dissipated_sliding")
-_SPRINGS = ("elastic_normal", "elastic_tangential", "elastic_rolling")
 
 
 def losses(names: Iterable[str]) -> list[str]:
     """Return the columns of losses among some names."""
-    known = set(names)
-    return [name for name in LOSSES if name in known]
+    return [name for name in names if name.startswith("dissipated_")]
 
 
-def shown_losses(columns: Mapping[str, Array]) -> dict[str, str]:
-    """Return the columns of losses to be shown, with their words: the base law's, and any that are not zero."""
-    return {name: LOSSES[name] for name in losses(columns) if name in _ALWAYS or np.any(columns[name])}
+def powers_to_show(columns: Mapping[str, Array]) -> dict[str, str]:
+    """Return the cumulative energies whose powers a picture of a run shows, the drum's first, with their titles."""
+    shown = [name for name in losses(columns) if name in _ALWAYS or np.any(columns[name])]
+    return {name: quantity(name).title.removesuffix(" work") for name in ("drum_work", *shown)}
 
 
-def held_by_contacts(columns: Mapping[str, Array]) -> dict[str, Array]:
-    """Return what contacts hold, for a logarithmic axis: all springs together, and what adhesion lacks, if any.
+def energies_to_show(columns: Mapping[str, Array]) -> dict[str, Array]:
+    """Return the stored energies that a picture of a run shows, by title, for a logarithmic axis.
 
-    The energy of adhesion is below zero while bodies touch, and is given with its sign turned.
+    All springs are added up. The energy of adhesion, if there is any, is below zero while bodies touch, and is given
+    with its sign turned.
     """
-    springs = np.sum([columns[name] for name in _SPRINGS if name in columns], axis=0)
-    held = {"contacts": springs}
+    shown = {quantity(name).title: columns[name] for name in ("kinetic_translation", "kinetic_rotation")}
+    shown["elastic"] = np.sum([columns[name] for name in columns if name.startswith("elastic_")], axis=0)
     if "adhesion" in columns and np.any(columns["adhesion"]):
-        held["adhesion (−)"] = -columns["adhesion"]
-    return held
+        shown["adhesion (−)"] = -columns["adhesion"]
+    return shown

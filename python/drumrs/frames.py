@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drumrs.files import replacing
+from drumrs.registry import metadata
 from drumrs.tables import ROW_GROUP_SIZE, Compression, sink_table
 
 if TYPE_CHECKING:
@@ -18,17 +19,8 @@ if TYPE_CHECKING:
 
     import polars as pl
 
-_UNITS = {
-    "frame": "1",
-    "time": "s",
-    "drum_angle": "rad",
-    "bundle": "1",
-    "x": "m",
-    "y": "m",
-    "angle": "rad",
-    "speed": "m/s",
-    "radius": "m",
-}
+# Columns of the table, one row for each frame and bundle.
+COLUMNS = ("frame", "time", "drum_angle", "bundle", "x", "y", "angle", "speed", "radius")
 
 
 @dataclass(frozen=True, eq=False)
@@ -122,7 +114,7 @@ class Frames:
 
     def metadata(self) -> dict[str, str]:
         """Return what a file of the table has to carry beside it: units and the drum's outline, as JSON."""
-        return {"units": json.dumps(_UNITS), "scene": json.dumps(self.scene())}
+        return {**metadata(COLUMNS), "scene": json.dumps(self.scene())}
 
     def scene(self) -> dict[str, Any]:
         """Return the drum's outline in plain numbers."""

@@ -87,7 +87,7 @@ def save(result: Result, folder: str | Path, *, pictures: bool = True, force: bo
     require_folder(folder, result.config, force=force, way="force=True")
     claim_folder(folder, result.config)
     config, summary, series, frames = result.config, result.summary, result.series, result.frames
-    written = write_tables(folder, config, series, result.units)
+    written = write_tables(folder, config, series)
     frames.save(folder / "frames.parquet")
     written += [folder / "frames.parquet", complete(folder, summary)]
     return [*written, *(draw(folder, config, summary, series, frames, frames) if pictures else [])]

@@ -82,9 +82,9 @@ def run_until_precise(
 def _precision(simulation: Simulation) -> float:
     """Return the standard error over the specific power; infinite where there is none."""
     summary = simulation.summary()
-    if summary.specific_power_error is None or summary.specific_power == 0.0:
+    if summary.drum_specific_power_error is None or summary.drum_specific_power == 0.0:
         return math.inf
-    return summary.specific_power_error / abs(summary.specific_power)
+    return summary.drum_specific_power_error / abs(summary.drum_specific_power)
 
 
 def _next_end(simulation: Simulation, goal: Goal) -> float | None:

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drumrs.config import Config
+from drumrs.errors import CheckpointError
 from drumrs.frames import Frames
 
 if TYPE_CHECKING:
@@ -162,7 +163,17 @@ class Records:
             The samples that were taken.
         frames
             The frames that were taken. Without them, all stay where they are, and samples are noted as taken.
+
+        Raises
+        ------
+        CheckpointError
+            Where another version of drumrs wrote the samples, whose columns have other names.
         """
+        if series.columns != self.columns:
+            raise CheckpointError(
+                "the records have columns of other names than this version of drumrs gives them; "
+                "begin the run anew, without --resume"
+            )
         rows = series.to_numpy(order="c")
         self._core.put_back_rows(rows, frames is None)
         if frames is not None:
@@ -172,18 +183,6 @@ class Records:
                 "positions": frames.positions,
             }
             self._core.put_back_frames({**arrays, "angles": frames.angles, "speeds": frames.speeds})
-
-    def mean_force(self, start: float, end: float) -> dict[str, float]:
-        """Return the force of the load on all parts of the drum, a mean over the interval between two samples."""
-        series = self._core.series()
-        times = series["time"]
-        # A row holds the mean over the interval that it closes; all intervals are equally long.
-        inside = (times > start) & (times <= end)
-        forces = {name: float(series[name][inside].mean()) for name in series if name.startswith("force_")}
-        return {
-            f"force_{axis}": sum(force for name, force in forces.items() if name.endswith(f"_{axis}"))
-            for axis in "xy"
-        }
 
     def none(self) -> Frames:
         """Return no frames of this load in this drum."""
@@ -220,7 +219,7 @@ class HasRecords:
 
     @property
     def series(self) -> "pl.DataFrame":
-        """Polars table of the recorded quantities, one row a sample; `drumrs.units` has the units."""
+        """Polars table of the recorded quantities, one row a sample; `drumrs.quantities` has meanings and units."""
         return self._records.series()
 
     @property

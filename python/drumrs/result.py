@@ -12,6 +12,7 @@ from drumrs.config import Config
 from drumrs.errors import ConfigError
 from drumrs.files import read_object, read_plain, require_plain, write_whole
 from drumrs.frames import Frames
+from drumrs.registry import metadata, quantity, recorded, require
 from drumrs.tables import write_table
 
 if TYPE_CHECKING:
@@ -33,57 +34,9 @@ def ended_unstable(time: float) -> str:
 class Summary:
     """Averages over a window of the run; powers, torques and forces are per meter of drum depth.
 
-    Attributes
-    ----------
-    bundle_count
-        Number of bundles N.
-    fill
-        Fill N d²/D².
-    steps
-        Steps since t = 0.
-    time_step
-        Time step [s].
-    window_start, window_end
-        The window [s].
-    drum_torque
-        Mean torque of the drum on the load about its axis [N m/m].
-    drum_power
-        Power of the drum [W/m], positive where it does work on the load.
-    specific_power
-        Drum power over the load's mass [W/kg].
-    specific_power_error
-        Standard error of `specific_power` [W/kg], from block averages; `None` where the window is too short.
-    normal_power, tangential_power
-        Work into normal and tangential contacts, springs and dissipation together, per time [W/m].
-    normal_tangential_ratio
-        `normal_power` over `tangential_power`; `None` where that is 0.
-    center_of_mass
-        Center of mass of the load [m, m].
-    coordination
-        Contacts per bundle.
-    max_overlap_ratio
-        Greatest overlap over the smaller radius.
-    energy_residual
-        What the energy ledger fails to account for, relative, over the whole run.
-    power_disagreement
-        Largest difference of the three powers over the largest of them, or over the stored energy by the window's
-        length where that is more.
-    power_torque, power_ledger, power_balance
-        The three powers [W/m]: torque times speed; energy stored and dissipated; gravity and angular momentum.
-    force_x, force_y
-        Force of the load on the drum [N/m].
-    kinetic_energy
-        Kinetic energy of the load [J/m].
-    dissipated_normal_power, dissipated_sliding_power, dissipated_tangential_power, dissipated_rolling_power
-        Dissipation by normal damping, by sliding, by tangential damping and by rolling [W/m].
-    numerical_power
-        Power that the finite time step takes [W/m].
-    correlation_time
-        Integral correlation time of the drum's power [s].
-    wall_time
-        Time of the wall clock spent stepping in this process [s].
-    particle_steps_per_second
-        Bundles times steps per second of `wall_time` [1/s].
+    A power is the change of the energy that the series holds, over the window's length, and so exact; other means are
+    over the samples within the window. ``energy_residual`` is the greatest of the whole run. What is not defined is
+    `None`.
     """
 
     bundle_count: int
@@ -94,21 +47,22 @@ class Summary:
     window_end: float
     drum_torque: float
     drum_power: float
-    specific_power: float
-    specific_power_error: float | None
+    drum_specific_power: float
+    drum_specific_power_error: float | None
     normal_power: float
     tangential_power: float
-    normal_tangential_ratio: float | None
-    center_of_mass: tuple[float, float]
+    dissipation_ratio: float | None
+    work_ratio: float | None
+    center_of_mass_x: float
+    center_of_mass_y: float
     coordination: float
     max_overlap_ratio: float
     energy_residual: float
     power_disagreement: float
-    power_torque: float
-    power_ledger: float
-    power_balance: float
-    force_x: float
-    force_y: float
+    energy_balance_power: float
+    moment_balance_power: float
+    drum_force_x: float
+    drum_force_y: float
     kinetic_energy: float
     dissipated_normal_power: float
     dissipated_sliding_power: float
@@ -122,40 +76,47 @@ class Summary:
     @classmethod
     def from_mapping(cls, values: "Mapping[str, Any]") -> "Summary":
         """Build a summary from the core's mapping or from JSON; further keys are left out, NaN becomes `None`."""
-        values = dict(values)
-        if "center_of_mass" not in values:
-            values["center_of_mass"] = (values["center_of_mass_x"], values["center_of_mass_y"])
-        known = {field.name: _finite(values[field.name]) for field in fields(cls)}
-        return cls(**{**known, "center_of_mass": tuple(known["center_of_mass"])})
+        return cls(**{field.name: _finite(values[field.name]) for field in fields(cls)})
 
     def to_json(self) -> str:
         """Return one JSON object; what is not defined is null."""
         return json.dumps(asdict(self), indent=2, allow_nan=False)
 
     def rows(self) -> dict[str, str]:
-        """Return the main numbers as texts, by name with unit."""
-        window = f"{self.window_start:.4g}–{self.window_end:.4g}"
-        x, y = (f"{1e3 * value:.1f}" for value in self.center_of_mass)
-        return {
-            "bundles": str(self.bundle_count),
-            "averages over t = [s]": window,
-            "specific power [W/kg]": with_error(self.specific_power, self.specific_power_error),
-            "drum power [W/m]": number(self.drum_power),
-            "torque [N m/m]": number(self.drum_torque),
-            "normal / tangential power": number(self.normal_tangential_ratio),
-            "center of mass [mm]": f"({x}, {y})",
-            "contacts per bundle": number(self.coordination),
-            "greatest overlap / radius": number(self.max_overlap_ratio),
-            "energy residual": f"{self.energy_residual:.1e}",
-            "disagreement of three powers": f"{self.power_disagreement:.1e}",
-            "wall time [s]": f"{self.wall_time:.1f}",
-            "million particle-steps per second": number(self.particle_steps_per_second, 1e-6),
+        """Return the main numbers as texts, by label."""
+        shown = {
+            "bundle_count": str(self.bundle_count),
+            "window_start": f"{self.window_start:.4g}",
+            "window_end": f"{self.window_end:.4g}",
+            "drum_specific_power": with_error(self.drum_specific_power, self.drum_specific_power_error),
+            "drum_power": number(self.drum_power),
+            "drum_torque": number(self.drum_torque),
+            "dissipation_ratio": number(self.dissipation_ratio),
+            "work_ratio": number(self.work_ratio),
+            "center_of_mass_x": number(self.center_of_mass_x),
+            "center_of_mass_y": number(self.center_of_mass_y),
+            "coordination": number(self.coordination),
+            "max_overlap_ratio": number(self.max_overlap_ratio),
+            "energy_residual": f"{self.energy_residual:.1e}",
+            "power_disagreement": f"{self.power_disagreement:.1e}",
+            "wall_time": f"{self.wall_time:.1f}",
+            "particle_steps_per_second": number(self.particle_steps_per_second),
         }
+        return {quantity(name).label: text for name, text in shown.items()}
 
 
-def number(value: float | None, scale: float = 1.0) -> str:
+# Each number says what it is, as the registry has it.
+Summary.__doc__ = "\n".join(
+    [
+        *((Summary.__doc__ or "").rstrip(), "", "    Attributes", "    ----------"),
+        *(f"    {one.name}\n        {one.text}." for one in map(quantity, Summary.__annotations__)),
+    ]
+)
+
+
+def number(value: float | None) -> str:
     """Show a value to four digits, a dash where there is none."""
-    return "–" if value is None else f"{scale * value:.4g}"
+    return "–" if value is None else f"{value:.4g}"
 
 
 def with_error(value: float, error: float | None) -> str:
@@ -181,24 +142,21 @@ class Result:
     summary
         Averages over the window.
     series
-        Polars table, one row a sample; `units` has the columns' units.
+        Polars table, one row a sample; `drumrs.quantities` has the meanings and units of its columns.
     frames
         Positions, angles and speeds of the bundles at the frames' times.
-    units
-        Unit of each column of `series`.
     """
 
     config: Config
     summary: Summary
     series: "pl.DataFrame"
     frames: Frames
-    units: "Mapping[str, str]"
 
     def __repr__(self) -> str:
         """Say what was run, and its main number."""
         summary = self.summary
         window = f"t = {summary.window_start:.6g} to {summary.window_end:.6g} s"
-        return f"<Result of {summary.bundle_count} bundles: {summary.specific_power:.4g} W/kg over {window}>"
+        return f"<Result of {summary.bundle_count} bundles: {summary.drum_specific_power:.4g} W/kg over {window}>"
 
     def _repr_html_(self) -> str:
         """Show the summary as a table in a notebook."""
@@ -209,13 +167,26 @@ class Result:
         return f"<table>{''.join(rows)}</table>"
 
 
-def write_tables(
-    folder: Path, config: Config, series: "pl.DataFrame", units: "Mapping[str, str]"
-) -> list[Path]:
+def write_tables(folder: Path, config: Config, series: "pl.DataFrame") -> list[Path]:
     """Write config.toml and series.parquet; return their paths."""
     write_whole(folder / "config.toml", config.to_toml().encode())
-    write_table(folder / "series.parquet", series, {"units": json.dumps(dict(units))})
+    write_table(folder / "series.parquet", series, metadata(series.columns))
     return [folder / name for name in ("config.toml", "series.parquet")]
+
+
+def read_series(path: Path) -> "pl.DataFrame":
+    """Read a series.parquet.
+
+    Raises
+    ------
+    ConfigError
+        Where another version of drumrs wrote it, whose columns have other names.
+    """
+    import polars as pl
+
+    series = pl.read_parquet(io.BytesIO(read_plain(path)))
+    require(path, series.columns, (column.name for column in recorded(0, 0)))
+    return series
 
 
 def load(folder: str | Path) -> Result:
@@ -224,7 +195,7 @@ def load(folder: str | Path) -> Result:
     Raises
     ------
     ConfigError
-        Where the folder does not hold a finished run.
+        Where the folder does not hold a finished run of this version.
     """
     import polars as pl
 
@@ -239,14 +210,14 @@ def load(folder: str | Path) -> Result:
             )
         raise ConfigError(folder, problem=f"holds no summary.json, but must be {_FINISHED}")
     try:
-        series = io.BytesIO(read_plain(folder / "series.parquet"))
         require_plain(folder / "frames.parquet")
+        summary = read_object(folder / "summary.json") or {}
+        require(folder / "summary.json", summary, Summary.__annotations__)
         return Result(
             config=Config.read(folder / "config.toml"),
-            summary=Summary.from_mapping(read_object(folder / "summary.json") or {}),
-            series=pl.read_parquet(series),
+            summary=Summary.from_mapping(summary),
+            series=read_series(folder / "series.parquet"),
             frames=Frames.load(folder / "frames.parquet"),
-            units=json.loads(pl.read_parquet_metadata(series)["units"]),
         )
     except ConfigError:
         raise

@@ -14,7 +14,7 @@ from drumrs.output import claim_folder, clear_folder, complete, draw, save_unsta
 from drumrs.parts import PART_SIZE, Parts
 from drumrs.pictures import attempt
 from drumrs.result import Summary, write_tables
-from drumrs.simulation import Simulation, units
+from drumrs.simulation import Simulation
 from drumrs.unstable import UnstableRun
 
 if TYPE_CHECKING:
@@ -95,10 +95,9 @@ class RunFolder:
     def _write_tables(self, simulation: Simulation, series: "pl.DataFrame") -> list[Path]:
         self._parts.append(simulation.records)
         path = self.path / "frames.parquet"
-        known = {column: units(column) for column in series.columns}
         # A run that went on beyond its duration is that of another configuration now.
         claim(self.path, "run", simulation.config.title, simulation.config.digest)
-        written = write_tables(self.path, simulation.config, series, known)
+        written = write_tables(self.path, simulation.config, series)
         self._parts.merge_frames(path, simulation.records)
         return [*written, path]
 

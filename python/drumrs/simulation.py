@@ -7,10 +7,9 @@ import os
 import threading
 import time
 import warnings
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from pathlib import Path
-from types import MappingProxyType
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,6 +29,7 @@ from drumrs.limits import (
 )
 from drumrs.parts import Parts
 from drumrs.records import HasRecords, Records
+from drumrs.registry import recorded
 from drumrs.result import Result, Summary
 from drumrs.state import State
 
@@ -108,8 +108,8 @@ class Simulation(HasRecords):
     def _start(self, config: Config, core: _core.Simulation) -> None:
         self._config = config
         self._core = core
-        drum = config.drum
-        self._records = Records(core, config, list(quantities(drum.baffles.count, len(drum.walls))))
+        columns = recorded(config.drum.baffles.count, len(config.drum.walls))
+        self._records = Records(core, config, [column.name for column in columns])
         self._stop = threading.Event()
         self._running = threading.Lock()
         self._wall_time = 0.0
@@ -342,14 +342,9 @@ class Simulation(HasRecords):
             raise ConfigError(
                 "window", (start, end), "one whose samples are in memory", hint=hint, problem=problem
             )
-        means = self._core.summary(start, end)
-        # The window as the samples allow it.
-        first, last = (means[name] or 0.0 for name in ("window_start", "window_end"))
         filled = math.fsum((2.0 * self.radii) ** 2) / self._config.drum.diameter**2
         known = {"bundle_count": self.count, "steps": self.step, "fill": filled, "time_step": self.time_step}
-        return Summary.from_mapping(
-            {**known, **self._timing(), **self._records.mean_force(first, last), **means}
-        )
+        return Summary.from_mapping({**known, **self._timing(), **self._core.summary(start, end)})
 
     def _timing(self) -> dict[str, float | None]:
         rate = self.count * self._steps_timed / self._wall_time if self._wall_time else None
@@ -364,8 +359,7 @@ class Simulation(HasRecords):
             Whether the simulation keeps its frames, too, in as much memory again.
         """
         series = self.series
-        known = {column: units(column) for column in series.columns}
-        return Result(self._config, self.summary(), series, self._records.frames(keep=keep), known)
+        return Result(self._config, self.summary(), series, self._records.frames(keep=keep))
 
     def save(self, path: str | Path) -> None:
         """Write a checkpoint: `load` goes on from it, bit for bit as if there had been no break."""
@@ -425,36 +419,6 @@ if hasattr(os, "register_at_fork"):
         after_in_parent=_core.open_fork_guard,
         after_in_child=_core.open_fork_guard_in_child,
     )
-
-
-class Quantity(NamedTuple):
-    """A column of the series: its unit and what it means."""
-
-    unit: str
-    meaning: str
-
-
-def quantities(baffles: int = 0, walls: int = 0) -> Mapping[str, Quantity]:
-    """Return the columns of the series of a drum with so many baffles and walls, with units and meanings."""
-    listed = _core.Simulation.quantities(baffles, walls)
-    return MappingProxyType({name: Quantity(unit, meaning) for name, unit, meaning in listed})
-
-
-def units(column: str) -> str:
-    """Return the unit of a column of the series, "1" where it is a plain number.
-
-    Examples
-    --------
-    >>> import drumrs
-    >>> drumrs.units("specific_power"), drumrs.units("work_baffle_2")
-    ('W/kg', 'J/m')
-    """
-    # Baffles and walls are numbered from 1, and all of a kind share their units.
-    first = "_".join("1" if part.isdecimal() else part for part in column.split("_"))
-    known = quantities(baffles=1, walls=1)
-    if first in known:
-        return known[first].unit
-    raise KeyError(f"{column!r} is not a column of the series; drumrs.QUANTITIES lists them")
 
 
 def info() -> dict[str, Any]:

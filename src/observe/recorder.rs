@@ -2,6 +2,8 @@
 //!
 //! Flows are recorded as energies since the start, so that the mean power over any window of samples is exact.
 
+use std::borrow::Cow;
+
 use serde::{Deserialize, Serialize};
 
 use super::memory;
@@ -45,72 +47,118 @@ pub struct Earlier {
     impulses: Vec<[f64; 3]>,
 }
 
-/// One recorded quantity.
-#[derive(Debug, Clone, Copy)]
-pub struct Quantity {
-    /// Column name.
-    pub name: &'static str,
-    /// Unit, per metre of drum depth where it is extensive.
-    pub unit: &'static str,
-    /// What it means.
-    pub meaning: &'static str,
-    value: fn(&Snapshot) -> f64,
+/// How the values of a quantity are to be read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Reading {
+    /// The value at the time of the sample.
+    Sample,
+    /// The mean since the last sample.
+    Mean,
+    /// The integral since t = 0.
+    Cumulative,
+    /// The greatest value since the last sample.
+    Greatest,
 }
 
+impl Reading {
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Sample => "sample",
+            Self::Mean => "mean",
+            Self::Cumulative => "cumulative",
+            Self::Greatest => "greatest",
+        }
+    }
+}
+
+/// A column of the series: how it is called and what it holds, as users are told.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Column {
+    /// Name.
+    pub name: Cow<'static, str>,
+    /// Symbol, as formulas use it.
+    pub symbol: Cow<'static, str>,
+    /// Unit, per meter of drum depth where it is extensive.
+    pub unit: &'static str,
+    /// How its values are to be read.
+    pub reading: Reading,
+    /// Formula, in the symbols of other columns; empty where the meaning says it all.
+    pub formula: Cow<'static, str>,
+    /// What it means.
+    pub meaning: Cow<'static, str>,
+}
+
+/// A column that every simulation records, and its value.
+type Quantity = (Column, fn(&Snapshot) -> f64);
+
 macro_rules! quantities {
-    ($list:ident: $($name:literal, $unit:literal, $meaning:literal, $value:expr;)*) => {
-        const $list: &[Quantity] =
-            &[$(Quantity { name: $name, unit: $unit, meaning: $meaning, value: $value }),*];
+    ($list:ident: $($name:literal, $symbol:literal, $unit:literal, $reading:ident, $formula:literal, $meaning:literal, $value:expr;)*) => {
+        const $list: &[Quantity] = &[$((
+            Column {
+                name: Cow::Borrowed($name),
+                symbol: Cow::Borrowed($symbol),
+                unit: $unit,
+                reading: Reading::$reading,
+                formula: Cow::Borrowed($formula),
+                meaning: Cow::Borrowed($meaning),
+            },
+            $value,
+        )),*];
     };
 }
 
 // The energies that laws take (`Flows`) come between the first list and the second, those that they hold (`Stored`) between
 // the second and the third.
 quantities! { BEFORE_FLOWS:
-    "time", "s", "time of the sample", |s| s.time;
-    "drum_angle", "rad", "angle of the drum", |s| s.angle;
-    "drum_angular_velocity", "rad/s", "angular velocity of the drum", |s| s.angular_velocity;
-    "drum_power", "W/m", "mean power of the drum on the load since the last sample", |s| s.drum_power();
-    "specific_power", "W/kg", "drum power over the mass of the load", |s| s.drum_power() / s.mass;
-    "drum_torque", "N m/m", "mean torque of the drum on the load about the axis since the last sample", |s| s.drum_torque();
-    "work_drum", "J/m", "work of the drum on the load since t = 0", |s| s.ledger.drum_work();
-    "balance_work", "J/m", "the same from the balance of moments, integral of angular velocity x (M g x + dL/dt)", |s| s.ledger.moments.work();
-    "work_normal", "J/m", "energy taken by normal dashpots, and held by normal springs, since t = 0", |s| s.work(is_normal);
-    "work_tangential", "J/m", "energy taken by sliding, and held by tangential springs, since t = 0", |s| s.work(is_tangential);
+    "time", "t", "s", Sample, "", "simulated time", |s| s.time;
+    "drum_angle", "θ", "rad", Sample, "", "angle by which the drum has turned", |s| s.angle;
+    "drum_angular_velocity", "Ω", "rad/s", Sample, "dθ/dt", "angular velocity of the drum", |s| s.angular_velocity;
+    "drum_power", "P", "W/m", Mean, "ΔW/Δt", "power of the drum on the load", |s| s.drum_power();
+    "drum_specific_power", "P/M", "W/kg", Mean, "P / M", "power of the drum over the mass M of the load", |s| s.drum_power() / s.mass;
+    "drum_torque", "τ", "N m/m", Mean, "", "torque of the drum on the load about the axis", |s| s.drum_torque();
+    "drum_work", "W", "J/m", Cumulative, "∫ τ dθ", "work of the drum on the load", |s| s.ledger.drum_work();
+    "moment_balance_work", "W_L", "J/m", Cumulative, "∫ Ω (M g x_c + dL/dt) dt", "work of the drum from the balance of moments about the axis", |s| s.ledger.moments.work();
+    "normal_work", "N", "J/m", Cumulative, "D_normal + ΔE_elastic_normal", "energy that normal damping took and normal springs hold", |s| s.work(is_normal);
+    "tangential_work", "T", "J/m", Cumulative, "D_sliding + D_tangential + ΔE_elastic_tangential", "energy that sliding and tangential damping took and tangential springs hold", |s| s.work(is_tangential);
 }
 
 quantities! { BEFORE_STORED:
-    "numerical", "J/m", "contact work that contact laws do not account for since t = 0", |s| s.ledger.numerical(&s.stored);
-    "kinetic_translation", "J/m", "kinetic energy of translation", |s| s.stored.kinetic_translation;
-    "kinetic_rotation", "J/m", "kinetic energy of rotation", |s| s.stored.kinetic_rotation;
-    "gravitational", "J/m", "potential energy, zero at the axis", |s| s.stored.gravitational;
+    "numerical", "D_numerical", "J/m", Cumulative, "W − ΔE − Σ D", "work of contacts that no contact law accounts for, which falls with the time step", |s| s.ledger.numerical(&s.stored);
+    "kinetic_translation", "K_t", "J/m", Sample, "Σ ½ m v²", "kinetic energy of translation", |s| s.stored.kinetic_translation;
+    "kinetic_rotation", "K_r", "J/m", Sample, "Σ ½ I ω²", "kinetic energy of rotation", |s| s.stored.kinetic_rotation;
+    "gravitational", "V", "J/m", Sample, "−Σ m g · x", "potential energy, zero at the axis", |s| s.stored.gravitational;
 }
 
 quantities! { AFTER_STORED:
-    "residual", "J/m", "stored + dissipated - work of the drum - initial energy: round-off", |s| s.ledger.residual(&s.stored);
-    "energy_residual", "1", "the residual over the sum of all flows or the greatest stored energy", |s| s.ledger.relative_residual(&s.stored);
-    "center_of_mass_x", "m", "mean horizontal position of the center of mass since the last sample", |s| s.mean_center(0);
-    "center_of_mass_y", "m", "mean vertical position of the center of mass since the last sample", |s| s.mean_center(1);
-    "angular_momentum", "kg m/s", "angular momentum of the load about the axis, spin included", |s| s.angular_momentum;
-    "coordination", "1", "contacts per bundle, those with the drum included", |s| s.coordination();
-    "contact_count", "1", "number of contacts", |s| (s.contacts.0 + s.contacts.1) as f64;
-    "max_overlap_ratio", "1", "greatest overlap since the last sample over the smaller radius", |s| s.ledger.overlap_ratio;
+    "residual", "R", "J/m", Sample, "ΔE + Σ D + D_numerical − W", "what the energy ledger fails to account for: round-off", |s| s.ledger.residual(&s.stored);
+    "energy_residual", "ε", "1", Sample, "|R| / max(|W| + Σ |D| + |D_numerical|, max E)", "the residual over all flows or the greatest stored energy", |s| s.ledger.relative_residual(&s.stored);
+    "center_of_mass_x", "x_c", "m", Mean, "Σ m x / M", "horizontal position of the center of mass from the axis", |s| s.mean_center(0);
+    "center_of_mass_y", "y_c", "m", Mean, "Σ m y / M", "vertical position of the center of mass from the axis", |s| s.mean_center(1);
+    "angular_momentum", "L", "kg m/s", Sample, "Σ (m (x v_y − y v_x) + I ω)", "angular momentum of the load about the axis, spin included", |s| s.angular_momentum;
+    "coordination", "Z", "1", Sample, "(2 n_bundle + n_drum) / N", "contacts per bundle, those with the drum included", |s| s.coordination();
+    "contact_count", "n", "1", Sample, "n_bundle + n_drum", "number of contacts", |s| (s.contacts.0 + s.contacts.1) as f64;
+    "max_overlap_ratio", "δ/r", "1", Greatest, "", "overlap over the smaller radius", |s| s.ledger.overlap_ratio;
 }
 
-/// The quantities that every simulation records, by name, unit and meaning; those of rim, baffles and walls follow them.
-pub fn quantities() -> impl Iterator<Item = (&'static str, &'static str, String)> {
-    let of = |list: &'static [Quantity]| list.iter().map(|q| (q.name, q.unit, q.meaning.to_owned()));
-    let energies =
-        |names: &'static [&'static str], meanings: &'static [&'static str], since: &'static str| {
-            names
-                .iter()
-                .zip(meanings)
-                .map(move |(&name, meaning)| (name, "J/m", format!("energy{meaning}{since}")))
-        };
+/// The columns that every simulation records; those of rim, baffles and walls follow them.
+pub fn quantities() -> impl Iterator<Item = Column> {
+    let of = |list: &'static [Quantity]| list.iter().map(|(column, _)| column.clone());
+    let energies = |names: &'static [&'static str], meanings: &'static [&'static str], reading| {
+        let symbol = if reading == Reading::Cumulative { "D" } else { "E" };
+        names.iter().zip(meanings).map(move |(&name, meaning)| Column {
+            name: name.into(),
+            symbol: format!("{symbol}_{}", name.trim_start_matches("dissipated_")).into(),
+            unit: "J/m",
+            reading,
+            formula: "".into(),
+            meaning: format!("energy{meaning}").into(),
+        })
+    };
     of(BEFORE_FLOWS)
-        .chain(energies(Flows::NAMES, Flows::MEANINGS, " since t = 0"))
+        .chain(energies(Flows::NAMES, Flows::MEANINGS, Reading::Cumulative))
         .chain(of(BEFORE_STORED))
-        .chain(energies(Stored::NAMES, Stored::MEANINGS, ""))
+        .chain(energies(Stored::NAMES, Stored::MEANINGS, Reading::Sample))
         .chain(of(AFTER_STORED))
 }
 
@@ -120,19 +168,19 @@ pub fn contact_energies() -> impl Iterator<Item = &'static str> {
 }
 
 /// Whether an energy of contacts is exchanged along their normals.
-pub fn is_normal(name: &str) -> bool {
+fn is_normal(name: &str) -> bool {
     name.ends_with("normal")
 }
 
 /// Whether an energy of contacts is exchanged along their tangents.
-pub fn is_tangential(name: &str) -> bool {
+fn is_tangential(name: &str) -> bool {
     name.ends_with("tangential") || name.ends_with("sliding")
 }
 
 impl Snapshot<'_> {
     /// The values of the quantities that every simulation records.
     fn values(&self) -> impl Iterator<Item = f64> {
-        let of = |list: &'static [Quantity]| list.iter().map(|quantity| (quantity.value)(self));
+        let of = |list: &'static [Quantity]| list.iter().map(|(_, value)| value(self));
         of(BEFORE_FLOWS)
             .chain((0..Flows::COUNT).map(|flow| self.ledger.flow(flow)))
             .chain(of(BEFORE_STORED))
@@ -206,41 +254,32 @@ fn impulses(account: &SurfaceAccount) -> [f64; 3] {
     [x, y, account.angular_impulse()]
 }
 
-/// A column of the series: (name, unit, meaning).
-pub type Column = (String, String, String);
-
 /// The columns of a drum with so many baffles and walls.
 pub fn columns(baffles: usize, walls: usize) -> Vec<Column> {
-    let fixed = quantities().map(|(name, unit, meaning)| (name.into(), unit.into(), meaning));
-    let parts = surface_names(baffles, walls).into_iter().flat_map(|part| {
-        let words = part.replace('_', " ");
-        [
-            (format!("work_{part}"), "J/m".into(), format!("work of the {words} on the load since t = 0")),
-            (
-                format!("torque_{part}"),
-                "N m/m".into(),
-                format!("mean torque of the {words} on the load about the axis since the last sample"),
-            ),
-            (
-                format!("force_{part}_x"),
-                "N/m".into(),
-                format!("mean horizontal force of the load on the {words} since the last sample"),
-            ),
-            (
-                format!("force_{part}_y"),
-                "N/m".into(),
-                format!("mean vertical force of the load on the {words} since the last sample"),
-            ),
-        ]
-    });
-    fixed.chain(parts).collect()
+    let baffles = (1..=baffles).map(|k| format!("baffle_{k}"));
+    let walls = (1..=walls).map(|k| format!("wall_{k}"));
+    let surfaces = std::iter::once("rim".to_owned()).chain(baffles).chain(walls);
+    quantities().chain(surfaces.flat_map(|surface| columns_of(&surface))).collect()
 }
 
-fn surface_names(baffles: usize, walls: usize) -> Vec<String> {
-    std::iter::once("rim".to_owned())
-        .chain((1..=baffles).map(|k| format!("baffle_{k}")))
-        .chain((1..=walls).map(|k| format!("wall_{k}")))
-        .collect()
+/// The columns of a surface, in the order in which `Series::push` writes them.
+fn columns_of(surface: &str) -> [Column; 4] {
+    use Reading::{Cumulative, Mean};
+    let words = if surface == "rim" { "the rim".into() } else { surface.replace('_', " ") };
+    [
+        ("work", "W", "", "J/m", Cumulative, format!("work of {words} on the load")),
+        ("torque", "τ", "", "N m/m", Mean, format!("torque of {words} on the load about the axis")),
+        ("force_x", "F", ",x", "N/m", Mean, format!("horizontal force of the load on {words}")),
+        ("force_y", "F", ",y", "N/m", Mean, format!("vertical force of the load on {words}")),
+    ]
+    .map(|(name, letter, axis, unit, reading, meaning)| Column {
+        name: format!("{surface}_{name}").into(),
+        symbol: format!("{letter}_{surface}{axis}").into(),
+        unit,
+        reading,
+        formula: if reading == Cumulative { format!("∫ τ_{surface} dθ").into() } else { "".into() },
+        meaning: meaning.into(),
+    })
 }
 
 /// Samples, one row each.
@@ -307,6 +346,15 @@ impl Series {
         self.values.iter().skip(index).step_by(self.width.max(1)).copied().collect()
     }
 
+    /// The sum over rim, baffles and walls of a quantity that each of them has, a value for each row.
+    pub fn sum_over_surfaces(&self, quantity: &str) -> Vec<f64> {
+        let of_each = columns_of("rim");
+        let place = of_each.iter().position(|column| column.name == format!("rim_{quantity}"));
+        let first = quantities().count() + place.expect("a quantity of surfaces");
+        let sum = |row: &[f64]| row[first..].iter().step_by(of_each.len()).sum();
+        self.values.chunks_exact(self.width.max(1)).map(sum).collect()
+    }
+
     /// One column, where there may be no memory for it.
     ///
     /// # Errors
@@ -326,10 +374,10 @@ mod tests {
     #[test]
     fn every_column_has_a_name_of_its_own_and_a_unit() {
         let columns = columns(3, 1);
-        let mut names: Vec<_> = columns.iter().map(|column| &column.0).collect();
+        let mut names: Vec<_> = columns.iter().map(|column| &column.name).collect();
         names.sort_unstable();
         names.dedup();
         assert_eq!(names.len(), quantities().count() + 4 * 5);
-        assert!(columns.iter().all(|(_, unit, meaning)| !unit.is_empty() && !meaning.is_empty()));
+        assert!(columns.iter().all(|column| !column.unit.is_empty() && !column.meaning.is_empty()));
     }
 }

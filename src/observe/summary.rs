@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 use crate::observe::averages;
-use crate::observe::recorder::{Series, contact_energies, is_normal, is_tangential, quantities};
+use crate::observe::recorder::{Series, contact_energies, quantities};
 use crate::physics::contact::{Flows, Stored};
 
 /// A named statistic; none where it is not defined.
@@ -25,35 +25,34 @@ pub fn summarize(series: &Series, mass: f64, start: f64, end: f64) -> Result<Vec
     let sample_every = averages::mean_interval(&times);
     let rate = |name: &str| averages::rate(&times, &table.column(name));
     let mean = |name: &str| averages::mean_sampled(&table.column(name)[1..], sample_every).value;
-    let contact_rates = |is_meant: fn(&str) -> bool| -> f64 {
-        contact_energies().filter(|name| is_meant(name)).map(rate).sum()
-    };
-    let (normal, tangential) = (contact_rates(is_normal), contact_rates(is_tangential));
-    let work = averages::mean_rate(&times, &table.column("work_drum"));
+    let ratio = |above: f64, below: f64| (below != 0.0).then(|| above / below);
+    let (normal, tangential) = (rate("normal_work"), rate("tangential_work"));
+    let work = averages::mean_rate(&times, &table.column("drum_work"));
     let (power, spread) = (work.value, work.spread);
     let motion = rate("kinetic_translation") + rate("kinetic_rotation") + rate("gravitational");
-    let by_ledger = motion + contact_rates(|_| true) + rate("numerical");
-    let powers = [power, by_ledger, rate("balance_work")];
+    let by_ledger = motion + contact_energies().map(rate).sum::<f64>() + rate("numerical");
+    let powers = [power, by_ledger, rate("moment_balance_work")];
     let (window_start, window_end) = (times[0], times[times.len() - 1]);
-    let torque = averages::mean_of_intervals(&times, &table.column("drum_torque"));
+    let interval_mean = |column: &[f64]| Some(averages::mean_of_intervals(&times, column));
+    let force = |axis| interval_mean(&table.rows_of(&series.sum_over_surfaces(axis)));
     let residual = whole_column(series, "energy_residual");
     let fixed = [
         ("window_start", Some(window_start)),
         ("window_end", Some(window_end)),
-        ("drum_torque", Some(torque)),
+        ("drum_torque", interval_mean(&table.column("drum_torque"))),
+        ("drum_force_x", force("force_x")),
+        ("drum_force_y", force("force_y")),
         ("drum_power", Some(power)),
-        ("specific_power", Some(power / mass)),
-        ("specific_power_error", spread.map(|spread| spread.error / mass)),
+        ("drum_specific_power", Some(power / mass)),
+        ("drum_specific_power_error", spread.map(|spread| spread.error / mass)),
         ("correlation_time", spread.map(|spread| spread.correlation_time)),
+        ("work_ratio", ratio(normal, tangential)),
+        ("dissipation_ratio", ratio(rate("dissipated_normal"), rate("dissipated_sliding"))),
         ("normal_power", Some(normal)),
         ("tangential_power", Some(tangential)),
-        ("normal_tangential_ratio", (tangential != 0.0).then(|| normal / tangential)),
-        ("work_normal_power", Some(rate("work_normal"))),
-        ("work_tangential_power", Some(rate("work_tangential"))),
         ("numerical_power", Some(rate("numerical"))),
-        ("power_torque", Some(powers[0])),
-        ("power_ledger", Some(powers[1])),
-        ("power_balance", Some(powers[2])),
+        ("energy_balance_power", Some(powers[1])),
+        ("moment_balance_power", Some(powers[2])),
         ("power_disagreement", Some(disagreement(powers, table.stored() / (window_end - window_start)))),
         ("center_of_mass_x", Some(mean("center_of_mass_x"))),
         ("center_of_mass_y", Some(mean("center_of_mass_y"))),
@@ -84,7 +83,11 @@ struct Table<'a> {
 
 impl Table<'_> {
     fn column(&self, name: &str) -> Vec<f64> {
-        whole_column(self.series, name)[self.rows.0..=self.rows.1].to_vec()
+        self.rows_of(&whole_column(self.series, name))
+    }
+
+    fn rows_of(&self, column: &[f64]) -> Vec<f64> {
+        column[self.rows.0..=self.rows.1].to_vec()
     }
 
     /// Energy stored at the end of the window, every part with its magnitude [J/m].
@@ -101,6 +104,6 @@ impl Table<'_> {
 }
 
 fn whole_column(series: &Series, name: &str) -> Vec<f64> {
-    let index = quantities().position(|quantity| quantity.0 == name);
+    let index = quantities().position(|column| column.name == name);
     series.column(index.expect("the summary asks for recorded quantities only"))
 }

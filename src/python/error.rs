@@ -78,3 +78,10 @@ fn unstable(
     }
     Ok("UnstableError")
 }
+
+/// So that `?` raises it, wherever the interpreter is held.
+impl From<Error> for PyErr {
+    fn from(error: Error) -> Self {
+        Python::attach(|py| to_python(py, &error))
+    }
+}

@@ -15,9 +15,9 @@ mod _core {
 
     #[pymodule_export]
     use super::averages::{block_error, mean_rate, mean_ratio, mean_sampled, window};
-    use super::error::to_python;
     #[pymodule_export]
     use super::simulation::Simulation;
+    use crate::error::Error;
     use crate::io::config::{MOST_BUNDLES, MOST_SPECIES, SimulationConfig};
     use crate::physics::drum::MOST_BAFFLES;
     use crate::simulation::derived::DerivedParameters;
@@ -46,11 +46,9 @@ mod _core {
 
     /// What follows from a configuration, both in JSON; see `drumrs.Config.derived`.
     #[pyfunction]
-    fn derived(py: Python<'_>, config: &str) -> PyResult<String> {
-        SimulationConfig::from_json(config)
-            .and_then(|config| DerivedParameters::new(&config))
-            .map(|derived| serde_json::to_string(&derived).expect("plain numbers"))
-            .map_err(|error| to_python(py, &error))
+    fn derived(config: &str) -> Result<String, Error> {
+        let derived = DerivedParameters::new(&SimulationConfig::from_json(config)?)?;
+        Ok(serde_json::to_string(&derived).expect("plain numbers"))
     }
 
     /// Before a fork: waits until no thread is inside a simulation, and keeps them out.

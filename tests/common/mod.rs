@@ -213,6 +213,6 @@ pub fn last(simulation: &Simulation, name: &str) -> f64 {
 pub fn column(simulation: &Simulation, name: &str) -> Vec<f64> {
     let columns =
         drumrs::observe::recorder::columns(simulation.drum().baffle_count(), simulation.drum().wall_count());
-    let index = columns.iter().position(|column| column.0 == name).expect("a recorded quantity");
+    let index = columns.iter().position(|column| column.name == name).expect("a recorded quantity");
     simulation.series().column(index)
 }

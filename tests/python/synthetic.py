@@ -23,7 +23,7 @@ def made_up(count: int = 12, frames: int = 3, **scene) -> Frames:
 def series_of(power: float, rows: int = 301) -> pl.DataFrame:
     time = 0.01 * np.arange(rows)
     energies = ("kinetic_translation", "kinetic_rotation", "elastic_normal", "elastic_tangential")
-    flows = {"work_drum": power, "dissipated_normal": 0.6 * power, "dissipated_sliding": 0.4 * power}
+    flows = {"drum_work": power, "dissipated_normal": 0.6 * power, "dissipated_sliding": 0.4 * power}
     return pl.DataFrame(
         {
             "time": time,

@@ -48,6 +48,6 @@ def trace_of(simulation: drumrs.Simulation) -> Trace:
     """Return what a run recorded; its work by the balance of moments is exact for any sampling."""
     series = simulation.series
     times = series["time"].to_numpy()
-    work = np.diff(series["balance_work"].to_numpy()) / np.diff(times)
+    work = np.diff(series["moment_balance_work"].to_numpy()) / np.diff(times)
     x, y = (series[f"center_of_mass_{axis}"].to_numpy()[1:] for axis in "xy")
     return Trace(times, work / float(simulation.masses.sum()), x, y)

@@ -100,7 +100,7 @@ def rate_with_error(series: "pl.DataFrame", column: str, window: tuple[float, fl
     series
         Table of a run, one row a sample.
     column
-        An integral since t = 0 such as ``"work_drum"`` [J/m].
+        An integral since t = 0 such as ``"drum_work"`` [J/m].
     window
         Start and end [s]; they snap to the samples nearest to them.
 
@@ -118,8 +118,8 @@ def rate_with_error(series: "pl.DataFrame", column: str, window: tuple[float, fl
     --------
     >>> import polars as pl
     >>> from drumrs.analysis import rate_with_error
-    >>> series = pl.DataFrame({"time": [0.0, 1.0, 2.0], "work_drum": [0.0, 3.0, 4.0]})
-    >>> rate_with_error(series, "work_drum", (0.0, 2.0))
+    >>> series = pl.DataFrame({"time": [0.0, 1.0, 2.0], "drum_work": [0.0, 3.0, 4.0]})
+    >>> rate_with_error(series, "drum_work", (0.0, 2.0))
     Mean(value=2.0, error=None)
     """
     rows = SeriesWindow.of(series, window)

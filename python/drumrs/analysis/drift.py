@@ -18,7 +18,7 @@ from drumrs.analysis.seeds import disagreement
 if TYPE_CHECKING:
     import polars as pl
 
-# So seldom is a steady run called unsteady by one test: about once in a study.
+# The share of steady runs that one test calls unsteady: about one run in a study.
 FALSE_ALARMS = 1e-3
 # The load is steady after about that long [s], says the paper.
 _SETTLED = 5.0
@@ -48,7 +48,7 @@ class Drift:
 
     @property
     def drifting(self) -> bool:
-        """Whether a steady run would hardly do this."""
+        """Whether a steady run would show so large a slope less than once in a thousand times."""
         return self.significance < FALSE_ALARMS
 
 
@@ -68,7 +68,7 @@ class StateSwitching:
     significance: float
 
 
-def drift(series: "pl.DataFrame", window: tuple[float, float], column: str = "work_drum") -> Drift | None:
+def drift(series: "pl.DataFrame", window: tuple[float, float], column: str = "drum_work") -> Drift | None:
     """Test whether a rate drifts within a window.
 
     A straight line is fitted to the means over the longest blocks of which eight remain, and its slope compared with
@@ -93,7 +93,7 @@ def drift(series: "pl.DataFrame", window: tuple[float, float], column: str = "wo
     >>> import numpy as np, polars as pl
     >>> from drumrs.analysis import drift
     >>> time = np.linspace(0.0, 10.0, 501)
-    >>> warming = pl.DataFrame({"time": time, "work_drum": time + 0.1 * time**2 + 0.01 * np.sin(40.0 * time)})
+    >>> warming = pl.DataFrame({"time": time, "drum_work": time + 0.1 * time**2 + 0.01 * np.sin(40.0 * time)})
     >>> drift(warming, (0.0, 10.0)).drifting
     True
     """

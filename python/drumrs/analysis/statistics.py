@@ -11,19 +11,19 @@ if TYPE_CHECKING:
 
 _MEANS = (
     "drum_specific_power",
-    "normal_specific_power",
-    "tangential_specific_power",
+    "dissipated_normal_specific_power",
+    "dissipated_sliding_specific_power",
     "dissipation_ratio",
     "work_ratio",
-    "angular_momentum_per_mass",
+    "specific_angular_momentum",
 )
 _TESTS = (
     "drift",
     "drift_significance",
     "share_drift",
     "share_drift_significance",
-    "wandering",
-    "wandering_significance",
+    "state_switching",
+    "state_switching_significance",
     "drifting",
 )
 # Names of what `statistics` returns.
@@ -51,28 +51,24 @@ def statistics(
     Returns
     -------
     dict
-        ``drum_specific_power``, ``normal_specific_power``, ``tangential_specific_power``: what the drum puts in, and
-        what normal damping and sliding take [W/kg].
+        ``drum_specific_power``, ``dissipated_normal_specific_power``, ``dissipated_sliding_specific_power``: what the
+        drum puts in, and what normal damping and sliding take [W/kg].
         ``dissipation_ratio``: the latter two over each other.
         ``work_ratio``: work of the contacts' normal forces over that of their tangential forces.
-        ``angular_momentum_per_mass`` [m²/s], 0 for a load that stays where it is, however it rocks.
+        ``specific_angular_momentum`` [m²/s], 0 for a load that stays where it is, however it rocks.
         All with ``…_error``; `None` where not defined.
         ``drift``: change of the drum's specific power within the window over its mean, ``share_drift``: that of the
-        normal damping's share in all dissipation, ``wandering``: how much that share differs between parts of the run;
-        each with the ``…_significance`` of `Drift` and `StateSwitching`.
+        normal damping's share in all dissipation, ``state_switching``: how much that share differs between parts of
+        the run; each with the ``…_significance`` of `Drift` and `StateSwitching`.
         ``drifting``: whether one of the three is beyond chance (one in a thousand) and above a hundredth.
     """
     means: dict[str, Mean | None] = {
         f"{name}_specific_power": _scaled(rate_with_error(series, column, window), mass)
-        for name, column in (
-            ("drum", "work_drum"),
-            ("normal", "dissipated_normal"),
-            ("tangential", "dissipated_sliding"),
-        )
+        for name, column in {"drum": "drum_work", **{loss: loss for loss in _LOSSES}}.items()
     }
     means["dissipation_ratio"] = ratio_with_error(series, *_LOSSES, window)
-    means["work_ratio"] = ratio_with_error(series, "work_normal", "work_tangential", window)
-    means["angular_momentum_per_mass"] = _scaled(_sampled(series, "angular_momentum", window), mass)
+    means["work_ratio"] = ratio_with_error(series, "normal_work", "tangential_work", window)
+    means["specific_angular_momentum"] = _scaled(_sampled(series, "angular_momentum", window), mass)
     columns: dict[str, float | bool | None] = {}
     for name, mean in means.items():
         columns[name] = mean.value if mean is not None else None
@@ -92,7 +88,7 @@ def _steadiness(series: "pl.DataFrame", window: tuple[float, float]) -> dict[str
         "share_drift": (share_drift.change * mean.value, share_drift.significance)
         if share_drift and mean
         else None,
-        "wandering": (switching.spread, switching.significance) if switching else None,
+        "state_switching": (switching.spread, switching.significance) if switching else None,
     }
     columns: dict[str, float | bool | None] = {}
     for name, found in changes.items():

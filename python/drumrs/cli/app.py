@@ -13,6 +13,7 @@ from drumrs.cli.baseline import baseline
 from drumrs.cli.config import config
 from drumrs.cli.info import info
 from drumrs.cli.options import cut_by_shell
+from drumrs.cli.quantities import quantities
 from drumrs.cli.reproduce import reproduce
 from drumrs.cli.run import run
 from drumrs.cli.sweep import sweep
@@ -41,6 +42,7 @@ app = App(
         "- `drumrs run --resume out/case` goes on after Ctrl-C or a power cut\n"
         "- `drumrs view out/case` plays the run in the browser\n"
         "- `drumrs sweep sweep.toml --out out/sweep` runs many cases\n"
+        "- `drumrs quantities ratio` says what is measured under a name with that word\n"
         "- `drumrs verify` holds drumrs against formulas and its own promises"
     ),
     version=drumrs.__version__,
@@ -48,8 +50,8 @@ app = App(
     result_action="return_value",
 )
 
-for _command in (run, baseline, reproduce, sweep, view, verify, config, info):
-    app.command(_command)
+for _command in (run, baseline, reproduce, sweep, view, verify, config, quantities, info):
+    app.command(_command, help_epilogue="")
 
 
 def main(arguments: Sequence[str] | None = None) -> None:

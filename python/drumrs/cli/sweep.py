@@ -10,10 +10,13 @@ from cyclopts import Parameter
 from drumrs.cli.options import WHOLE, Jobs, check_folder
 from drumrs.cli.tables import print_paths
 from drumrs.errors import ConfigError
+from drumrs.registry import quantity
 from drumrs.result import number, with_error
 from drumrs.sweep import Outcome, Sweep, read_sweep
 
 _FAILED = 1
+# What is printed of each run; the table has more.
+_POWER, _RATIO = "drum_specific_power", "dissipation_ratio"
 _MOST_ROWS = 40
 _MOST_COLUMNS = 6
 
@@ -87,7 +90,7 @@ def _print_results(planned: Sweep) -> None:
     varied = planned.varied()[:_MOST_COLUMNS]
     shown = Table(box=None, highlight=False)
     shown.add_column("case", no_wrap=True)
-    for name in (*_short(varied), "W/kg", "N/T", ""):
+    for name in (*_short(varied), *(quantity(name).label for name in (_POWER, _RATIO)), ""):
         shown.add_column(escape(name), justify="right", no_wrap=True)
     ids = planned.short_ids()
     for row in found.head(_MOST_ROWS).iter_rows(named=True):
@@ -115,9 +118,9 @@ def _short(keys: list[str]) -> list[str]:
 
 
 def _numbers(row: dict[str, Any]) -> tuple[str, str, str]:
-    """Return specific power, normal over tangential power, and whether they drift."""
-    power = with_error(row["specific_power"], row["specific_power_error"])
-    return power, number(row["normal_tangential_ratio"]), "drifting" if row["drifting"] else ""
+    """Return specific power, N/T, and whether they drift."""
+    power = with_error(row[_POWER], row[f"{_POWER}_error"])
+    return power, number(row[_RATIO]), "drifting" if row["drifting"] else ""
 
 
 def _show(value: Any) -> str:

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from drumrs.energies import held_by_contacts, shown_losses
+from drumrs.energies import energies_to_show, powers_to_show
 from drumrs.figures import labels
 from drumrs.figures.shared import Array, drumrs_style, label_lines, new_figure
 
@@ -73,7 +73,7 @@ def _power(axes: "Axes", columns: dict[str, Array]) -> None:
     long = _averaging_time(time)
     axes.set_title(labels.POWERS.format(long))
     steady = [0.0]
-    for name, label in {"work_drum": "drum", **shown_losses(columns)}.items():
+    for name, label in powers_to_show(columns).items():
         middle, power = _thinned(*mean_rate(time, columns[name], long))
         axes.plot(middle, power, label=label)
         steady.extend(power[len(power) // 10 :][np.isfinite(power[len(power) // 10 :])])
@@ -86,12 +86,7 @@ def _power(axes: "Axes", columns: dict[str, Array]) -> None:
 def _energies(axes: "Axes", columns: dict[str, Array]) -> None:
     axes.set_title(labels.ENERGY_STORED)
     axes.set_yscale("log")
-    stored = {
-        "translation": columns["kinetic_translation"],
-        "rotation": columns["kinetic_rotation"],
-        **held_by_contacts(columns),
-    }
-    for label, values in stored.items():
+    for label, values in energies_to_show(columns).items():
         time, smooth = _thinned(columns["time"], values)
         axes.plot(time, np.where(smooth > 0.0, smooth, np.nan), label=label)
 

@@ -1,17 +1,20 @@
-"""Labels of axes and titles of plots, each in one place, with the unit in brackets."""
+"""Labels of axes and titles of plots, each in one place; names and units of quantities are those of the registry."""
 
-TIME = "time [s]"
-SPEED = "speed of the bundles [m/s]"
+from drumrs.registry import quantity
+
+TIME = quantity("time").label
+SPEED = f"speed of the bundles [{quantity('speed').unit}]"
 CENTER_OF_MASS = "Center of mass from the axis [mm]"
-ENERGY_STORED = "Energy stored [J/m]"
+ENERGY_STORED = f"Energy stored [{quantity('kinetic_energy').unit}]"
 ENERGY_RESIDUAL = "Energy ledger: relative residual"
-POWERS = "Power of the drum and losses, means over {:.2g} s [W/m]"
+POWERS = f"Power of the drum and losses, means over {{:.2g}} s [{quantity('drum_power').unit}]"
 
 FILL = "fill N d²/D² [%]"
-DRUM_POWER = "drum power [W per m of depth]"
-SPECIFIC_POWER = "specific power [W/kg]"
-NORMAL_TANGENTIAL_RATIO = "N/T, normal over tangential power"
+DRUM_POWER = quantity("drum_power").label
+DRUM_SPECIFIC_POWER = quantity("drum_specific_power").label
+DISSIPATION_RATIO = f"{quantity('dissipation_ratio').label} N/T"
+WORK_RATIO = f"{quantity('work_ratio').label} N/T"
 FRICTION = "coefficient of friction μ"
 RESTITUTION = "coefficient of restitution e"
-SIZE_RATIO = "drum over bundle diameter D/d"
+SIZE_RATIO = f"{quantity('size_ratio').label} D/d"
 DRUM_SPEED = "drum speed [rpm]"

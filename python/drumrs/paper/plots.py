@@ -50,7 +50,7 @@ def power_against_fill(points: "pl.DataFrame") -> "Figure":
 
 def specific_power_against_fill(points: "pl.DataFrame") -> "Figure":
     """Draw F5: specific power against fill, without and with baffles."""
-    return curves(points, Labels(labels.FILL, labels.SPECIFIC_POWER, x_scale=100.0))
+    return curves(points, Labels(labels.FILL, labels.DRUM_SPECIFIC_POWER, x_scale=100.0))
 
 
 def ratio_against_fill(points: "pl.DataFrame", other: "pl.DataFrame") -> "Figure":
@@ -63,22 +63,22 @@ def ratio_against_fill(points: "pl.DataFrame", other: "pl.DataFrame") -> "Figure
     other
         N/T by work of the contact forces: crosses.
     """
-    return _two_readings(points, other, Labels(labels.FILL, labels.NORMAL_TANGENTIAL_RATIO, x_scale=100.0))
+    return _two_readings(points, other, Labels(labels.FILL, labels.DISSIPATION_RATIO, x_scale=100.0))
 
 
 def specific_power_against_size(points: "pl.DataFrame") -> "Figure":
     """Draw F7: specific power against D/d at 40 % fill, without and with baffles."""
-    return curves(points, Labels(labels.SIZE_RATIO, labels.SPECIFIC_POWER))
+    return curves(points, Labels(labels.SIZE_RATIO, labels.DRUM_SPECIFIC_POWER))
 
 
 def specific_power_against_friction(points: "pl.DataFrame") -> "Figure":
     """Draw F8: specific power against friction without baffles, at three fills."""
-    return curves(points, Labels(labels.FRICTION, labels.SPECIFIC_POWER))
+    return curves(points, Labels(labels.FRICTION, labels.DRUM_SPECIFIC_POWER))
 
 
 def ratio_against_friction(points: "pl.DataFrame", other: "pl.DataFrame") -> "Figure":
     """Draw F9: N/T against friction without baffles, at three fills; `other` as in `ratio_against_fill`."""
-    return _two_readings(points, other, Labels(labels.FRICTION, labels.NORMAL_TANGENTIAL_RATIO))
+    return _two_readings(points, other, Labels(labels.FRICTION, labels.DISSIPATION_RATIO))
 
 
 def specific_power_against_speed(points: "pl.DataFrame", centrifuging: float) -> "Figure":
@@ -91,7 +91,7 @@ def specific_power_against_speed(points: "pl.DataFrame", centrifuging: float) ->
     centrifuging
         Speed at which the rim's acceleration equals gravity [rpm], marked by a line.
     """
-    figure = curves(points, Labels(labels.DRUM_SPEED, labels.SPECIFIC_POWER))
+    figure = curves(points, Labels(labels.DRUM_SPEED, labels.DRUM_SPECIFIC_POWER))
     axes = figure.axes[0]
     axes.axvline(centrifuging, color="0.7", linewidth=0.8, zorder=0)
     _say_below(axes, centrifuging, "Ω²R = g", beside=4.0)
@@ -100,7 +100,7 @@ def specific_power_against_speed(points: "pl.DataFrame", centrifuging: float) ->
 
 def specific_power_against_restitution(points: "pl.DataFrame") -> "Figure":
     """Draw specific power against restitution, without and with baffles."""
-    return curves(points, Labels(labels.RESTITUTION, labels.SPECIFIC_POWER))
+    return curves(points, Labels(labels.RESTITUTION, labels.DRUM_SPECIFIC_POWER))
 
 
 # Those that are drawn of points alone, by the figure's number.
@@ -135,7 +135,7 @@ def _two_readings(points: "pl.DataFrame", other: "pl.DataFrame", axis_labels: La
     axes = figure.axes[0]
     x, y = axis_labels.x_scale * other["x"].to_numpy(), other["mean"].to_numpy()
     axes.plot(x, y, "x", color="black", markersize=6.5, markeredgewidth=0.6, zorder=4)
-    say_above(axes, "× by work of the contact forces, else by dissipation")
+    say_above(axes, f"×: {labels.WORK_RATIO}")
     return figure
 
 
@@ -160,13 +160,13 @@ def drift_over_time(
             power, ratio = grid[0, column], grid[1, column]
             power.set_title(drum)
             for one in series:
-                power.plot(*_running(one, "work_drum", scale=mass[drum]), linewidth=1.0)
+                power.plot(*_running(one, "drum_work", scale=mass[drum]), linewidth=1.0)
                 ratio.plot(*_running(one, "dissipated_normal", "dissipated_sliding"), linewidth=1.0)
             ratio.set_xlabel(labels.TIME)
         for axes in grid.flat:
             axes.axvspan(*window, color="0.94", zorder=0, linewidth=0)
-        grid[0, 0].set_ylabel(labels.SPECIFIC_POWER)
-        grid[1, 0].set_ylabel("N/T")
+        grid[0, 0].set_ylabel(labels.DRUM_SPECIFIC_POWER)
+        grid[1, 0].set_ylabel(labels.DISSIPATION_RATIO)
         _say_below(grid[0, 0], sum(window) / 2.0, "averages")
     return figure
 

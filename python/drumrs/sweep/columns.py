@@ -24,7 +24,6 @@ CASE, SEED = "case", "seed"
 # Facts of the machine, which differ from run to run.
 TIMINGS = ("wall_time", "particle_steps_per_second")
 _SEED_KEY = "run.seed"
-_PAIR = "center_of_mass"
 
 
 def row(case: Case, summary: Summary, statistics: "Mapping[str, Any]") -> "pl.DataFrame":
@@ -32,7 +31,7 @@ def row(case: Case, summary: Summary, statistics: "Mapping[str, Any]") -> "pl.Da
     import polars as pl
 
     names = {CASE: case.id, **parameters(case.config), SEED: case.seed}
-    values = {**names, **_numbers(summary), **statistics}
+    values = {**names, **statistics, **asdict(summary)}
     return pl.DataFrame({name: [values[name]] for name in schema()}, schema=schema())
 
 
@@ -62,20 +61,9 @@ def schema() -> "dict[str, Any]":
 
     types = {key: _type(kind) for key, kind in _leaves(Config) if key != _SEED_KEY}
     hints = get_type_hints(Summary)
-    summary: dict[str, Any] = {}
-    for field in fields(Summary):
-        if field.name == _PAIR:
-            summary |= {f"{_PAIR}_x": pl.Float64, f"{_PAIR}_y": pl.Float64}
-        elif field.name not in TIMINGS:
-            summary[field.name] = _type(hints[field.name])
+    summary = {field.name: _type(hints[field.name]) for field in fields(Summary) if field.name not in TIMINGS}
     told = {name: pl.Boolean if name == "drifting" else pl.Float64 for name in STATISTICS}
     return {CASE: pl.String, **types, SEED: pl.Int64, **summary, **told}
-
-
-def _numbers(summary: Summary) -> dict[str, Any]:
-    values = asdict(summary)
-    x, y = values.pop(_PAIR)
-    return {**values, f"{_PAIR}_x": x, f"{_PAIR}_y": y}
 
 
 def _leaves(model: type[BaseModel], at: str = "") -> Iterator[tuple[str, Any]]:

@@ -21,8 +21,10 @@ if TYPE_CHECKING:
 
     import polars as pl
 
-FORMAT = 1
+FORMAT = 2
 _KEY = "drumrs"
+# What the seal says of the version that wrote the file.
+_VERSIONS = ("format", "physics_version")
 _MAGIC = b"PAR1"
 # What stands before the digest in the file.
 _DIGEST = b'"sha256": "'
@@ -88,7 +90,8 @@ def read_sealed(path: Path, case: Case, content: str) -> io.BytesIO:
         raise ConfigError(path, problem="was not written by drumrs")
     for name, wanted in _claims(case, content).items():
         if seal.get(name) != wanted:
-            problem = f"has {name} {seal.get(name)!r}, but must have {wanted!r}: it is another's file"
+            whose = "another version of drumrs wrote it" if name in _VERSIONS else "it is another's file"
+            problem = f"has {name} {seal.get(name)!r}, but must have {wanted!r}: {whose}"
             raise ConfigError(path, seal.get(name), repr(wanted), problem=problem)
     if not digest or seal.get("sha256") != digest.decode(errors="replace"):
         raise ConfigError(path, problem="is damaged: its digest does not match")

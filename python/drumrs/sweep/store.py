@@ -22,6 +22,7 @@ from drumrs.errors import ConfigError, show
 from drumrs.files import NO_ROOM, read_object, write_whole
 from drumrs.folders import marker, require_own
 from drumrs.frames import Frames
+from drumrs.registry import metadata
 from drumrs.result import Result, Summary
 from drumrs.sweep.case import Case
 from drumrs.sweep.columns import TIMINGS, row, schema
@@ -141,8 +142,9 @@ class Store:
             Where the folder is full or cannot be written.
         """
         write_whole(self._path(case, "toml"), case.config.to_toml().encode())
-        units = {"units": json.dumps(dict(result.units))}
-        write_sealed(self._parquet(case, "series"), case, "series", result.series, units)
+        write_sealed(
+            self._parquet(case, "series"), case, "series", result.series, metadata(result.series.columns)
+        )
         if case.wants_frames:
             write_sealed_frames(self._parquet(case, "frames"), case, result.frames)
         timings = {name: getattr(result.summary, name) for name in TIMINGS}

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from drumrs.errors import ConfigError
 from drumrs.files import write_whole
+from drumrs.registry import metadata
 from drumrs.sweep.case import Case
 from drumrs.sweep.columns import schema, sort_keys
 from drumrs.sweep.store import TABLE, Store
@@ -47,7 +48,9 @@ def write(cases: Sequence[Case], store: Store) -> Path:
     """
     store.require_own()
     buffer = io.BytesIO()
-    scan(cases, store).collect().write_parquet(buffer, compression="uncompressed")
+    scan(cases, store).collect().write_parquet(
+        buffer, compression="uncompressed", metadata=metadata(schema())
+    )
     path = store.folder / TABLE
     write_whole(path, buffer.getvalue())
     return path

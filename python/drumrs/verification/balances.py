@@ -61,7 +61,7 @@ def _worlds() -> dict[str, Config]:
 def _gross(run: Simulation) -> float:
     """Return the sum of all flows so far and of what is stored [J/m]: what round-off is a part of."""
     row = run.series.row(-1, named=True)
-    return math.fsum(abs(row[name]) for name in (*_STORED, *_LOST, "work_drum"))
+    return math.fsum(abs(row[name]) for name in (*_STORED, *_LOST, "drum_work"))
 
 
 @case("ledger", source="identity of the leapfrog", formula="stored + lost = work + initial", cost=4e7)
@@ -75,7 +75,7 @@ def ledger() -> Evidence:
         run = scenes.after(config, None, 0.5, samples=25)
         series = run.series
         stored, lost = (series.select(columns).to_numpy().sum(axis=1) for columns in (_STORED, _LOST))
-        given = series["work_drum"].to_numpy() + stored[0]
+        given = series["drum_work"].to_numpy() + stored[0]
         residual = float(np.abs(stored + lost - given).max()) / _gross(run)
         found.append(Check(f"residual, {name}", "1", 0.0, residual, run.step * theory.EPSILON))
         # From the least on, so that zero of the potential does not matter.
@@ -105,10 +105,10 @@ def three_powers() -> Evidence:
         allowed = run.step * theory.EPSILON * _gross(run) / (run.time / 5.0)
         windows = [(k * run.time / 5.0, (k + 1) * run.time / 5.0) for k in range(5)]
         means = [run.summary(window) for window in windows]
-        torque = np.array([mean.power_torque for mean in means])
+        torque = np.array([mean.drum_power for mean in means])
         others = {
-            "ledger": np.array([mean.power_ledger for mean in means]),
-            "moments": np.array([mean.power_balance for mean in means]),
+            "ledger": np.array([mean.energy_balance_power for mean in means]),
+            "moments": np.array([mean.moment_balance_power for mean in means]),
         }
         for kind, power in others.items():
             places = [f"power by {kind}, {name}, fifth {k}" for k in range(1, 6)]
@@ -141,7 +141,7 @@ def bounds() -> Evidence:
         for fill in places:
             run = scenes.after(scenes.drum(_LARGE, fill=fill, baffles=baffles), None, 1.5, samples=300)
             means = run.summary((0.5, run.time))
-            power = means.specific_power / (GRAVITY * DRUM_RADIUS * run.drum_angular_velocity)
+            power = means.drum_specific_power / (GRAVITY * DRUM_RADIUS * run.drum_angular_velocity)
             overlap = float(run.series["max_overlap_ratio"].to_numpy()[100:].mean())
             place = f"{label}, {100 * fill:.0f} % fill"
             found.append(Check(f"P/(M g R Ω), {place}", "1", 0.5, power, 0.5))
@@ -175,7 +175,7 @@ def numerical_order() -> Evidence:
     return Evidence(tuple(found), panel)
 
 
-_MEANS = ("specific_power", "dissipated_normal_power", "dissipated_sliding_power", "kinetic_energy")
+_MEANS = ("drum_specific_power", "dissipated_normal_power", "dissipated_sliding_power", "kinetic_energy")
 
 
 @case("time-step", source="convergence", formula="means at Δt = means at Δt/2", cost=8e7)

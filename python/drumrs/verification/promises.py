@@ -114,7 +114,7 @@ def _unlike(plain: Simulation, large: Simulation, mass: float) -> float:
         (plain.angular_velocities * 0.5, large.angular_velocities),
         *(
             (plain.series[name].to_numpy() * 4.0 * mass, large.series[name].to_numpy())
-            for name in ("work_drum", "dissipated_normal", "dissipated_sliding", "elastic_normal")
+            for name in ("drum_work", "dissipated_normal", "dissipated_sliding", "elastic_normal")
         ),
     )
     return sum(_differing(np.ravel(one), np.ravel(other)) for one, other in pairs)

@@ -163,8 +163,8 @@ def _carried(rolling: float) -> tuple[float, float, float, float, float]:
     state = State([[orbit * math.sin(angle), -orbit * math.cos(angle)]], angular_velocities=[spin])
     run = scenes.after(scenes.drum(changes), state, _TIME, samples=50)
     means = run.summary((0.0, run.time))
-    x, y = means.center_of_mass
-    lost = scenes.last(run, "dissipated_rolling") / scenes.last(run, "work_drum")
+    x, y = means.center_of_mass_x, means.center_of_mass_y
+    lost = scenes.last(run, "dissipated_rolling") / scenes.last(run, "drum_work")
     return (
         math.atan2(x, -y),
         means.drum_torque / (_WEIGHT * (DRUM_RADIUS - RADIUS)),

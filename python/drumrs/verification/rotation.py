@@ -76,7 +76,7 @@ def _locked(friction: float) -> tuple[float, float, float]:
     state = State([[orbit * math.sin(angle), -orbit * math.cos(angle)]])
     run = scenes.after(scenes.drum(changes), state, _LOCKED_TIME, samples=50)
     means = run.summary((0.0, run.time))
-    x, y = means.center_of_mass
+    x, y = means.center_of_mass_x, means.center_of_mass_y
     torque = (means.drum_torque or 0.0) / (MASS * GRAVITY * DRUM_RADIUS)
     return math.atan2(x, -y), torque, means.dissipated_sliding_power / means.drum_power
 

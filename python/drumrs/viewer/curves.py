@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from drumrs.energies import held_by_contacts, shown_losses
+from drumrs.energies import energies_to_show, powers_to_show
 from drumrs.frames import Frames
+from drumrs.registry import quantity
 
 if TYPE_CHECKING:
     import polars as pl
@@ -83,32 +84,31 @@ def _fastest(frames: Frames) -> Array:
 
 
 def _power(columns: dict[str, Array]) -> Panel:
-    named = {"work_drum": "drum", **shown_losses(columns)}
     middle, interval = _moments(columns["time"], 0.5)
     lines = [
-        Line(name, _mean_rate(columns["time"], columns[key], middle, interval)) for key, name in named.items()
+        Line(name, _mean_rate(columns["time"], columns[key], middle, interval))
+        for key, name in powers_to_show(columns).items()
     ]
-    return Panel(f"Power, means over {interval:.2g} s", "W/m", middle, lines, _limits(lines))
+    return Panel(
+        f"Power, means over {interval:.2g} s", quantity("drum_power").unit, middle, lines, _limits(lines)
+    )
 
 
 def _energies(columns: dict[str, Array]) -> Panel:
     times = columns["time"]
-    named = {
-        "translation": columns["kinetic_translation"],
-        "rotation": columns["kinetic_rotation"],
-        **held_by_contacts(columns),
-    }
     middle, interval = _moments(times, 0.1)
     lines = [
         Line(name, _mean_rate(times, _integral(times, values), middle, interval))
-        for name, values in named.items()
+        for name, values in energies_to_show(columns).items()
     ]
     highest = max(float(line.values.max(initial=0.0)) for line in lines) or 1.0
     settled = [value for line in lines for value in line.values[len(middle) // _START :] if value > 0.0]
     # Energies of contacts may die away for good; five decades are what a small panel can show.
     lowest = max(min(settled, default=highest), highest * 1e-5)
     title = f"Energy stored, means over {interval:.2g} s"
-    return Panel(title, "J/m", middle, lines, (lowest / 1.5, highest * 1.5), logarithmic=True)
+    return Panel(
+        title, quantity("kinetic_energy").unit, middle, lines, (lowest / 1.5, highest * 1.5), logarithmic=True
+    )
 
 
 def _moments(times: Array, longest: float) -> tuple[Array, float]:

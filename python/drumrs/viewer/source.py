@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 from drumrs.errors import ConfigError
 from drumrs.files import read_object
 from drumrs.frames import Frames
-from drumrs.result import UNSTABLE, ended_unstable
+from drumrs.result import UNSTABLE, ended_unstable, read_series
 from drumrs.viewer.folder import FRAMES, case_of, config_of, find
 from drumrs.viewer.page import Player
 from drumrs.viewer.recording import MOST_PLACES
@@ -66,13 +66,12 @@ def _read_frames(path: Path) -> Frames:
 
 
 def _read_series(path: Path) -> "pl.DataFrame | None":
-    import polars as pl
     from polars.exceptions import PanicException, PolarsError
 
     if not path.is_file():
         return None
     try:
-        return pl.read_parquet(path)
+        return read_series(path)
     except (PolarsError, PanicException, OSError):
         raise ConfigError(
             Path(path), problem="is damaged, but must be the series that drumrs wrote"

@@ -47,11 +47,11 @@ columns! {
 columns! {
     /// Energy that leaves the load, by where it goes [J/m]; never negative.
     pub struct Flows {
-        /// taken by normal dashpots
+        /// taken by normal damping
         dissipated_normal,
         /// taken by sliding
         dissipated_sliding,
-        /// taken by tangential dashpots
+        /// taken by tangential damping
         dissipated_tangential,
         /// taken by rolling
         dissipated_rolling,

@@ -37,10 +37,10 @@ def test_means_and_errors_are_those_of_the_summary():
         {"run.duration": 0.3, "run.window": [0.1, 0.3], "run.sample_every": 0.001}
     )
     result = drumrs.run(config, progress=False)
-    own = analysis.rate_with_error(result.series, "work_drum", (0.1, 0.3))
+    own = analysis.rate_with_error(result.series, "drum_work", (0.1, 0.3))
     mass = 40 * 1000.0 * math.pi * 0.02375**2 / 4.0
-    assert own.value / mass == pytest.approx(result.summary.specific_power, rel=1e-12)
-    assert own.error / mass == pytest.approx(result.summary.specific_power_error, rel=1e-9)
+    assert own.value / mass == pytest.approx(result.summary.drum_specific_power, rel=1e-12)
+    assert own.error / mass == pytest.approx(result.summary.drum_specific_power_error, rel=1e-9)
     inside = result.series.filter((pl.col("time") > 0.1005) & (pl.col("time") < 0.3005))["drum_power"]
     spread = analysis.block_error(inside.to_numpy(), result.series["time"][1])
     assert spread.correlation_time == pytest.approx(result.summary.correlation_time, rel=1e-9)
@@ -159,9 +159,9 @@ def drifting(slope: float, runs: int = 300, memory: float = 0.5) -> float:
     """Return how often a run whose rate climbs by `slope` standard deviations is said to drift."""
     random = np.random.default_rng(7)
     climb = slope * np.linspace(-0.5, 0.5, 500)
-    found = [analysis.drift(run({"work_drum": 9.0 + climb + noise(random, 500, memory)}), (0.0, 10.0))]
+    found = [analysis.drift(run({"drum_work": 9.0 + climb + noise(random, 500, memory)}), (0.0, 10.0))]
     for _ in range(runs - 1):
-        series = run({"work_drum": 9.0 + climb + noise(random, 500, memory)})
+        series = run({"drum_work": 9.0 + climb + noise(random, 500, memory)})
         found.append(analysis.drift(series, (0.0, 10.0)))
     return sum(one.drifting for one in found) / runs
 
@@ -177,13 +177,13 @@ def test_drifting_runs_are_found():
 
 def test_drift_has_slope_and_change():
     ramp = 10.0 + 0.2 * (np.arange(512) + 0.5) * 0.02
-    found = analysis.drift(run({"work_drum": ramp}), (0.0, 10.24))
+    found = analysis.drift(run({"drum_work": ramp}), (0.0, 10.24))
     assert found.slope == pytest.approx(0.2, rel=1e-6)
     assert found.change == pytest.approx(0.2 * 10.24 / ramp.mean(), rel=1e-3)
     assert found.drifting
-    steady = analysis.drift(run({"work_drum": np.full(512, 3.0)}), (0.0, 10.24))
+    steady = analysis.drift(run({"drum_work": np.full(512, 3.0)}), (0.0, 10.24))
     assert not steady.drifting
-    assert analysis.drift(run({"work_drum": np.ones(7)}), (0.0, 0.14)) is None
+    assert analysis.drift(run({"drum_work": np.ones(7)}), (0.0, 0.14)) is None
 
 
 def ratio_run(random: np.random.Generator, ratio: np.ndarray) -> pl.DataFrame:
@@ -248,7 +248,7 @@ def test_disagreement_is_a_probability(seeds):
 
 def made_up_statistics(**rates: float | np.ndarray) -> dict:
     rows = 1000
-    names = "work_drum dissipated_normal dissipated_sliding work_normal work_tangential"
+    names = "drum_work dissipated_normal dissipated_sliding normal_work tangential_work"
     given = dict(zip(names.split(), (9.0, 6.0, 3.0, 6.6, 3.0), strict=True)) | rates
     random = np.random.default_rng(1)
     noisy = {n: r + 0.01 * random.standard_normal(rows) * np.ones(rows) for n, r in given.items()}
@@ -260,11 +260,11 @@ def test_statistics_of_a_made_up_run():
     columns = made_up_statistics()
     expected = {
         "drum_specific_power": 4.5,
-        "normal_specific_power": 3.0,
-        "tangential_specific_power": 1.5,
+        "dissipated_normal_specific_power": 3.0,
+        "dissipated_sliding_specific_power": 1.5,
         "dissipation_ratio": 2.0,
         "work_ratio": 2.2,
-        "angular_momentum_per_mass": 0.25,
+        "specific_angular_momentum": 0.25,
     }
     assert tuple(columns) == analysis.STATISTICS
     assert {name: columns[name] for name in expected} == pytest.approx(expected, rel=1e-3)
@@ -275,9 +275,9 @@ def test_statistics_of_a_made_up_run():
 @pytest.mark.parametrize(
     ("change", "drifts"),
     [
-        ({"work_drum": np.linspace(8.0, 10.0, 1000)}, True),
+        ({"drum_work": np.linspace(8.0, 10.0, 1000)}, True),
         # Sure, but too little to matter.
-        ({"work_drum": np.linspace(8.96, 9.04, 1000)}, False),
+        ({"drum_work": np.linspace(8.96, 9.04, 1000)}, False),
         ({"dissipated_normal": np.linspace(5.0, 7.0, 1000)}, True),
         # Steady in the window, but of another state than before.
         ({"dissipated_normal": np.where(np.arange(1000) < 450, 5.0, 7.0)}, True),
@@ -297,5 +297,5 @@ def test_what_terms_take_counts_as_loss():
 
 
 def test_statistics_without_friction():
-    columns = made_up_statistics(dissipated_sliding=0.0 * np.ones(1000), work_tangential=0.0)
+    columns = made_up_statistics(dissipated_sliding=0.0 * np.ones(1000), tangential_work=0.0)
     assert columns["drifting"] is False

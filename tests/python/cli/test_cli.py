@@ -19,12 +19,13 @@ KEYS = {
     "time_step",
     "drum_torque",
     "drum_power",
-    "specific_power",
-    "specific_power_error",
+    "drum_specific_power",
+    "drum_specific_power_error",
     "normal_power",
     "tangential_power",
-    "normal_tangential_ratio",
-    "center_of_mass",
+    "work_ratio",
+    "center_of_mass_x",
+    "center_of_mass_y",
     "coordination",
     "max_overlap_ratio",
     "energy_residual",
@@ -46,7 +47,6 @@ def test_json_is_one_object(drum):
     assert status == 0
     assert set(values) >= KEYS
     assert values["bundle_count"] == 20
-    assert len(values["center_of_mass"]) == 2
 
 
 def test_out_holds_everything(drum, tmp_path):
@@ -154,3 +154,9 @@ def test_baseline_compares_both(drum, tmp_path):
     assert "without baffles" in printed
     assert (tmp_path / "baseline.png").is_file()
     assert (tmp_path / "with_baffles" / "summary.json").is_file()
+
+
+def test_examples_end_the_help_of_drumrs_alone(drum):
+    assert "Examples:" in drum("--help")[1]
+    for command in ("run", "sweep", "verify"):
+        assert "Examples:" not in drum(command, "--help")[1]

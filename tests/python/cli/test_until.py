@@ -17,7 +17,7 @@ def test_until_is_reached(drum, tmp_path):
     status, _, told = drum("run", *SHORT, "--until", "0.3", "--limit", "4", "--out", out)
     assert status == 0
     summary = drumrs.load(out).summary
-    assert summary.specific_power_error / summary.specific_power <= 0.3
+    assert summary.drum_specific_power_error / summary.drum_specific_power <= 0.3
     assert "was asked for" in told
     # The folder is that of the longer run.
     config = drumrs.load(out).config
@@ -26,7 +26,7 @@ def test_until_is_reached(drum, tmp_path):
     assert summary.window_end == pytest.approx(config.run.duration, abs=0.002)
     longer = drumrs.run(config, progress=False)
     assert longer.series.equals(pl.read_parquet(out / "series.parquet"))
-    assert longer.summary.specific_power == summary.specific_power
+    assert longer.summary.drum_specific_power == summary.drum_specific_power
 
 
 def test_the_limit_ends_it(drum):

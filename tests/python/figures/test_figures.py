@@ -47,7 +47,7 @@ def test_snapshots_need_a_view():
 def series(rows: int) -> pl.DataFrame:
     time = 0.01 * np.arange(rows)
     names = (
-        "work_drum dissipated_normal dissipated_sliding kinetic_translation kinetic_rotation elastic_normal "
+        "drum_work dissipated_normal dissipated_sliding kinetic_translation kinetic_rotation elastic_normal "
         "elastic_tangential energy_residual center_of_mass_x center_of_mass_y"
     )
     return pl.DataFrame({"time": time, **{name: time * (1 + k) for k, name in enumerate(names.split())}})

@@ -67,9 +67,9 @@ BROKEN = {
         ("drum_specific_power", pl.col("drum_specific_power") * 1.5, friction == 1.0, fill == 0.75),
     ],
     "C9": [
-        ("normal_specific_power", 0.5, small),
-        ("tangential_specific_power", 0.0, small, fill == 0.5),
-        ("angular_momentum_per_mass", 0.15 * (friction - 0.02), fill == 0.25),
+        ("dissipated_normal_specific_power", 0.5, small),
+        ("dissipated_sliding_specific_power", 0.0, small, fill == 0.5),
+        ("specific_angular_momentum", 0.15 * (friction - 0.02), fill == 0.25),
     ],
     "C10": [
         ("dissipation_ratio", 1.0 - 0.3 * friction, fill == 0.25, ~small),
@@ -90,7 +90,7 @@ BROKEN = {
     "C12": [("deep_speed", 0.2, fill == 0.75), ("surface_speed", 0.04, fill == 0.75)],
     "C13": [
         ("drum_power", pl.col("drum_power") * 0.8, baffles, fill == 0.7),
-        ("angular_momentum_per_mass", 0.2, baffles, fill == 0.6),
+        ("specific_angular_momentum", 0.2, baffles, fill == 0.6),
         ("carried_round", 0.5, baffles, fill == 0.75),
         ("mixed_in_a_turn", 0.4, baffles, fill == 0.6),
     ],
@@ -182,9 +182,9 @@ def onset(share: pl.Expr, table: pl.DataFrame | None = None) -> paper.Verdict:
     """Judge C9 where the load has such a share of its usual angular momentum at 25 % fill."""
     table = world() if table is None else table
     usual = (
-        pl.when((fill == 0.25) & ~baffles).then(0.15 * share).otherwise(pl.col("angular_momentum_per_mass"))
+        pl.when((fill == 0.25) & ~baffles).then(0.15 * share).otherwise(pl.col("specific_angular_momentum"))
     )
-    return verdict("C9", table.with_columns(usual.alias("angular_momentum_per_mass")))
+    return verdict("C9", table.with_columns(usual.alias("specific_angular_momentum")))
 
 
 def width(found: paper.Verdict) -> list[float]:

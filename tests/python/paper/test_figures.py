@@ -42,7 +42,7 @@ class Runs:
         assert folder == "somewhere"
         self.asked.append(case)
         time = np.linspace(0.0, 30.0, 1501)
-        names = ("work_drum", "dissipated_normal", "dissipated_sliding")
+        names = ("drum_work", "dissipated_normal", "dissipated_sliding")
         return pl.DataFrame({"time": time, **{name: time * (2.0 + k) for k, name in enumerate(names)}})
 
 

@@ -64,7 +64,7 @@ def test_the_headline_is_what_the_table_says(data, text):
     row = data.table.row(
         by_predicate=(pl.col("load.fill") == 0.25) & (pl.col("drum.baffles.count") == 0), named=True
     )
-    line = next(line for line in headline.table(data) if line.quantity == "drum power")
+    line = next(line for line in headline.table(data) if line.quantity.name == "drum_power")
     shown = float(line.values[0].split(" ± ")[0])
     assert shown == pytest.approx(row["drum_power"], rel=0.01)
     assert f"drum power [W/m] {' '.join(line.values)}" in text
@@ -170,8 +170,8 @@ def test_drifting_runs_are_named(data):
         drift_significance=pl.lit(1e-6),
         share_drift_significance=pl.lit(0.5),
         share_drift=pl.lit(0.01),
-        wandering=pl.lit(None, pl.Float64),
-        wandering_significance=pl.lit(None, pl.Float64),
+        state_switching=pl.lit(None, pl.Float64),
+        state_switching_significance=pl.lit(None, pl.Float64),
     )
     some = replace(data, table=drifting)
     runs = [run for run in checks.runs(some) if run.drifting]

@@ -42,11 +42,11 @@ def measures(at: dict[str, float], baffles: bool) -> dict[str, float | None]:
     return {
         "drum_power": power(fill, baffles) * friction_factor(friction),
         "drum_specific_power": specific,
-        "normal_specific_power": specific * n_over_t / (1.0 + n_over_t),
-        "tangential_specific_power": specific / (1.0 + n_over_t),
+        "dissipated_normal_specific_power": specific * n_over_t / (1.0 + n_over_t),
+        "dissipated_sliding_specific_power": specific / (1.0 + n_over_t),
         "dissipation_ratio": n_over_t if friction else None,
         "work_ratio": 1.002 * n_over_t if friction else None,
-        "angular_momentum_per_mass": (0.15 if circulates else 0.0) * (1.03 if baffles else 1.0),
+        "specific_angular_momentum": (0.15 if circulates else 0.0) * (1.03 if baffles else 1.0),
         "along_the_rim": 0.7 if baffles else 0.1,
         "carried_round": ((0.6 if fill < 0.5 else 0.2) if baffles else 0.01) * (fill < 0.5)
         + 0.2 * (fill > 0.5),

@@ -69,7 +69,8 @@ def test_a_sweep_prints_and_writes_its_table(drum, sweep_file, tmp_path):
     out = tmp_path / "out"
     status, printed, complaint = drum("sweep", sweep_file, "--out", out, "--jobs", "2")
     assert (status, complaint) == (0, "")
-    assert printed.splitlines()[0].split() == ["case", "baffles.count", "load.fill", "seed", "W/kg", "N/T"]
+    heads = ["case", "baffles.count", "load.fill", "seed", "drum specific power [W/kg]", "dissipation ratio"]
+    assert re.split(r" {2,}", printed.splitlines()[0].strip()) == heads
     assert len(printed.splitlines()) == 1 + 8 + 1
     assert printed.splitlines()[-1] == f"wrote {out / 'table.parquet'}"
     table = pl.read_parquet(out / "table.parquet")
@@ -197,7 +198,7 @@ def test_progress_counts_cases_and_cost(sweep_file, tmp_path):
     """Where nobody looks there are lines; here their pauses are short."""
     code = (
         "import drumrs.progress, sys; from drumrs.cli import run_command; "
-        "drumrs.progress._FIRST_PAUSES, drumrs.progress._LATER_PAUSES = (0.05,), 0.05;"
+        "drumrs.progress._FIRST_PAUSES, drumrs.progress._PAUSE = (0.05,), 0.05;"
         f"sys.exit(run_command(['sweep', {str(sweep_file)!r}, '--out', {str(tmp_path / 'out')!r}, '--jobs', '1']))"
     )
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}

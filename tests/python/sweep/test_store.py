@@ -56,12 +56,16 @@ def test_results_are_those_of_a_run(finished):
     assert all(np.array_equal(*pair) for pair in zip(frames.baffles, result.frames.baffles, strict=True))
     row = sweep.table().filter(pl.col("case") == case.id).collect().row(0, named=True)
     known = asdict(result.summary)
-    assert (row["center_of_mass_x"], row["center_of_mass_y"]) == known.pop("center_of_mass")
     for name in known.keys() - set(TIMINGS):
         assert row[name] == known[name], name
     assert case.load_mass == pytest.approx(drumrs.Simulation(case.config).masses.sum(), rel=1e-12)
     found = statistics(result.series, case.config.run.averaging_window, case.load_mass)
-    assert {name: row[name] for name in found} == found
+    # What the summary tells, too, may differ in its last bits.
+    assert {name for name, value in found.items() if value is None} == {
+        name for name in found if row[name] is None
+    }
+    known = {name: value for name, value in found.items() if value is not None}
+    assert {name: row[name] for name in known} == pytest.approx(known, rel=1e-9)
 
 
 def test_a_row_tells_the_whole_configuration(tmp_path):
@@ -172,7 +176,7 @@ def test_damaged_files_are_named_and_computed_again(copy, damage, content):
 def test_foreign_parquet_is_named(copy):
     sweep, folder = copy
     path = folder / f"{sweep.cases[0].id}.parquet"
-    pl.DataFrame({"case": [sweep.cases[0].id], "specific_power": [1.0]}).write_parquet(path)
+    pl.DataFrame({"case": [sweep.cases[0].id], "drum_specific_power": [1.0]}).write_parquet(path)
     with pytest.raises(ConfigError, match=f"{path.name}' was not written by drumrs; run the sweep again"):
         sweep.table(folder)
     (folder / "other.parquet").write_bytes(path.read_bytes())

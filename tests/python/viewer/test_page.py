@@ -286,7 +286,7 @@ def test_a_chosen_bundle_is_followed(show):
 def test_the_plot_follows_and_can_be_clicked(show):
     shown = show(Player(scene(), series_of(7.0)).page(autoplay=False))
     readings = shown.part("reading").all_inner_texts()
-    assert readings[:3] == ["drum 7.00", "normal damping 4.20", "sliding 2.80"]
+    assert readings[:3] == ["drum 7.00", "dissipated normal 4.20", "dissipated sliding 2.80"]
     plot = shown.page.locator("drumrs-player .panel canvas").first
     before = plot.evaluate("canvas => canvas.toDataURL()")
     box = plot.bounding_box()

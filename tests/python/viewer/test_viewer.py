@@ -92,7 +92,10 @@ def test_curves_show_the_terms_that_act():
     series = series_of(7.0)
     idle = series.with_columns(dissipated_rolling=0.0 * series["time"], adhesion=0.0 * series["time"])
     told = [[line.name for line in panel.lines] for panel in curves.panels_of_series(idle)]
-    assert told == [["drum", "normal damping", "sliding"], ["translation", "rotation", "contacts"]]
+    assert told == [
+        ["drum", "dissipated normal", "dissipated sliding"],
+        ["kinetic translation", "kinetic rotation", "elastic"],
+    ]
     acting = series.with_columns(
         dissipated_tangential=series["time"],
         dissipated_rolling=2.0 * series["time"],
@@ -100,9 +103,9 @@ def test_curves_show_the_terms_that_act():
         adhesion=pl.lit(-1.5),
     )
     power, energies = curves.panels_of_series(acting)
-    assert [line.name for line in power.lines[3:]] == ["tangential damping", "rolling"]
+    assert [line.name for line in power.lines[3:]] == ["dissipated tangential", "dissipated rolling"]
     assert power.lines[4].values == pytest.approx(2.0)
-    assert [line.name for line in energies.lines[2:]] == ["contacts", "adhesion (−)"]
+    assert [line.name for line in energies.lines[2:]] == ["elastic", "adhesion (−)"]
     assert [float(line.values.mean()) for line in energies.lines[2:]] == pytest.approx([7.0, 1.5])
 
 

@@ -35,12 +35,12 @@ def rocks_then_circulates(results: Results) -> Iterator[Condition]:
     """Judge C9 at each fill of F9: at the smallest friction, and by the load's angular momentum over friction."""
     for fill in THIRDS:
         yield partial(_at_small_friction, results, fill, "normal", (-ZERO, ZERO))
-        yield partial(_at_small_friction, results, fill, "tangential", (ZERO, SMALL))
+        yield partial(_at_small_friction, results, fill, "sliding", (ZERO, SMALL))
         yield partial(_sets_in, results, fill)
 
 
 def _at_small_friction(results: Results, fill: float, kind: str, limits: tuple[float, float]) -> Finding:
-    curve = results.curve("friction", f"{kind}_specific_power", fill=fill)
+    curve = results.curve("friction", f"dissipated_{kind}_specific_power", fill=fill)
     least = curve.above(0.0).between(high=SMALL_FRICTION).points[0]
     name = f"{kind.capitalize()} over usual power at μ = {least.x:g}, {curve.label}"
     return within(name, over(least.estimate, results.usual(POWER, fill)), *limits)

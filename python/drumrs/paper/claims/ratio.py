@@ -22,7 +22,7 @@ from drumrs.paper.curves import Curve, Results
 
 # By what damping and sliding take; work of the contact forces gives the same but for the time step's error.
 RATIO = "dissipation_ratio"
-CIRCULATION = "angular_momentum_per_mass"
+CIRCULATION = "specific_angular_momentum"
 
 
 def between_one_and_two(results: Results) -> Iterator[Condition]:

@@ -10,6 +10,7 @@ from drumrs.paper.cases import THIRDS, percent
 from drumrs.paper.curves import Curve
 from drumrs.paper.data import StudyData
 from drumrs.paper.verdict import FAILS, HOLDS, UNDECIDED, MissingError, Number
+from drumrs.registry import Quantity, quantity
 
 _DRUMS = ((False, "without baffles"), (True, "with baffles"))
 
@@ -131,29 +132,28 @@ def _motion(data: StudyData) -> Sentence:
 class Line:
     """A row of the headline table: a quantity, and its value without and with baffles at each fill."""
 
-    quantity: str
-    unit: str
+    quantity: Quantity
     values: tuple[str, ...]
 
 
 _LINES = (
-    ("specific power", "W/kg", "drum_specific_power"),
-    ("drum power", "W/m", "drum_power"),
-    ("N/T by dissipation", "", "dissipation_ratio"),
-    ("N/T by work of forces", "", "work_ratio"),
-    ("time along the rim", "", "along_the_rim"),
-    ("carried over the top in a turn", "", "carried_round"),
-    ("mixing in a turn", "", "mixed_in_a_turn"),
+    "drum_specific_power",
+    "drum_power",
+    "dissipation_ratio",
+    "work_ratio",
+    "along_the_rim",
+    "carried_round",
+    "mixed_in_a_turn",
 )
 
 
 def table(data: StudyData) -> list[Line]:
     """Return the headline table: three fills, without and with baffles each; a dash where a case is missing."""
     lines = []
-    for quantity, unit, column in _LINES:
+    for column in _LINES:
         curves = [data.results.curve("fill", column, baffles=baffles) for baffles, _ in _DRUMS]
         values = tuple(_or_dash(curve, fill) for fill in THIRDS for curve in curves)
-        lines.append(Line(quantity, unit, values))
+        lines.append(Line(quantity(column), values))
     return lines
 
 

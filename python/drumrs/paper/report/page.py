@@ -15,6 +15,7 @@ from drumrs.paper.data import StudyData
 from drumrs.paper.figures import FIGURES
 from drumrs.paper.report import checks, facts, headline, pictures, table1
 from drumrs.paper.verdict import FAILS, HOLDS, UNDECIDED
+from drumrs.registry import quantity
 from drumrs.viewer import script
 
 if TYPE_CHECKING:
@@ -70,6 +71,7 @@ def render(data: StudyData, drawn: list[pictures.Picture]) -> str:
     contents = [(anchor, name) for anchor, name in _CONTENTS.items() if shown or anchor != "motion"]
     return _template().render(
         title=_TITLE,
+        quantity=quantity,
         style=style(),
         contents=contents,
         outcomes=_OUTCOMES,

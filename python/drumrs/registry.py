@@ -1,0 +1,298 @@
+"""The registry of quantities: one name for each, with symbol, unit, reading, formula and meaning.
+
+What a run records is declared by the core, beside the code that computes it. What is made of it is declared here, or
+follows from the rules for names (`_by_rule`). Columns of tables, fields of the summary, units in files, labels of
+figures and docs/quantities.md all read from here.
+"""
+
+import json
+import re
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
+from functools import cache
+from pathlib import Path
+from types import MappingProxyType
+
+from drumrs import _core
+from drumrs.errors import ConfigError
+
+# How values are to be read.
+READINGS = MappingProxyType(
+    {
+        "sample": "value at the time of the sample",
+        "mean": "mean since the last sample, or over the window",
+        "cumulative": "integral since t = 0",
+        "greatest": "greatest value since the last sample, or within the window",
+        "run": "one value for the run",
+        "ratio": "ratio of two means over the window",
+        "error": "standard error of a mean over the window, from block averages",
+        "test": "test of whether the window is steady",
+    }
+)
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """What a column or a field holds.
+
+    Attributes
+    ----------
+    name
+        The name under which it goes everywhere.
+    symbol
+        Symbol, as formulas use it.
+    unit
+        Unit, per meter of drum depth where the quantity is extensive; "1" for a plain number.
+    reading
+        How its values are to be read: a key of `READINGS`.
+    formula
+        Formula, in the symbols of other quantities; empty where the meaning says it all. Δ is the change between two
+        samples, or over the window; in energies without a rate, the change since t = 0.
+    meaning
+        What it means.
+
+    Examples
+    --------
+    >>> import drumrs
+    >>> drumrs.quantity("dissipated_sliding").label
+    'dissipated sliding [J/m]'
+    """
+
+    name: str
+    symbol: str
+    unit: str
+    reading: str
+    formula: str
+    meaning: str
+
+    @property
+    def title(self) -> str:
+        """The name in words."""
+        return self.name.replace("_", " ")
+
+    @property
+    def label(self) -> str:
+        """The name in words, with the unit: what stands at an axis or at the head of a column."""
+        return self.title if self.unit == "1" else f"{self.title} [{self.unit}]"
+
+    @property
+    def text(self) -> str:
+        """Meaning, formula and unit in one line."""
+        formula = f", {self.formula}" if self.formula else ""
+        unit = f" [{self.unit}]" if self.unit != "1" else ""
+        return f"{self.meaning[0].upper()}{self.meaning[1:]}{formula}{unit}"
+
+
+def quantity(name: str) -> Quantity:
+    """Return what the registry says of a quantity.
+
+    Parameters
+    ----------
+    name
+        Name of a column of series, frames or a table of results, or of a field of the summary.
+
+    Raises
+    ------
+    KeyError
+        Where there is no such quantity.
+
+    Examples
+    --------
+    >>> import drumrs
+    >>> drumrs.quantity("baffle_2_work").unit, drumrs.quantity("dissipated_sliding_specific_power").unit
+    ('J/m', 'W/kg')
+    >>> print(drumrs.quantity("dissipation_ratio").meaning)
+    N/T by dissipation: what normal damping takes over what sliding takes
+    """
+    found = _find(name)
+    if found is None:
+        raise KeyError(f"{name!r} is not the name of a quantity; drumrs.quantities() lists them")
+    return found
+
+
+def units(names: Iterable[str]) -> dict[str, str]:
+    """Return the units of those names that are quantities."""
+    return {name: found.unit for name in names if (found := _find(name)) is not None}
+
+
+def metadata(names: Iterable[str]) -> dict[str, str]:
+    """Return what a file has to carry beside a table with these columns: their units and meanings, as JSON."""
+    known = {name: found for name in names if (found := _find(name)) is not None}
+    return {
+        "units": json.dumps({name: found.unit for name, found in known.items()}),
+        "meanings": json.dumps({name: found.meaning for name, found in known.items()}, ensure_ascii=False),
+    }
+
+
+def require(path: Path, names: Iterable[str], wanted: Iterable[str]) -> None:
+    """Refuse a file of another version of drumrs, in which quantities have other names.
+
+    Raises
+    ------
+    ConfigError
+        Where one of those wanted is not among the names.
+    """
+    known = set(names)
+    for name in wanted:
+        if name not in known:
+            problem = (
+                f"has no {name!r}, but must have it: another version of drumrs wrote it, with other names"
+            )
+            hint = "run its configuration again, or read it with that version"
+            raise ConfigError(Path(path), problem=problem, hint=hint)
+
+
+def recorded(baffles: int, walls: int) -> list[Quantity]:
+    """Return the columns of the series of a drum with so many baffles and walls, in their order."""
+    return [Quantity(*row) for row in _core.Simulation.columns(baffles, walls)]
+
+
+def declared() -> Mapping[str, Quantity]:
+    """Return what is declared, not made by a rule, by name: the series with one baffle and one wall, then the rest."""
+    return _declared()
+
+
+@cache
+def _declared() -> Mapping[str, Quantity]:
+    rows = (*recorded(1, 1), *(Quantity(*row) for row in _ROWS))
+    return MappingProxyType({row.name: row for row in rows})
+
+
+def _find(name: str) -> Quantity | None:
+    return _declared().get(name) or _of_surface(name) or _by_rule(name)
+
+
+def _of_surface(name: str) -> Quantity | None:
+    """Return a column of a baffle or wall beyond the first."""
+    found = re.fullmatch(r"(baffle|wall)_(\d+)_\w+", name)
+    if found is None:
+        return None
+    number = int(found[2])
+    columns = recorded(number, 0) if found[1] == "baffle" else recorded(0, number)
+    return next((column for column in columns if column.name == name), None)
+
+
+def _by_rule(name: str) -> Quantity | None:
+    """Return what follows from another quantity by the rules for names.
+
+    - ``<energy>_power``: what a cumulative energy grows by per time. An ending ``_work`` gives way: ``drum_work``,
+      ``drum_power``.
+    - ``<energy>_specific_power``: the same over the mass of the load.
+    - ``<mean>_error``: the standard error of a mean.
+    """
+    stem, _, ending = name.rpartition("_")
+    if ending == "error":
+        mean = _declared().get(stem) or _by_rule(stem)
+        known = mean is not None and mean.reading in {"mean", "ratio"}
+        return _error_of(mean) if mean is not None and known else None
+    flow = stem.removesuffix("_specific")
+    energy = _declared().get(flow) or _declared().get(f"{flow}_work")
+    if ending != "power" or energy is None or energy.reading != "cumulative":
+        return None
+    formula = f"Δ{energy.symbol}/Δt"
+    power = Quantity(name, formula, "W/m", "mean", formula, f"{energy.meaning}, per time")
+    if flow == stem:
+        return power
+    specific = f"{formula}/M"
+    return replace(
+        power, symbol=specific, unit="W/kg", formula=specific, meaning=f"{power.meaning} and mass of the load"
+    )
+
+
+def _error_of(mean: Quantity) -> Quantity:
+    changes = {"reading": "error", "formula": "", "meaning": f"standard error of {mean.name}"}
+    return replace(mean, name=f"{mean.name}_error", symbol=f"s({mean.symbol})", **changes)
+
+
+# What is made of the series: name, symbol, unit, reading, formula, meaning.
+_ROWS = (
+    # Summary of a run.
+    ("bundle_count", "N", "1", "run", "", "number of bundles"),
+    ("fill", "φ", "1", "run", "Σ d² / D²", "cross-section of the bundles over that of the drum"),
+    ("steps", "", "1", "run", "", "time steps since t = 0"),
+    ("time_step", "h", "s", "run", "", "time step"),
+    ("window_start", "t₁", "s", "run", "", "start of the window of the averages, at a sample"),
+    ("window_end", "t₂", "s", "run", "", "end of the window of the averages, at a sample"),
+    (
+        *("energy_balance_power", "P_E", "W/m", "mean", "(ΔE + Σ ΔD + ΔD_numerical)/Δt"),
+        "power of the drum from the energy ledger: what is stored and what is taken, per time",
+    ),
+    (
+        *(
+            "power_disagreement",
+            "",
+            "1",
+            "run",
+            "greatest difference of P, P_E, ΔW_L/Δt / max(|P|, |P_E|, |ΔW_L/Δt|, E/Δt)",
+        ),
+        "greatest difference of drum_power, energy_balance_power and moment_balance_power, relative",
+    ),
+    (
+        *("dissipation_ratio", "(N/T)_D", "1", "ratio", "ΔD_normal/ΔD_sliding"),
+        "N/T by dissipation: what normal damping takes over what sliding takes",
+    ),
+    (
+        *("work_ratio", "(N/T)_W", "1", "ratio", "ΔN/ΔT"),
+        "N/T by net work: normal_power over tangential_power, which count what springs store as well",
+    ),
+    ("kinetic_energy", "K", "J/m", "mean", "K_t + K_r", "kinetic energy of the load"),
+    ("drum_force_x", "F_x", "N/m", "mean", "", "horizontal force of the load on the drum"),
+    ("drum_force_y", "F_y", "N/m", "mean", "", "vertical force of the load on the drum"),
+    ("correlation_time", "t_c", "s", "run", "", "integrated correlation time of drum_power"),
+    ("wall_time", "", "s", "run", "", "time of the wall clock spent stepping in this process"),
+    ("particle_steps_per_second", "", "1/s", "run", "", "bundles times steps, per second of wall_time"),
+    # Table of a sweep, beyond the summaries.
+    (
+        *("specific_angular_momentum", "L/M", "m²/s", "mean", ""),
+        "angular momentum over the mass of the load: 0 for a load that stays where it is, however it rocks",
+    ),
+    ("drift", "", "1", "test", "", "change of drum_power within the window, over its mean"),
+    (
+        *("share_drift", "", "1", "test", ""),
+        "change of the share of normal damping in all dissipation within the window",
+    ),
+    (
+        *("state_switching", "", "1", "test", ""),
+        "difference of that share between stretches of time, greatest less least",
+    ),
+    *(
+        (f"{test}_significance", "p", "1", "test", "", f"probability of so large a {test} in a steady run")
+        for test in ("drift", "share_drift", "state_switching")
+    ),
+    (
+        "drifting",
+        "",
+        "1",
+        "test",
+        "",
+        "whether one of the three tests finds a change beyond chance and above 1 %",
+    ),
+    # Table of the paper's study, beyond that of a sweep.
+    ("size_ratio", "D/d", "1", "run", "", "diameter of the drum over that of a bundle"),
+    ("along_the_rim", "", "1", "mean", "", "share of the time that a bundle spends along the rim"),
+    ("carried_round", "", "1", "mean", "", "share of the load carried over the top along the rim in a turn"),
+    ("mixed_in_a_turn", "", "1", "mean", "", "index of mixing after a turn of the drum"),
+    *(
+        (
+            f"{depth}_speed",
+            "",
+            "1",
+            "mean",
+            "",
+            f"speed relative to the turning drum {where}, over that of the rim",
+        )
+        for depth, where in (
+            ("surface", "at the free surface of the load"),
+            ("middle", "below the free surface"),
+            ("deep", "deep in the load"),
+        )
+    ),
+    # Frames, one row for each bundle.
+    ("frame", "", "1", "sample", "", "number of the frame"),
+    ("bundle", "", "1", "sample", "", "number of the bundle"),
+    ("x", "x", "m", "sample", "", "horizontal position of a bundle's center from the axis"),
+    ("y", "y", "m", "sample", "", "vertical position of a bundle's center from the axis"),
+    ("angle", "", "rad", "sample", "", "angle by which a bundle has turned, within ±π"),
+    ("speed", "v", "m/s", "sample", "", "speed of a bundle"),
+    ("radius", "r", "m", "sample", "", "radius of a bundle"),
+)
