@@ -3,8 +3,6 @@
 
 mod scenes;
 
-use std::path::Path;
-
 use drumrs::simulation::Simulation;
 
 /// What a load in Table 1's drum needs to come into the tumble [s].
@@ -27,10 +25,12 @@ fn main() {
                 _ => LARGE_STEPS,
             };
             simulation.run(steps).expect("a stable run");
-            simulation.save(Path::new(file)).expect("a file to write");
+            let bytes = simulation.to_checkpoint().expect("a stable load");
+            std::fs::write(file, bytes).expect("a file to write");
         }
         ["run", file, steps] => {
-            let mut simulation = Simulation::load(Path::new(file), 1).expect("a settled load");
+            let bytes = std::fs::read(file).expect("a file to read");
+            let mut simulation = Simulation::from_checkpoint(&bytes, 1).expect("a settled load");
             simulation.run(number(steps) as u64).expect("a stable run");
         }
         _ => {}

@@ -3,7 +3,7 @@
 mod scenes;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use drumrs::engine::forces::{Bodies, StepInputs, StepTime};
+use drumrs::engine::forces::{Bodies, StepInputs};
 use drumrs::engine::pair_list::PairList;
 use drumrs::engine::parallel::Threads;
 use drumrs::physics::vector::Rotation;
@@ -23,7 +23,7 @@ fn rebuilds(criterion: &mut Criterion) {
             let step = simulation.time_step();
             let radius = scenes::common::RADIUS;
             let inputs = StepInputs {
-                time: StepTime { step, rate: 1.0 / step },
+                time: [step, 1.0 / step],
                 drum: simulation.drum(),
                 rotation: Rotation::new(simulation.drum_angle()),
                 angular_velocity: simulation.config().rotation.angular_velocity(simulation.time()),

@@ -265,7 +265,7 @@ fn libraries_stay_where_they_belong() {
         ("bytemuck", &["engine"]),
         ("std::arch", &["engine", "python"]),
         ("std::thread", &["python"]),
-        ("std::fs", &["io::checkpoint"]),
+        ("std::fs", &[]),
         ("std::time", &["python"]),
         ("std::env", &["python"]),
         ("HashMap", &[]),

@@ -94,31 +94,6 @@ fn failures_carry_step_and_bundle() {
 }
 
 #[test]
-fn files_that_cannot_be_used_are_named() {
-    let folder = std::env::temp_dir().join(format!("drumrs-errors-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).unwrap();
-    let path = folder.join("good.ckpt");
-    let mut simulation = Simulation::new(baseline(5, 3), 1, 1).unwrap();
-    simulation.run(10).unwrap();
-    simulation.save(&path).unwrap();
-    assert_eq!(bits(&Simulation::load(&path, 1).unwrap()), bits(&simulation));
-    let names: Vec<_> = std::fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().file_name()).collect();
-    assert_eq!(names, ["good.ckpt"], "nothing but the checkpoint is left");
-
-    let missing = folder.join("missing.ckpt");
-    let error = Simulation::load(&missing, 1).unwrap_err();
-    assert!(
-        matches!(&error, Error::System { action, .. } if *action == format!("reading {}", missing.display()))
-    );
-    let nowhere = folder.join("nowhere").join("x.ckpt");
-    let error = simulation.save(&nowhere).unwrap_err();
-    assert!(
-        matches!(&error, Error::System { action, .. } if *action == format!("writing {}", nowhere.display()))
-    );
-    std::fs::remove_dir_all(&folder).unwrap();
-}
-
-#[test]
 fn a_simulation_needs_a_thread() {
     let error = Simulation::new(baseline(5, 0), 1, 0).unwrap_err();
     assert_eq!(error.to_string(), "threads is 0, but must be at least 1");

@@ -3,12 +3,12 @@
 mod common;
 
 use common::*;
-use drumrs::engine::simd::{F64x4, LANES, lanes};
+use drumrs::engine::simd::{F64x4, LANES, Vec2x4, lanes, vectors};
 use drumrs::physics::columns::{Columns, Of};
 use drumrs::physics::contact::law::{BodyPair, ContactLaw};
 use drumrs::physics::contact::model::{BareLaw, ClippedLaw, FullLaw};
 use drumrs::physics::contact::parameters::{ContactParameters, Tension};
-use drumrs::physics::contact::{ContactState, Flows, Kinematics, RelativeMotion, Response};
+use drumrs::physics::contact::{ContactState, Flows, Kinematics, RelativeMotion, Response, Stored};
 use drumrs::physics::scalar::Scalar;
 use proptest::prelude::*;
 
@@ -92,4 +92,40 @@ proptest! {
         (parameters.rolling_friction, parameters.tangential_damping_ratio, parameters.adhesion) = (0.1, 0.3, 2.0);
         compare::<FullLaw>(&parameters, &told)?;
     }
+}
+
+#[test]
+fn lanes_and_numbers_have_the_same_bits() {
+    let values = [1.5, -0.0, f64::NAN, -2.25, 0.0, 1e-300];
+    for a in values {
+        for b in values {
+            let (x, y) = (F64x4::splat(a), F64x4::splat(b));
+            let same = |lanes: F64x4, number: f64| lanes.to_array()[2].to_bits() == number.to_bits();
+            assert!(same(Scalar::larger(x, y), Scalar::larger(a, b)), "{a} {b}");
+            assert!(same(Scalar::smaller(x, y), Scalar::smaller(a, b)), "{a} {b}");
+            assert!(same(x.within(x.exceeds(y)), a.within(a.exceeds(b))), "{a} {b}");
+        }
+    }
+}
+
+#[test]
+fn rows_become_columns_and_vectors_again() {
+    let vector = |lane: usize| [lane as f64, 10.0 * lane as f64];
+    let four = vectors(vector);
+    assert_eq!(four.x.to_array(), [0.0, 1.0, 2.0, 3.0]);
+    assert_eq!(four.to_array().map(wide::f64x2::to_array), [0, 1, 2, 3].map(vector));
+    assert_eq!(four.cross(Vec2x4 { x: four.y, y: four.x }).to_array()[1], 1.0 - 100.0);
+}
+
+#[test]
+fn records_convert_field_by_field() {
+    type Both = (Stored, (Flows, ()));
+    let mut record = Both::build(|index| index as f64);
+    assert_eq!((record.0.elastic_normal, record.0.adhesion, record.1.0.dissipated_normal), (0.0, 3.0, 4.0));
+    *Both::field_mut(&mut record, 5) = 7.0;
+    assert_eq!(Both::map(&record, |value: f64| value as u8).1.0.dissipated_sliding, 7);
+    assert_eq!((Flows::NAMES[1], Flows::MEANINGS[1]), ("dissipated_sliding", " taken by sliding"));
+    let [one, other] = [0, 1].map(|set| Flows::build(|flow| flow == set));
+    assert_eq!(one.union(other), Flows::build(|flow| flow < 2));
+    assert_eq!(one.union(Flows::NONE), one);
 }

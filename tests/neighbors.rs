@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 
 use common::*;
 use drumrs::engine::contacts::ContactRecord;
-use drumrs::engine::forces::{Bodies, StepInputs, StepTime};
+use drumrs::engine::forces::{Bodies, StepInputs};
 use drumrs::engine::pair_list::PairList;
 use drumrs::engine::parallel::{CHUNK, Threads};
 use drumrs::io::config::SimulationConfig;
@@ -37,7 +37,7 @@ proptest! {
         let particles = Particles::at_rest(positions.clone(), radii.clone(), 1000.0, false);
         let rotation = Rotation::new(angle);
         let inputs = StepInputs {
-            time: StepTime { step: TIME_STEP, rate: 1.0 / TIME_STEP },
+            time: [TIME_STEP, 1.0 / TIME_STEP],
             drum: &drum,
             rotation,
             angular_velocity: 0.0,

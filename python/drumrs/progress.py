@@ -6,7 +6,6 @@ Whatever takes long opens a `Task`. Tasks that are open at the same time, nested
 import sys
 import threading
 import time
-from collections.abc import Iterator
 from html import escape
 from importlib import import_module
 from itertools import chain, repeat
@@ -15,7 +14,7 @@ from typing import Any, ClassVar, Self
 
 _HOUR, _MINUTE = 3600.0, 60.0
 # Pauses between lines where there is no terminal, the first ones and all others [s].
-_FIRST_PAUSES, _LATER_PAUSES = (1.0, 9.0, 20.0, 30.0), 60.0
+_FIRST_PAUSES, _PAUSE = (1.0, 2.0, 7.0, 20.0, 30.0), 60.0
 # Time between two updates of a notebook's cell [s].
 _REFRESH = 0.2
 
@@ -231,46 +230,39 @@ def _suitable() -> ProgressDisplay:
     from rich.console import Console
 
     if Console().is_jupyter:
-        return NotebookDisplay()
-    return TerminalDisplay() if sys.stderr.isatty() else LogDisplay()
+        return _NotebookDisplay()
+    return _TerminalDisplay() if sys.stderr.isatty() else _LogDisplay()
 
 
-class LogDisplay(ProgressDisplay):
+class _LogDisplay(ProgressDisplay):
     """Lines on standard error, written on a thread of their own: some tasks have nothing to tell for a while."""
 
     def start(self) -> None:
-        """Begin to write lines."""
         self._over = threading.Event()
         self._writer = threading.Thread(target=self._write, name="drumrs progress", daemon=True)
         self._writer.start()
 
     def stop(self) -> None:
-        """Write no more lines."""
         self._over.set()
         self._writer.join()
 
     def end(self, task: Task, *, finished: bool) -> None:
-        """Write how long a task took, where it took long enough for a line."""
         if finished and task.elapsed >= _FIRST_PAUSES[0]:
             self.note(str(task))
 
     def note(self, sentence: str) -> None:
-        """Write a line."""
         sys.stderr.write(f"{sentence}\n")
         sys.stderr.flush()
 
     def _write(self) -> None:
-        for pause in self._pauses():
+        for pause in chain(_FIRST_PAUSES, repeat(_PAUSE)):
             if self._over.wait(pause):
                 return
             for task in tuple(self.tasks):
                 self.note(str(task))
 
-    def _pauses(self) -> Iterator[float]:
-        return chain(_FIRST_PAUSES, repeat(_LATER_PAUSES))
 
-
-class TerminalDisplay(ProgressDisplay):
+class _TerminalDisplay(ProgressDisplay):
     """Bars in a terminal, drawn by rich."""
 
     def __init__(self) -> None:
@@ -289,25 +281,21 @@ class TerminalDisplay(ProgressDisplay):
         )
 
     def start(self) -> None:
-        """Begin to draw."""
         self._progress.start()
 
     def stop(self) -> None:
-        """Leave the bars as they are."""
         self._progress.stop()
 
     def update(self, task: Task) -> None:
-        """Draw a task's bar."""
         if task not in self._bars:
             self._bars[task] = self._progress.add_task(task.label, total=task.total or None, state="")
         self._progress.update(self._bars[task], completed=task.done, state=task.state())
 
     def note(self, sentence: str) -> None:
-        """Write a line above the bars."""
         self._progress.console.print(sentence, markup=False, highlight=False)
 
 
-class NotebookDisplay(ProgressDisplay):
+class _NotebookDisplay(ProgressDisplay):
     """Bars below a notebook's cell: plain HTML, which needs no widgets and stays as it was at the end."""
 
     def __init__(self) -> None:
@@ -318,22 +306,18 @@ class NotebookDisplay(ProgressDisplay):
         self._output: Any = None
 
     def start(self) -> None:
-        """Take a place below the cell."""
         # Where there is a notebook there is IPython.
         self._output = import_module("IPython.display").display(self, display_id=True)
 
     def stop(self) -> None:
-        """Leave the bars as they were at the end."""
         self._refresh()
 
     def update(self, task: Task) -> None:
-        """Show a task's bar."""
         self._rows[task] = str(task)
         if time.perf_counter() >= self._shown + _REFRESH:
             self._refresh()
 
     def note(self, sentence: str) -> None:
-        """Say something once, below the bars."""
         self._notes.append(sentence)
         self._refresh()
 
@@ -343,7 +327,6 @@ class NotebookDisplay(ProgressDisplay):
             self._output.update(self)
 
     def __repr__(self) -> str:
-        """Say how far the tasks are, where no HTML is shown."""
         return "\n".join([*self._rows.values(), *self._notes])
 
     def _repr_html_(self) -> str:

@@ -175,19 +175,6 @@ class Records:
             }
             self._core.put_back_frames({**arrays, "angles": frames.angles, "speeds": frames.speeds})
 
-    def mean_force(self, start: float, end: float) -> dict[str, float]:
-        """Return the force of the load on all parts of the drum, a mean over the interval between two samples."""
-        series = self._core.series()
-        times = series["time"]
-        # A row holds the mean over the interval that it closes; all intervals are equally long.
-        inside = (times > start) & (times <= end)
-        return {
-            f"drum_{force}": sum(
-                float(series[name][inside].mean()) for name in series if name.endswith(force)
-            )
-            for force in ("force_x", "force_y")
-        }
-
     def none(self) -> Frames:
         """Return no frames of this load in this drum."""
         shape = (0, self.count)

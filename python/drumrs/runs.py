@@ -76,22 +76,7 @@ def run_to_end(
 def progress_of(
     simulation: Simulation, label: str = "", *, show: bool = True
 ) -> Iterator[Callable[[int], None]]:
-    """Show how far a simulation is on its way to the end of its duration.
-
-    Parameters
-    ----------
-    simulation
-        What is going to run.
-    label
-        What to call it.
-    show
-        Whether to show anything.
-
-    Yields
-    ------
-    Callable
-        To be called with the step number.
-    """
+    """Show how far a simulation is on its way to the end of its duration, as who runs it says with its step number."""
     count, last, time_step = simulation.count, simulation.last_step, simulation.time_step
     size = f"{count} bundle{'s' if count > 1 else ''}, {with_prefix(last)}steps"
     name = f"{label}: {size}" if label else size

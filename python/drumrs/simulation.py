@@ -328,14 +328,9 @@ class Simulation(HasRecords):
                 f"the window is [{start}, {end}], but its samples were taken and must be in memory: "
                 "load the checkpoint where its run wrote it, beside its records"
             )
-        means = self._core.summary(start, end)
-        # The window as the samples allow it.
-        first, last = (means[name] or 0.0 for name in ("window_start", "window_end"))
         filled = math.fsum((2.0 * self.radii) ** 2) / self._config.drum.diameter**2
         known = {"bundle_count": self.count, "steps": self.step, "fill": filled, "time_step": self.time_step}
-        return Summary.from_mapping(
-            {**known, **self._timing(), **self._records.mean_force(first, last), **means}
-        )
+        return Summary.from_mapping({**known, **self._timing(), **self._core.summary(start, end)})
 
     def _timing(self) -> dict[str, float | None]:
         rate = self.count * self._steps_timed / self._wall_time if self._wall_time else None

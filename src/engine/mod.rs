@@ -33,9 +33,9 @@ pub mod simd;
 use contacts::ContactRecord;
 use forces::{Bodies, ForcePass, Lists, StepInputs, new_pass};
 use motion::verlet::{DriftSums, FINISH, Part, START, Verlet, WHOLE};
-use motion::{Arrays, MotionArrays, MovingArrays, with_arrays};
+use motion::{Arrays, MotionArrays, with_arrays};
 use pair_list::PairList;
-use parallel::{PerChunk, Threads, chunk_count};
+use parallel::{Threads, chunk_count};
 
 use crate::physics::contact::model::Model;
 use crate::physics::contact::species::SpeciesTable;
@@ -130,18 +130,18 @@ impl Engine {
 
     /// Begins a run of steps: takes over what moves, and drifts to the next step.
     pub fn begin(&mut self, particles: &mut Particles) {
-        with_arrays!(&mut self.arrays, arrays => arrays.load(particles));
+        self.arrays.motion(self.count).copy_from(&MotionArrays::of(particles));
         self.start();
     }
 
     /// Brings the particles up to date.
     pub fn write_back(&mut self, particles: &mut Particles) {
-        with_arrays!(&mut self.arrays, arrays => arrays.store(particles));
+        MotionArrays::of(particles).copy_from(&self.arrays.motion(self.count));
     }
 
     /// Brings their positions up to date.
     pub fn write_back_positions(&mut self, particles: &mut Particles) {
-        with_arrays!(&mut self.arrays, arrays => arrays.store_positions(particles));
+        MotionArrays::of(particles).vectors[0].copy_from_slice(self.arrays.motion(self.count).vectors[0]);
     }
 
     /// Ends a step: the velocities are then those at the time of the positions.
@@ -161,12 +161,10 @@ impl Engine {
 
     fn drift<const PART: Part>(&mut self) {
         let Self { arrays, verlet, sums, threads, count, .. } = self;
-        let arrays = with_arrays!(arrays, arrays => arrays.part(0..*count));
-        let work = (arrays, PerChunk(&mut *sums));
-        threads.for_each_chunk(*count, work, &|(own, sums): (MotionArrays, PerChunk<_>)| {
+        threads.for_each(*count, arrays.motion(*count).chunks().zip(sums), |(own, sums)| {
             let sums_of_chunk = verlet.advance::<PART>(own);
             if PART != FINISH {
-                sums.set(sums_of_chunk);
+                *sums = sums_of_chunk;
             }
         });
     }
@@ -210,19 +208,20 @@ impl Engine {
     /// Evaluates every contact; the forces must be zero.
     pub fn evaluate(&mut self, particles: &Particles, world: World, drum: DrumMotion) {
         let inputs = self.inputs(particles, world, drum);
-        self.pass.evaluate(&mut self.list, &mut self.arrays, &inputs, &self.threads);
+        let Self { pass, list, arrays, sums, threads, .. } = self;
+        pass.evaluate(list, arrays, &inputs, None, sums, threads);
     }
 
     /// Evaluates every contact, ends the step and begins the next.
     pub fn evaluate_and_advance(&mut self, particles: &Particles, world: World, drum: DrumMotion) {
         let inputs = self.inputs(particles, world, drum);
         let Self { pass, list, arrays, verlet, sums, threads, .. } = self;
-        pass.evaluate_and_advance(list, arrays, &inputs, verlet, sums, threads);
+        pass.evaluate(list, arrays, &inputs, Some(verlet), sums, threads);
     }
 
     /// First forces of particles that have not moved yet.
     pub fn open(&mut self, particles: &mut Particles, world: World, drum: DrumMotion) {
-        with_arrays!(&mut self.arrays, arrays => arrays.load(particles));
+        self.arrays.motion(self.count).copy_from(&MotionArrays::of(particles));
         self.update_list(particles, world, drum);
         self.evaluate(particles, world, drum);
         // What the near lists know of displacements does not hold once the particles move.
@@ -232,7 +231,7 @@ impl Engine {
 
     fn inputs<'a>(&self, particles: &'a Particles, world: World<'a>, drum: DrumMotion) -> StepInputs<'a> {
         StepInputs {
-            time: forces::StepTime { step: drum.duration, rate: 1.0 / world.time_step },
+            time: [drum.duration, 1.0 / world.time_step],
             drum: world.drum,
             rotation: drum.rotation,
             angular_velocity: drum.angular_velocity,
@@ -242,13 +241,9 @@ impl Engine {
 
     /// Puts particle `order[k]` at place `k` in memory, between two runs of steps.
     pub fn reorder(&mut self, particles: &mut Particles, order: &[u32], world: World) {
-        let mut places = vec![0; order.len()];
-        for (place, &particle) in order.iter().enumerate() {
-            places[particle as usize] = place as u32;
-        }
         particles.reorder(order);
         let mut contacts = self.pass.drain();
-        relabel(&mut contacts, &places);
+        relabel(&mut contacts, &memory_order::places(order));
         self.insert(&contacts, particles, world);
         self.verlet = Verlet::new(particles, world.time_step, world.gravity);
         self.list.invalidate();

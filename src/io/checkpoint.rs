@@ -3,9 +3,7 @@
 //!
 //! Layout: magic (8 bytes), version (u32, little endian), SHA-256 of the rest (32 bytes), the rest in postcard.
 
-use std::fs::{self, File};
-use std::io::Write;
-use std::path::Path;
+use std::borrow::Cow;
 
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
@@ -28,28 +26,16 @@ pub const FORMAT_VERSION: u32 = 5;
 const MOST_STEPS: u64 = 1 << 53;
 const HEADER: usize = MAGIC.len() + 4 + 32;
 
-/// What is written: borrowed, since the records may be larger than all the rest.
-#[derive(Serialize)]
-struct SnapshotRef<'a> {
+/// What a checkpoint holds: borrowed where it is written, since the records may be larger than all the rest.
+#[derive(Serialize, Deserialize)]
+struct Snapshot<'a> {
     physics_version: u32,
     config: String,
     seed: u64,
-    state: &'a State,
+    state: Cow<'a, State>,
     engine: EngineState,
-    rows: &'a [f64],
-    frames: &'a Frames,
-}
-
-/// What is read: the same fields.
-#[derive(Deserialize)]
-struct Snapshot {
-    physics_version: u32,
-    config: String,
-    seed: u64,
-    state: State,
-    engine: EngineState,
-    rows: Vec<f64>,
-    frames: Frames,
+    rows: Cow<'a, [f64]>,
+    frames: Cow<'a, Frames>,
 }
 
 fn refuse(reason: impl Into<String>) -> Error {
@@ -66,14 +52,14 @@ impl Simulation {
         if let Some(failure) = self.failure() {
             return Err(failure.clone());
         }
-        let snapshot = SnapshotRef {
+        let snapshot = Snapshot {
             physics_version: PHYSICS_VERSION,
             config: self.config().to_json(),
             seed: self.seed(),
-            state: self.state(),
+            state: Cow::Borrowed(self.state()),
             engine: self.engine_state(),
-            rows: self.records().untaken_rows(),
-            frames: self.frames(),
+            rows: self.records().untaken_rows().into(),
+            frames: Cow::Borrowed(self.frames()),
         };
         let refused = |error: postcard::Error| refuse(error.to_string());
         let size = HEADER + postcard::experimental::serialized_size(&snapshot).map_err(refused)?;
@@ -103,53 +89,13 @@ impl Simulation {
         let drum = check(&snapshot.state, &snapshot.engine, &config)?;
         let mut records = Records::new(&drum);
         records.series.prepend(&snapshot.rows)?;
-        records.frames = snapshot.frames;
+        records.frames = snapshot.frames.into_owned();
         check_records(&snapshot.state, &records, snapshot.rows.len())?;
-        Self::resume(config, snapshot.seed, threads, snapshot.state, &snapshot.engine, records)
-    }
-
-    /// Writes a checkpoint under a temporary name and renames it, so that `path` always holds a whole one.
-    ///
-    /// # Errors
-    /// `Error::System` naming the path.
-    pub fn save(&self, path: &Path) -> Result<(), Error> {
-        let bytes = self.to_checkpoint()?;
-        write_whole(path, &bytes).map_err(|error| Error::System {
-            action: format!("writing {}", path.display()),
-            reason: error.to_string(),
-        })
-    }
-
-    /// Reads the checkpoint at `path`.
-    ///
-    /// # Errors
-    /// `Error::System` where the file cannot be read, `Error::Checkpoint` where it cannot be used.
-    pub fn load(path: &Path, threads: usize) -> Result<Self, Error> {
-        let bytes = fs::read(path).map_err(|error| Error::System {
-            action: format!("reading {}", path.display()),
-            reason: error.to_string(),
-        })?;
-        Self::from_checkpoint(&bytes, threads)
+        Self::resume(config, snapshot.seed, threads, snapshot.state.into_owned(), &snapshot.engine, records)
     }
 }
 
-fn write_whole(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
-    let mut name = path.file_name().unwrap_or_default().to_owned();
-    name.push(format!(".{}.partial", std::process::id()));
-    let partial = path.with_file_name(name);
-    let written = File::create(&partial).and_then(|mut file| {
-        file.write_all(bytes)?;
-        file.sync_all()
-    });
-    let renamed = written.and_then(|()| fs::rename(&partial, path));
-    if renamed.is_err() {
-        // The first error is the one to tell; a leftover is harmless.
-        let _ = fs::remove_file(&partial);
-    }
-    renamed
-}
-
-fn read(bytes: &[u8]) -> Result<Snapshot, Error> {
+fn read(bytes: &[u8]) -> Result<Snapshot<'_>, Error> {
     if bytes.len() < HEADER || !bytes.starts_with(MAGIC) {
         return Err(refuse("it is not a drumrs checkpoint, or cut short"));
     }
@@ -194,22 +140,17 @@ fn check(state: &State, engine: &EngineState, config: &SimulationConfig) -> Resu
     let drum = Drum::new(&config.drum).map_err(refused)?;
     let table = config.contact.table().map_err(refused)?;
     state.particles.validate().map_err(refused)?;
-    if state.particles.is_empty() || state.step > MOST_STEPS || !state.initial_angle.is_finite() {
-        return Err(refuse("it holds no bundle, or more steps than a run can have"));
-    }
-    if state.particles.species.iter().any(|&species| usize::from(species) >= table.count()) {
-        return Err(refuse("a bundle is of a species that is not there"));
-    }
-    if drum.radius().is_some_and(|rim| state.particles.largest_radius() >= rim) {
-        return Err(refuse("a bundle is larger than its drum"));
-    }
-    let count = state.particles.len();
-    if state.ledger.surfaces.len() != drum.surface_count() {
-        return Err(refuse("its accounts are not those of its drum"));
-    }
-    if engine.totals.len() != chunk_count(count) {
-        return Err(refuse("its sums are not those of its bundles"));
-    }
+    let ensure = |holds: bool, reason: &str| if holds { Ok(()) } else { Err(refuse(reason)) };
+    let (particles, count) = (&state.particles, state.particles.len());
+    let is_run = count > 0 && state.step <= MOST_STEPS && state.initial_angle.is_finite();
+    ensure(is_run, "it holds no bundle, or more steps than a run can have")?;
+    let is_there = |&species: &u16| usize::from(species) < table.count();
+    ensure(particles.species.iter().all(is_there), "a bundle is of a species that is not there")?;
+    let fits = drum.radius().is_none_or(|rim| particles.largest_radius() < rim);
+    ensure(fits, "a bundle is larger than its drum")?;
+    let has_accounts = state.ledger.surfaces.len() == drum.surface_count();
+    ensure(has_accounts, "its accounts are not those of its drum")?;
+    ensure(engine.totals.len() == chunk_count(count), "its sums are not those of its bundles")?;
     let EngineState { contacts, .. } = engine;
     let ordered = contacts.pairs.iter().all(|contact| contact.particle < contact.other);
     let known = |contacts: &[ContactRecord], others: u32| {
@@ -219,9 +160,8 @@ fn check(state: &State, engine: &EngineState, config: &SimulationConfig) -> Resu
             && keys.windows(2).all(|two| two[0] != two[1])
             && contacts.iter().all(|contact| contact.overlap > 0.0)
     };
-    if ordered && known(&contacts.pairs, count as u32) && known(&contacts.walls, drum.feature_count()) {
-        Ok(drum)
-    } else {
-        Err(refuse("its contacts are not those of its bundles"))
-    }
+    let are_known =
+        ordered && known(&contacts.pairs, count as u32) && known(&contacts.walls, drum.feature_count());
+    ensure(are_known, "its contacts are not those of its bundles")?;
+    Ok(drum)
 }

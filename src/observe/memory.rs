@@ -38,23 +38,3 @@ pub fn prepend<T: Copy + Default>(
     list[..earlier.len()].copy_from_slice(earlier);
     Ok(())
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn room_that_cannot_be_is_an_error_and_changes_nothing() {
-        let mut list = vec![1.0, 2.0];
-        let error = reserve(&mut list, usize::MAX / 16, "recording a frame").unwrap_err();
-        assert!(error.to_string().starts_with("recording a frame: there is no memory for "), "{error}");
-        assert_eq!(list, [1.0, 2.0]);
-    }
-
-    #[test]
-    fn what_was_earlier_comes_first() {
-        let mut list = vec![3, 4];
-        prepend(&mut list, &[1, 2, 0], "a test").unwrap();
-        assert_eq!(list, [1, 2, 0, 3, 4]);
-    }
-}

@@ -346,6 +346,15 @@ impl Series {
         self.values.iter().skip(index).step_by(self.width.max(1)).copied().collect()
     }
 
+    /// The sum over rim, baffles and walls of a quantity that each of them has, a value for each row.
+    pub fn sum_over_surfaces(&self, quantity: &str) -> Vec<f64> {
+        let of_each = columns_of("rim");
+        let place = of_each.iter().position(|column| column.name == format!("rim_{quantity}"));
+        let first = quantities().count() + place.expect("a quantity of surfaces");
+        let sum = |row: &[f64]| row[first..].iter().step_by(of_each.len()).sum();
+        self.values.chunks_exact(self.width.max(1)).map(sum).collect()
+    }
+
     /// One column, where there may be no memory for it.
     ///
     /// # Errors

@@ -33,12 +33,15 @@ pub fn summarize(series: &Series, mass: f64, start: f64, end: f64) -> Result<Vec
     let by_ledger = motion + contact_energies().map(rate).sum::<f64>() + rate("numerical");
     let powers = [power, by_ledger, rate("moment_balance_work")];
     let (window_start, window_end) = (times[0], times[times.len() - 1]);
-    let torque = averages::mean_of_intervals(&times, &table.column("drum_torque"));
+    let interval_mean = |column: &[f64]| Some(averages::mean_of_intervals(&times, column));
+    let force = |axis| interval_mean(&table.rows_of(&series.sum_over_surfaces(axis)));
     let residual = whole_column(series, "energy_residual");
     let fixed = [
         ("window_start", Some(window_start)),
         ("window_end", Some(window_end)),
-        ("drum_torque", Some(torque)),
+        ("drum_torque", interval_mean(&table.column("drum_torque"))),
+        ("drum_force_x", force("force_x")),
+        ("drum_force_y", force("force_y")),
         ("drum_power", Some(power)),
         ("drum_specific_power", Some(power / mass)),
         ("drum_specific_power_error", spread.map(|spread| spread.error / mass)),
@@ -80,7 +83,11 @@ struct Table<'a> {
 
 impl Table<'_> {
     fn column(&self, name: &str) -> Vec<f64> {
-        whole_column(self.series, name)[self.rows.0..=self.rows.1].to_vec()
+        self.rows_of(&whole_column(self.series, name))
+    }
+
+    fn rows_of(&self, column: &[f64]) -> Vec<f64> {
+        column[self.rows.0..=self.rows.1].to_vec()
     }
 
     /// Energy stored at the end of the window, every part with its magnitude [J/m].

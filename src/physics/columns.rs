@@ -22,7 +22,10 @@ pub trait Columns: Copy + Default + std::fmt::Debug + PartialEq + Send + Sync + 
     fn field_mut<T: Field>(record: &mut Self::Of<T>, index: usize) -> &mut T;
 
     /// The record with every field converted.
-    fn map<T: Field, U: Field>(record: &Self::Of<T>, convert: impl FnMut(T) -> U) -> Self::Of<U>;
+    #[inline(always)]
+    fn map<T: Field, U: Field>(record: &Self::Of<T>, mut convert: impl FnMut(T) -> U) -> Self::Of<U> {
+        Self::build(|index| convert(Self::field(record, index)))
+    }
 }
 
 /// The record of `C` with fields of type `T`.
@@ -74,12 +77,6 @@ macro_rules! columns {
             }
 
             #[inline(always)]
-            #[allow(unused_mut, unused_variables)]
-            fn map<T: $crate::physics::columns::Field, U: $crate::physics::columns::Field>(record: &$name<T>, mut convert: impl FnMut(T) -> U) -> $name<U> {
-                $name { $($field: convert(record.$field),)* }
-            }
-
-            #[inline(always)]
             fn field_mut<T: $crate::physics::columns::Field>(record: &mut $name<T>, index: usize) -> &mut T {
                 let fields: [&mut T; $name::NAMES.len()] = [$(&mut record.$field),*];
                 let mut fields = fields.into_iter();
@@ -104,9 +101,6 @@ impl Columns for () {
     fn field_mut<T: Field>((): &mut (), _index: usize) -> &mut T {
         unreachable!("a record without fields")
     }
-
-    #[inline(always)]
-    fn map<T: Field, U: Field>((): &(), _convert: impl FnMut(T) -> U) {}
 }
 
 /// Two records as one, the fields of the first in front.
@@ -131,37 +125,5 @@ impl<A: Columns, B: Columns> Columns for (A, B) {
         } else {
             B::field_mut(&mut record.1, index - A::COUNT)
         }
-    }
-
-    #[inline(always)]
-    fn map<T: Field, U: Field>(record: &Self::Of<T>, mut convert: impl FnMut(T) -> U) -> Self::Of<U> {
-        (A::map(&record.0, &mut convert), B::map(&record.1, &mut convert))
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    columns! {
-        /// Two numbers.
-        pub struct Two {
-            /// The first.
-            one,
-            /// The second.
-            other,
-        }
-    }
-
-    #[test]
-    fn records_convert_field_by_field() {
-        type Both = (Two, (Two, ()));
-        let mut record = Both::build(|index| index as f64);
-        assert_eq!(record, (Two { one: 0.0, other: 1.0 }, (Two { one: 2.0, other: 3.0 }, ())));
-        *Both::field_mut(&mut record, 2) = 7.0;
-        assert_eq!(Both::map(&record, |value: f64| value as u8).1.0, Two { one: 7, other: 3 });
-        assert_eq!((Two::NAMES, Two::MEANINGS[1]), (&["one", "other"][..], " The second."));
-        let [one, other] = [Two { one: true, ..Two::NONE }, Two { other: true, ..Two::NONE }];
-        assert_eq!((one.union(other), one.union(one)), (Two { one: true, other: true }, one));
     }
 }

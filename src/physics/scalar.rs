@@ -48,7 +48,10 @@ pub trait Scalar:
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
     /// This where the mask holds, 0 elsewhere.
     #[must_use]
-    fn within(self, mask: Self::Mask) -> Self;
+    #[inline(always)]
+    fn within(self, mask: Self::Mask) -> Self {
+        Self::select(mask, self, Self::zero())
+    }
     /// Whether a mask holds anywhere.
     fn any(mask: Self::Mask) -> bool;
 
@@ -99,10 +102,6 @@ impl Scalar for f64 {
 
     fn select(mask: bool, yes: Self, no: Self) -> Self {
         if mask { yes } else { no }
-    }
-
-    fn within(self, mask: bool) -> Self {
-        if mask { self } else { 0.0 }
     }
 
     fn any(mask: bool) -> bool {

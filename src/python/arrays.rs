@@ -17,13 +17,11 @@ use crate::simulation::initial_state::InitialState;
 
 /// Vectors as an array of shape (n, 2).
 pub fn vectors<'py>(py: Python<'py>, vectors: &[Vec2]) -> Bound<'py, PyArray2<f64>> {
-    let flat: Vec<f64> = vectors.iter().flat_map(|v| [v.x, v.y]).collect();
-    let array = Array2::from_shape_vec((vectors.len(), 2), flat);
-    array.expect("two numbers a vector").into_pyarray(py)
+    table_of_rows(py, vectors.iter().flat_map(|v| [v.x, v.y]).collect(), 2)
 }
 
 /// Rows of `width` values as an array of shape (rows, width).
-pub fn table_of_rows(py: Python<'_>, values: Vec<f64>, width: usize) -> Bound<'_, PyArray2<f64>> {
+pub fn table_of_rows<T: Element>(py: Python<'_>, values: Vec<T>, width: usize) -> Bound<'_, PyArray2<T>> {
     let rows = values.len().checked_div(width).unwrap_or(0);
     Array2::from_shape_vec((rows, width), values).expect("whole rows").into_pyarray(py)
 }
@@ -37,8 +35,8 @@ pub fn frames(py: Python<'_>, frames: Frames, count: usize) -> PyResult<Bound<'_
     table.set_item("time", frames.times.into_pyarray(py))?;
     table.set_item("drum_angle", frames.drum_angles.into_pyarray(py))?;
     table.set_item("positions", frame_positions(py, frames.positions, count))?;
-    table.set_item("angles", frame_values(py, frames.angles, count))?;
-    table.set_item("speeds", frame_values(py, frames.speeds, count))?;
+    table.set_item("angles", table_of_rows(py, frames.angles, count))?;
+    table.set_item("speeds", table_of_rows(py, frames.speeds, count))?;
     Ok(table)
 }
 
@@ -67,12 +65,6 @@ fn copied<T: Element + Copy>(table: &Bound<'_, PyDict>, key: &str) -> Result<Vec
     Ok(copy)
 }
 
-/// Values as an array of shape (frames, particles).
-fn frame_values(py: Python<'_>, values: Vec<f32>, count: usize) -> Bound<'_, PyArray2<f32>> {
-    let rows = values.len().checked_div(count).unwrap_or(0);
-    Array2::from_shape_vec((rows, count), values).expect("whole frames").into_pyarray(py)
-}
-
 /// Positions as an array of shape (frames, particles, 2).
 fn frame_positions(py: Python<'_>, values: Vec<f32>, count: usize) -> Bound<'_, PyArray3<f32>> {
     let rows = values.len().checked_div(2 * count).unwrap_or(0);
@@ -87,13 +79,14 @@ pub fn initial_state(state: &Bound<'_, PyDict>) -> Result<InitialState, Error> {
     let mut initial = InitialState::default();
     for (key, value) in state.iter() {
         let name = key.to_string();
+        let key = &format!("state.{name}");
         match name.as_str() {
-            "positions" => initial.positions = pairs(&name, &value)?,
-            "velocities" => initial.velocities = Some(pairs(&name, &value)?),
-            "angles" => initial.angles = Some(numbers(&name, &value)?),
-            "angular_velocities" => initial.angular_velocities = Some(numbers(&name, &value)?),
-            "radii" => initial.radii = Some(numbers(&name, &value)?),
-            "species" => initial.species = Some(column(&format!("state.{name}"), &value)?),
+            "positions" => initial.positions = points(key, &value)?,
+            "velocities" => initial.velocities = Some(points(key, &value)?),
+            "angles" => initial.angles = Some(column(key, &value)?),
+            "angular_velocities" => initial.angular_velocities = Some(column(key, &value)?),
+            "radii" => initial.radii = Some(column(key, &value)?),
+            "species" => initial.species = Some(column(key, &value)?),
             "drum_angle" => {
                 initial.drum_angle = value
                     .extract()
@@ -114,18 +107,8 @@ pub fn initial_state(state: &Bound<'_, PyDict>) -> Result<InitialState, Error> {
     Ok(initial)
 }
 
-fn pairs(name: &str, value: &Bound<'_, PyAny>) -> Result<Vec<Vec2>, Error> {
-    let wrong =
-        || Error::config(format!("state.{name}"), "something else", "an array of floats of shape (n, 2)");
-    let array: PyReadonlyArray2<f64> = value.extract().map_err(|_| wrong())?;
-    if array.as_array().ncols() != 2 {
-        return Err(wrong());
-    }
-    Ok(array.as_array().rows().into_iter().map(|row| Vec2::new(row[0], row[1])).collect())
-}
-
-fn numbers(name: &str, value: &Bound<'_, PyAny>) -> Result<Vec<f64>, Error> {
-    column(&format!("state.{name}"), value)
+fn points(key: &str, value: &Bound<'_, PyAny>) -> Result<Vec<Vec2>, Error> {
+    Ok(rows(key, value)?.into_iter().map(Vec2::from).collect())
 }
 
 fn column<T: Element + Copy>(key: &str, value: &Bound<'_, PyAny>) -> Result<Vec<T>, Error> {
@@ -137,12 +120,11 @@ fn column<T: Element + Copy>(key: &str, value: &Bound<'_, PyAny>) -> Result<Vec<
 
 /// Rows of `N` numbers.
 fn rows<const N: usize>(key: &str, value: &Bound<'_, PyAny>) -> Result<Vec<[f64; N]>, Error> {
-    let limit = || format!("an array of floats of shape (n, {N})");
-    let array: PyReadonlyArray2<f64> =
-        value.extract().map_err(|_| Error::config(key, "something else", limit()))?;
+    let wrong = || Error::config(key, "something else", format!("an array of floats of shape (n, {N})"));
+    let array: PyReadonlyArray2<f64> = value.extract().map_err(|_| wrong())?;
     let array = array.as_array();
     if array.ncols() != N {
-        return Err(Error::config(key, "of another shape", limit()));
+        return Err(wrong());
     }
     Ok(array.rows().into_iter().map(|row| std::array::from_fn(|k| row[k])).collect())
 }
@@ -157,8 +139,7 @@ pub fn contact_table<'py>(py: Python<'py>, records: &[ContactRecord]) -> PyResul
         records: &[ContactRecord],
         value: fn(&ContactRecord) -> [f64; N],
     ) -> Bound<'py, PyArray2<f64>> {
-        let flat: Vec<f64> = records.iter().flat_map(value).collect();
-        Array2::from_shape_vec((records.len(), N), flat).expect("N numbers a record").into_pyarray(py)
+        table_of_rows(py, records.iter().flat_map(value).collect(), N)
     }
     let ids = |value: fn(&ContactRecord) -> u32| records.iter().map(value).collect::<Vec<_>>();
     let floats = |value: fn(&ContactRecord) -> f64| records.iter().map(value).collect::<Vec<_>>();

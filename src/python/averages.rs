@@ -1,6 +1,8 @@
 //! Means over windows and their errors (`observe::averages`), for `drumrs.analysis`: a mean is a pair of its value and its
 //! `BlockError`, which is a tuple of error, correlation time and number of blocks.
 
+#![allow(clippy::needless_pass_by_value)] // Arguments from Python arrive by value.
+
 use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
 

@@ -25,3 +25,10 @@ pub fn to_python(py: Python<'_>, error: &Error) -> PyErr {
         Err(failed) => failed,
     }
 }
+
+/// So that `?` raises it, wherever the interpreter is held.
+impl From<Error> for PyErr {
+    fn from(error: Error) -> Self {
+        Python::attach(|py| to_python(py, &error))
+    }
+}

@@ -15,7 +15,6 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use super::arrays;
-use super::error::to_python;
 use super::fair_lock::FairLock;
 use super::fork_guard::Entered;
 use crate::error::Error;
@@ -74,7 +73,7 @@ impl Simulation {
     fn run_until(&self, py: Python<'_>, end: u64, progress: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
         let (mut step, mut pace) = (self.step(py), Pace::of(self.count(py)));
         while step < end && !self.stop.load(Ordering::Relaxed) {
-            step = self.slice(py, end, &mut pace).map_err(|error| to_python(py, &error))?;
+            step = self.slice(py, end, &mut pace)?;
             py.check_signals()?;
             if let Some(progress) = progress {
                 progress.call1((step,))?;
@@ -118,15 +117,17 @@ fn on_a_thread(
 ) -> PyResult<Core> {
     let (sender, mut receiver) = mpsc::channel();
     let made = thread::Builder::new().spawn(move || sender.send(make()).ok());
-    let refuse = |reason: String| to_python(py, &Error::System { action: action.into(), reason });
+    let refuse = |reason: String| Error::System { action: action.into(), reason };
     made.map_err(|error| refuse(error.to_string()))?;
     loop {
         let waited = py.detach(move || (receiver.recv_timeout(SLICE), receiver));
         receiver = waited.1;
         match waited.0 {
-            Ok(outcome) => return outcome.map_err(|error| to_python(py, &error)),
+            Ok(outcome) => return Ok(outcome?),
             Err(mpsc::RecvTimeoutError::Timeout) => py.check_signals()?,
-            Err(mpsc::RecvTimeoutError::Disconnected) => return Err(refuse("the thread was lost".into())),
+            Err(mpsc::RecvTimeoutError::Disconnected) => {
+                return Err(refuse("the thread was lost".into()).into());
+            }
         }
     }
 }
@@ -142,9 +143,8 @@ impl Simulation {
         threads: usize,
         state: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
-        let read =
-            || Ok((SimulationConfig::from_json(config)?, state.map(arrays::initial_state).transpose()?));
-        let (config, initial) = read().map_err(|error| to_python(py, &error))?;
+        let config = SimulationConfig::from_json(config)?;
+        let initial = state.map(arrays::initial_state).transpose()?;
         let start = move || match initial {
             Some(initial) => Core::with_state(config, seed, threads, initial),
             None => Core::new(config, seed, threads),
@@ -161,8 +161,7 @@ impl Simulation {
 
     /// The bytes of a checkpoint, in an array: as large as the records, they are not copied.
     fn checkpoint<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<u8>>> {
-        let bytes = self.with(py, |core| core.to_checkpoint()).map_err(|error| to_python(py, &error))?;
-        Ok(bytes.into_pyarray(py))
+        Ok(self.with(py, |core| core.to_checkpoint())?.into_pyarray(py))
     }
 
     #[pyo3(signature = (steps, progress = None))]
@@ -208,11 +207,6 @@ impl Simulation {
     #[getter]
     fn threads(&self, py: Python<'_>) -> usize {
         self.with(py, |core| core.threads())
-    }
-
-    #[getter]
-    fn mass(&self, py: Python<'_>) -> f64 {
-        self.with(py, |core| core.mass())
     }
 
     #[getter]
@@ -305,7 +299,7 @@ impl Simulation {
                 .collect::<Result<Vec<_>, Error>>()
         });
         let series = PyDict::new(py);
-        for (name, values) in table.map_err(|error| to_python(py, &error))? {
+        for (name, values) in table? {
             series.set_item(name, values.into_pyarray(py))?;
         }
         Ok(series)
@@ -316,7 +310,7 @@ impl Simulation {
             let count = core.state().particles.len();
             (core.frames().try_clone(count), count)
         });
-        arrays::frames(py, frames.map_err(|error| to_python(py, &error))?, count)
+        arrays::frames(py, frames?, count)
     }
 
     /// The frames in memory, which then are no longer there; no copy is made.
@@ -330,9 +324,9 @@ impl Simulation {
     fn take_records(&self, py: Python<'_>, into: &Bound<'_, PyDict>) -> PyResult<()> {
         let taken = self.with(py, |core| {
             let (first_sample, first_frame) = (core.first_untaken_sample(), core.first_frame());
-            Ok((first_sample, first_frame, core.take_rows()?, core.take_frames()))
+            Ok::<_, Error>((first_sample, first_frame, core.take_rows()?, core.take_frames()))
         });
-        let (first_sample, first_frame, rows, frames) = taken.map_err(|error| to_python(py, &error))?;
+        let (first_sample, first_frame, rows, frames) = taken?;
         let (width, count) = self.with(py, |core| (core.series().width(), core.state().particles.len()));
         into.set_item("first_sample", first_sample)?;
         into.set_item("rows", arrays::table_of_rows(py, rows, width))?;
@@ -343,12 +337,12 @@ impl Simulation {
     fn put_back_rows(&self, py: Python<'_>, rows: &Bound<'_, PyArray2<f64>>, taken: bool) -> PyResult<()> {
         let rows = rows.try_readonly()?;
         let values = rows.as_slice()?;
-        self.with(py, |core| core.put_back_rows(values, taken)).map_err(|error| to_python(py, &error))
+        Ok(self.with(py, |core| core.put_back_rows(values, taken))?)
     }
 
     fn put_back_frames(&self, py: Python<'_>, frames: &Bound<'_, PyDict>) -> PyResult<()> {
-        let frames = arrays::given_frames(frames).map_err(|error| to_python(py, &error))?;
-        self.with(py, |core| core.put_back_frames(frames)).map_err(|error| to_python(py, &error))
+        let frames = arrays::given_frames(frames)?;
+        Ok(self.with(py, |core| core.put_back_frames(frames))?)
     }
 
     #[getter]
@@ -373,9 +367,7 @@ impl Simulation {
     }
 
     fn summary<'py>(&self, py: Python<'py>, start: f64, end: f64) -> PyResult<Bound<'py, PyDict>> {
-        let statistics = self
-            .with(py, |core| summarize(core.series(), core.mass(), start, end))
-            .map_err(|error| to_python(py, &error))?;
+        let statistics = self.with(py, |core| summarize(core.series(), core.mass(), start, end))?;
         let summary = PyDict::new(py);
         for (name, value) in statistics {
             summary.set_item(name, value)?;

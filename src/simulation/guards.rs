@@ -61,7 +61,9 @@ impl Simulation {
         if ratio <= limit {
             return Ok(());
         }
-        Err(Error::Overlap { incident: self.incident(self.deepest_overlap()), ratio, limit })
+        let deepest = self.engine.pass().contacts().deepest(&self.state.particles.radii);
+        let place = deepest.map_or(0, |(_, (particle, _), _)| particle as usize);
+        Err(Error::Overlap { incident: self.incident(place), ratio, limit })
     }
 
     fn guard_solids(&self) -> Result<(), Error> {
@@ -78,17 +80,6 @@ impl Simulation {
             }
             None => Ok(()),
         }
-    }
-
-    /// The place of the particle whose overlap is deepest now.
-    fn deepest_overlap(&self) -> usize {
-        let radii = &self.state.particles.radii;
-        let radius = |i: u32| radii[i as usize];
-        let contacts = self.engine.pass().contacts();
-        let pairs =
-            contacts.pairs.iter().map(|c| (c.overlap / radius(c.particle).min(radius(c.other)), c.particle));
-        let walls = contacts.walls.iter().map(|c| (c.overlap / radius(c.particle), c.particle));
-        pairs.chain(walls).max_by(|a, b| a.0.total_cmp(&b.0)).map_or(0, |deepest| deepest.1 as usize)
     }
 
     /// Which particle something happened to, when and where.

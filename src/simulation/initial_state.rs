@@ -2,15 +2,16 @@
 
 use std::collections::BTreeSet;
 
-use rand::{Rng, SeedableRng};
+use rand::SeedableRng;
 use rand_pcg::Pcg64Mcg;
 
 use crate::engine::contacts::ContactRecord;
 use crate::engine::forces::Lists;
-use crate::error::Error;
+use crate::error::{Error, require, require_finite};
 use crate::io::config::{MOST_BUNDLES, SimulationConfig};
 use crate::physics::drum::Drum;
 use crate::physics::energy::SurfaceLoad;
+use crate::physics::load::packing::unit;
 use crate::physics::particles::Particles;
 use crate::physics::vector::{Rotation, Vec2, cross};
 
@@ -42,18 +43,12 @@ impl InitialState {
     /// `Error::Config` naming the field.
     pub fn particles(&self, config: &SimulationConfig, species_count: usize) -> Result<Particles, Error> {
         let count = self.positions.len();
-        if count == 0 {
-            return Err(Error::config("state.positions", "empty", "of at least one bundle"));
-        }
-        if count > MOST_BUNDLES {
-            let limit = format!("of at most {MOST_BUNDLES} bundles");
-            return Err(Error::config("state.positions", format!("of {count} bundles"), limit));
-        }
+        require(count > 0, "state.positions", "empty", "of at least one bundle")?;
+        let (found, limit) = (format!("of {count} bundles"), format!("of at most {MOST_BUNDLES} bundles"));
+        require(count <= MOST_BUNDLES, "state.positions", found, limit)?;
         let radii = self.radii.clone().unwrap_or_else(|| vec![0.5 * config.load.diameter; count]);
-        if radii.len() != count {
-            let found = format!("of length {}", radii.len());
-            return Err(Error::config("state.radii", found, format!("of length {count}")));
-        }
+        let length = |count: usize| format!("of length {count}");
+        require(radii.len() == count, "state.radii", length(radii.len()), length(count))?;
         let locked = config.load.spin_locked;
         let mut particles = Particles::at_rest(self.positions.clone(), radii, config.load.density, locked);
         if let Some(velocities) = &self.velocities {
@@ -63,10 +58,9 @@ impl InitialState {
             particles.angles.clone_from(angles);
         }
         if let Some(spins) = &self.angular_velocities {
-            if locked && spins.iter().any(|&spin| spin != 0.0) {
-                let limit = "0 while load.spin_locked is true";
-                return Err(Error::config("state.angular_velocities", "not 0", limit));
-            }
+            let limit = "0 while load.spin_locked is true";
+            let is_possible = !locked || spins.iter().all(|&spin| spin == 0.0);
+            require(is_possible, "state.angular_velocities", "not 0", limit)?;
             particles.angular_velocities.clone_from(spins);
         }
         if let Some(species) = &self.species {
@@ -76,13 +70,10 @@ impl InitialState {
             }
             particles.species.clone_from(species);
         }
-        if !self.drum_angle.is_finite() {
-            return Err(Error::config("state.drum_angle", self.drum_angle, "a finite number"));
-        }
+        require_finite("state.drum_angle", self.drum_angle)?;
         let Lists { pairs, walls } = &self.contacts;
-        if !pairs.iter().chain(walls).all(ContactRecord::is_finite) {
-            return Err(Error::config("state.contacts", "not finite", "finite"));
-        }
+        let are_finite = pairs.iter().chain(walls).all(ContactRecord::is_finite);
+        require(are_finite, "state.contacts", "not finite", "finite")?;
         particles.validate()?;
         Ok(particles)
     }
@@ -122,15 +113,8 @@ pub fn require_inside(drum: &Drum, particles: &Particles, rotation: Rotation) ->
 /// # Errors
 /// `Error::StartOverlap` naming the two that overlap most.
 pub fn require_apart(contacts: &Lists, particles: &Particles, drum: &Drum) -> Result<(), Error> {
-    let radius = |place: u32| particles.radii[place as usize];
     let name = |place: u32| particles.ids[place as usize];
-    let pairs = contacts.pairs.iter().map(|record| {
-        (record.overlap / radius(record.particle).min(radius(record.other)), record.key(), true)
-    });
-    let walls =
-        contacts.walls.iter().map(|record| (record.overlap / radius(record.particle), record.key(), false));
-    let deepest = pairs.chain(walls).max_by(|a, b| a.0.total_cmp(&b.0));
-    match deepest {
+    match contacts.deepest(&particles.radii) {
         Some((ratio, (particle, other), is_pair)) if ratio > START_OVERLAP_LIMIT => {
             let (one, other) = if is_pair {
                 let (one, other) = (name(particle), name(other));
@@ -180,8 +164,7 @@ pub fn packed(config: &SimulationConfig, positions: Vec<Vec2>, seed: u64) -> Par
         // A stream of its own, so that the speed does not change where the bundles lie.
         let mut random = Pcg64Mcg::seed_from_u64(!seed);
         for velocity in &mut particles.velocities {
-            let unit = (random.next_u64() >> 11) as f64 * (1.0 / (1_u64 << 53) as f64);
-            let (sin, cos) = libm::sincos(std::f64::consts::TAU * unit);
+            let (sin, cos) = libm::sincos(std::f64::consts::TAU * unit(&mut random));
             *velocity = Vec2::new(cos, sin) * load.start_speed;
         }
     }

@@ -21,10 +21,10 @@ use crate::engine::{DrumMotion, Engine, memory_order, relabel};
 use crate::error::Error;
 use crate::io::config::SimulationConfig;
 use crate::physics::drum::Drum;
-use crate::physics::energy::{EnergyLedger, MomentBalance, StoredEnergy};
+use crate::physics::energy::{EnergyLedger, MomentBalance};
 use crate::physics::load::packing::pack;
 use crate::physics::particles::Particles;
-use crate::physics::vector::{Rotation, Vec2};
+use crate::physics::vector::Rotation;
 
 /// A drum with its load, at some step.
 #[derive(Debug)]
@@ -87,10 +87,8 @@ impl Simulation {
         let mut contacts = initial_state::matching(&initial.contacts, &particles, &derived.drum, rotation);
         if memory_order::is_due(particles.len(), 0) {
             let order = memory_order::hilbert_order(&particles.positions);
-            let mut places = vec![0; order.len()];
-            (0..).zip(&order).for_each(|(place, &particle)| places[particle as usize] = place);
             particles.reorder(&order);
-            relabel(&mut contacts, &places);
+            relabel(&mut contacts, &memory_order::places(&order));
         }
         if contacts != Lists::default() {
             let found = Self::contacts_at_start(&config, &derived, &mut particles.clone(), rotation)?;
@@ -103,11 +101,7 @@ impl Simulation {
             step: 0,
             initial_angle: initial.drum_angle,
             recorded: Recorded::default(),
-            ledger: EnergyLedger::open(
-                StoredEnergy::default(),
-                MomentBalance::open(Vec2::zeros(), 0.0, 0.0),
-                &[],
-            ),
+            ledger: EnergyLedger::default(),
             particles,
         };
         let engine_state = EngineState { contacts, totals: Vec::new() };

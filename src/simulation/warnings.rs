@@ -164,16 +164,11 @@ fn overdamped(encounters: &[Encounter]) -> Option<Warning> {
 
 /// Places of the two lightest particles of a species, the lightest first.
 fn two_lightest(particles: &Particles, species: u16) -> [Option<usize>; 2] {
-    let mut found: [Option<usize>; 2] = [None, None];
-    let order = |place: usize| (particles.masses[place], particles.ids[place]);
-    let is_before =
-        |place: usize, other: Option<usize>| other.is_none_or(|other| order(place) < order(other));
-    for place in (0..particles.len()).filter(|&place| particles.species[place] == species) {
-        if is_before(place, found[0]) {
-            found = [Some(place), found[0]];
-        } else if is_before(place, found[1]) {
-            found[1] = Some(place);
-        }
-    }
-    found
+    let order = |a: &usize, b: &usize| {
+        let masses = particles.masses[*a].total_cmp(&particles.masses[*b]);
+        masses.then(particles.ids[*a].cmp(&particles.ids[*b]))
+    };
+    let own = || (0..particles.len()).filter(|&place| particles.species[place] == species);
+    let lightest = own().min_by(order);
+    [lightest, own().filter(|&place| Some(place) != lightest).min_by(order)]
 }

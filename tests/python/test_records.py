@@ -73,7 +73,7 @@ def peak(code: str, **limits: int) -> int:
 
 def test_a_run_with_a_folder_needs_no_memory_for_its_frames(tmp_path):
     """300 MB of frames, ten times those of the other run."""
-    words = ["run", "--softer", "100", "--set", "run.duration=6.9", "--out", str(tmp_path / "out")]
+    words = ["run", "--softer", "100", "--set", "run.duration=6.9", "--force", "--out", str(tmp_path / "out")]
     code = "from drumrs.cli import run_command; assert run_command({}) == 0"
     few = peak(code.format([*words, "--set", "run.frame_every=3.7e-4"]))
     many = peak(code.format([*words, "--set", "run.frame_every=3.7e-5"]), RLIMIT_AS=2_500_000_000)
@@ -95,6 +95,7 @@ def test_the_series_of_a_run_with_a_folder_needs_what_the_rule_counts(tmp_path):
         "load.count=5",
         "--set",
         "run.frame_every=1",
+        "--force",
         "--out",
         str(tmp_path),
     ]

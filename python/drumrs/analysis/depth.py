@@ -24,8 +24,8 @@ def depth_profile(
 ) -> tuple[Mean | None, ...]:
     """Return the mean speed relative to the turning drum, by depth below the free surface.
 
-    The free surface bounds the places where one more bundle would fit. Depth is the distance of a bundle's center
-    from the nearest such place, in diameters beyond the first: 0 for a bundle that lies or flies at the surface.
+    Empty are the places where the center of one more bundle would fit. The depth of a bundle is the distance of its
+    center from the nearest empty place, in diameters, less 1: 0 for a bundle that lies or flies at the surface.
 
     Parameters
     ----------

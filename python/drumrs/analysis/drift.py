@@ -18,7 +18,7 @@ from drumrs.analysis.seeds import disagreement
 if TYPE_CHECKING:
     import polars as pl
 
-# So seldom is a steady run called unsteady by one test: about once in a study.
+# The share of steady runs that one test calls unsteady: about one run in a study.
 FALSE_ALARMS = 1e-3
 # The load is steady after about that long [s], says the paper.
 _SETTLED = 5.0
@@ -48,7 +48,7 @@ class Drift:
 
     @property
     def drifting(self) -> bool:
-        """Whether a steady run would hardly do this."""
+        """Whether a steady run would show so large a slope less than once in a thousand times."""
         return self.significance < FALSE_ALARMS
 
 

@@ -28,7 +28,7 @@ class Interval:
 
 @dataclass(frozen=True)
 class Estimate:
-    """A mean of independent runs.
+    """A mean with its standard error; means of independent runs may be subtracted and divided.
 
     Attributes
     ----------
@@ -52,7 +52,7 @@ class Estimate:
     freedom: int
 
     def interval(self, level: float = LEVEL) -> Interval:
-        """Return Student's interval, which holds the true mean with probability `level`."""
+        """Return the confidence interval by Student's distribution: it holds the true mean with probability `level`."""
         from scipy import special
 
         if not self.error:
@@ -76,7 +76,7 @@ class Estimate:
 
 
 def combine(mean: float, parts: Sequence[tuple[float, Estimate]]) -> Estimate:
-    """Return the estimate of a function of independent means.
+    """Return the estimate of a function of independent means, to first order in their errors.
 
     Parameters
     ----------
@@ -89,6 +89,13 @@ def combine(mean: float, parts: Sequence[tuple[float, Estimate]]) -> Estimate:
     -------
     Estimate
         Errors add in squares; degrees of freedom are those of Welch and Satterthwaite, rounded down.
+
+    Examples
+    --------
+    >>> from drumrs.analysis import Estimate, combine
+    >>> a, b = Estimate(2.0, 0.3, 5), Estimate(3.0, 0.1, 5)
+    >>> round(combine(a.mean * b.mean, [(b.mean, a), (a.mean, b)]).error, 2)
+    0.92
     """
     shares = [(weight * part.error) ** 2 if weight else 0.0 for weight, part in parts]
     total = math.fsum(shares)
@@ -100,7 +107,7 @@ def combine(mean: float, parts: Sequence[tuple[float, Estimate]]) -> Estimate:
 
 
 def mean_of(estimates: Sequence[Estimate]) -> Estimate:
-    """Return the plain mean of independent estimates."""
+    """Return the mean of independent estimates, all of equal weight."""
     count = len(estimates)
     mean = math.fsum(one.mean for one in estimates) / count
     return combine(mean, [(1.0 / count, one) for one in estimates])

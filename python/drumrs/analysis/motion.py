@@ -48,6 +48,15 @@ def carried_round(frames: "Frames", window: tuple[float, float]) -> Mean | None:
     ------
     ConfigError
         Where the window holds fewer than two frames.
+
+    Examples
+    --------
+    >>> import drumrs
+    >>> from drumrs.analysis import carried_round
+    >>> config = drumrs.baseline().replace({"run.duration": 0.1, "run.frame_every": 0.01})
+    >>> frames = drumrs.run(config, progress=False).frames
+    >>> carried_round(frames, window=(0.0, 0.1)).value  # the load falls to the bottom
+    0.0
     """
     seen = FrameWindow.of(frames, window)
     if seen.turned == 0.0:
@@ -83,6 +92,15 @@ def along_the_rim(frames: "Frames", window: tuple[float, float]) -> Mean | None:
     ------
     ConfigError
         Where the window holds fewer than two frames.
+
+    Examples
+    --------
+    >>> import drumrs
+    >>> from drumrs.analysis import along_the_rim
+    >>> config = drumrs.baseline().replace({"run.duration": 0.1, "run.frame_every": 0.01})
+    >>> frames = drumrs.run(config, progress=False).frames
+    >>> 0.0 <= along_the_rim(frames, window=(0.0, 0.1)).value <= 1.0
+    True
     """
     seen = FrameWindow.of(frames, window)
     if seen.turned == 0.0 or frames.drum_radius is None:
@@ -112,12 +130,12 @@ def _passes_the_top(before: Array, after: Array, angle: float) -> NDArray[np.boo
 
 
 def mixing(frames: "Frames", window: tuple[float, float], turns: float = 1.0) -> tuple[Array, Array]:
-    """Return how far neighbors have parted after so many turns of the drum.
+    """Return how far nearest neighbors have parted after so many turns of the drum.
 
-    Nearest neighbors are noted at a moment. Their mean distance, from what it was towards that of any two
-    bundles, is the index: 0 at first, 1 where neighbors are no nearer than others (the neighbor-distance method
-    of Godlieb, Deen & Kuipers, Characterizing solids mixing in DEM simulations, 2007). Turning as a rigid body
-    leaves it at 0, and neither a grid nor a coloring enters.
+    The index is M = (d − d₀) / (D − d₀), where d is the mean distance of pairs that were nearest neighbors at the
+    start, d₀ what it was then, and D the mean distance of any two bundles: 0 at first, 1 where former neighbors are
+    no nearer than others (the neighbor-distance method of Godlieb, Deen & Kuipers, Characterizing solids mixing in
+    DEM simulations, 2007). Turning as a rigid body leaves it at 0, and neither a grid nor a coloring enters.
 
     Parameters
     ----------
@@ -131,8 +149,8 @@ def mixing(frames: "Frames", window: tuple[float, float], turns: float = 1.0) ->
     Returns
     -------
     turns, index
-        Turns of the drum since the moment, shape (k,), and the index for every frame of the window that is followed
-        so long, shape (moments, k); no moments where the window is shorter than that, or the drum rests.
+        Turns of the drum since the start, shape (k,), and the index, shape (starts, k): every frame of the window that
+        is followed so long is a start. There are none where the window is shorter than that, or the drum rests.
 
     Raises
     ------
@@ -147,10 +165,10 @@ def mixing(frames: "Frames", window: tuple[float, float], turns: float = 1.0) ->
         return passed, np.zeros((0, span + 1))
     apart = np.array([_mean_distance(points) for points in positions])
     index = np.empty((last - span + 1, span + 1))
-    for moment, row in enumerate(index):
-        path, mates = positions[moment : moment + span + 1], _nearest(positions[moment])
+    for start, row in enumerate(index):
+        path, mates = positions[start : start + span + 1], _nearest(positions[start])
         distance = np.linalg.norm(path - path[:, mates], axis=2).mean(axis=1)
-        row[:] = (distance - distance[0]) / (apart[moment : moment + span + 1] - distance[0])
+        row[:] = (distance - distance[0]) / (apart[start : start + span + 1] - distance[0])
     return passed, index
 
 

@@ -1,4 +1,4 @@
-"""Means over seeds: Student's intervals, helped by the blocks inside the runs where seeds agree."""
+"""Means over seeds with Student's intervals; where seeds agree, the blocks inside the runs count, too."""
 
 import math
 from collections.abc import Sequence
@@ -6,25 +6,26 @@ from collections.abc import Sequence
 from drumrs.analysis.blocks import FEWEST_BLOCKS
 from drumrs.analysis.estimate import LEVEL, Estimate, Interval
 
-# Blocks see nothing slower than their run: where a load passes between two states (50 % fill), the ratio's means over
+# Blocks see nothing slower than their run: where a load switches between two states (50 % fill), the means of N/T over
 # 2 s lie four of their errors from the mean of the run. So the error of one run alone is doubled.
 _ALONE = 2.0
-# Seeds further apart than one set in five would be, were they alike, have only their scatter for an error.
+# Where fewer than one set of equal seeds in five would lie so far apart, their scatter alone gives the error.
 _AGREED = 0.2
+# Degrees of freedom of the error of one run.
 _BLOCK_FREEDOM = FEWEST_BLOCKS - 1
 
 
 def student(
     values: Sequence[float], errors: Sequence[float | None] | None = None, *, level: float = LEVEL
 ) -> Interval:
-    """Return the mean over seeds and the half width of Student's interval.
+    """Return the mean over seeds with its confidence interval, that of `estimate`.
 
     Parameters
     ----------
     values
         One mean a seed.
     errors
-        Their standard errors from their own blocks; see `estimate`.
+        Their standard errors, each from the blocks of its own run.
     level
         Probability that the interval holds the true mean.
 
@@ -46,22 +47,29 @@ def student(
 def estimate(values: Sequence[float], errors: Sequence[float | None] | None = None) -> Estimate:
     """Return the mean over seeds with its error and degrees of freedom.
 
-    The error is that of the seeds' scatter. Where they are no further apart than their own errors explain, the
-    blocks behind those say something too: the greater of both variances is taken, with the freedom of both.
-    One seed alone has the error from its own blocks, doubled, since blocks see nothing slower than their run.
-    So an interval of 95 % holds the mean so often for steady loads, and nine times in ten at the worst.
+    The error follows from the scatter of the seeds, s²/n. Where that is no greater than the errors of the single
+    runs explain (`disagreement`), those count, too: the greater of both variances is taken, with the degrees of
+    freedom of both. One seed alone has the error of its run, doubled, since blocks see nothing slower than their run.
+    An interval of 95 % then holds the true mean 95 times in 100 for steady loads, and 90 times at the worst.
 
     Parameters
     ----------
     values
         One mean a seed.
     errors
-        Their standard errors; `None` for a run too short to have one.
+        Their standard errors, each from the blocks of its own run; `None` for a run too short to have one.
 
     Raises
     ------
     ValueError
         Where there is no seed.
+
+    Examples
+    --------
+    >>> from drumrs.analysis import estimate
+    >>> found = estimate([4.0, 4.2, 3.9], errors=[0.2, 0.2, 0.2])
+    >>> round(found.mean, 3), round(found.error, 3), found.freedom
+    (4.033, 0.115, 23)
     """
     count = len(values)
     if not count:
@@ -79,9 +87,9 @@ def estimate(values: Sequence[float], errors: Sequence[float | None] | None = No
 
 
 def disagreement(values: Sequence[float], errors: Sequence[float | None]) -> float:
-    """Return the probability of seeds as far apart as these, were they runs of one steady state.
+    """Return the probability of means as far apart as these, were they all of one steady state (a χ² test).
 
-    Small where single runs keep to states of their own, as a load does that lasts for long in one of two states.
+    It is small where each run stays in a state of its own, as a load does that seldom switches between two.
 
     Parameters
     ----------
@@ -94,6 +102,12 @@ def disagreement(values: Sequence[float], errors: Sequence[float | None]) -> flo
     -------
     float
         1 where there is one seed only, or an error is not known or 0.
+
+    Examples
+    --------
+    >>> from drumrs.analysis import disagreement
+    >>> round(disagreement([1.0, 1.1], [0.1, 0.1]), 2), disagreement([1.0, 2.0], [0.1, 0.1]) < 1e-6
+    (0.48, True)
     """
     from scipy import special
 

@@ -58,8 +58,8 @@ def statistics(
         ``specific_angular_momentum`` [m²/s], 0 for a load that stays where it is, however it rocks.
         All with ``…_error``; `None` where not defined.
         ``drift``: change of the drum's specific power within the window over its mean, ``share_drift``: that of the
-        normal damping's share in all dissipation, ``state_switching``: how much that share differs between parts of the
-        run; each with the ``…_significance`` of `Drift` and `StateSwitching`.
+        normal damping's share in all dissipation, ``state_switching``: how much that share differs between parts of
+        the run; each with the ``…_significance`` of `Drift` and `StateSwitching`.
         ``drifting``: whether one of the three is beyond chance (one in a thousand) and above a hundredth.
     """
     means: dict[str, Mean | None] = {

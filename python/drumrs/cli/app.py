@@ -51,7 +51,7 @@ app = App(
 )
 
 for _command in (run, baseline, reproduce, sweep, view, verify, config, quantities, info):
-    app.command(_command)
+    app.command(_command, help_epilogue="")
 
 
 def main(arguments: Sequence[str] | None = None) -> None:

@@ -12,7 +12,7 @@ use crate::physics::contact::law::ContactLaw;
 pub struct Ids {
     /// Offsets of bodies i.
     pub own: [u32; LANES],
-    /// Offsets of bodies j, or features of the drum.
+    /// Offsets of bodies j; features of the drum are doubled likewise.
     pub other: [u32; LANES],
 }
 
@@ -47,18 +47,6 @@ pub enum ListKind {
     Walls,
 }
 
-impl ListKind {
-    /// Body j as a block has it.
-    pub fn encode(self, other: u32) -> u32 {
-        if self == Self::Walls { other } else { offset(other) }
-    }
-
-    /// What a block has as body j.
-    pub fn decode(self, other: u32) -> u32 {
-        if self == Self::Walls { other } else { at_offset(other) }
-    }
-}
-
 /// Contacts in the order in which they opened. Lanes after the last one are vacant: they refer to bodies that never touch.
 #[derive(Debug, Clone)]
 pub struct ContactList<L: ContactLaw> {
@@ -71,7 +59,7 @@ pub struct ContactList<L: ContactLaw> {
     /// The law between the bodies, and their radii.
     pub parameters: ListParameters<L>,
     /// By contact, its place in the list of neighbors.
-    neighbors: Vec<u32>,
+    pub neighbors: Vec<u32>,
     /// What they are with.
     pub kind: ListKind,
     /// The bodies of a vacant lane.
@@ -98,11 +86,6 @@ impl<L: ContactLaw> ContactList<L> {
         self.neighbors.len()
     }
 
-    /// Number of blocks.
-    pub fn blocks(&self) -> usize {
-        self.blocks.len()
-    }
-
     /// Whether there are none.
     #[inline]
     pub fn is_empty(&self) -> bool {
@@ -113,25 +96,7 @@ impl<L: ContactLaw> ContactList<L> {
     #[inline]
     pub fn key(&self, index: usize) -> (u32, u32) {
         let ids = &self.ids[index / LANES];
-        (at_offset(ids.own[index % LANES]), self.kind.decode(ids.other[index % LANES]))
-    }
-
-    /// The overlap of contact `index` [m].
-    #[inline]
-    pub fn overlap(&self, index: usize) -> f64 {
-        self.blocks[index / LANES].state.overlap[index % LANES]
-    }
-
-    /// The place of contact `index` in the list of neighbors, to write to.
-    #[inline]
-    pub fn neighbor_mut(&mut self, index: usize) -> &mut u32 {
-        &mut self.neighbors[index]
-    }
-
-    /// The place of contact `index` in the list of neighbors.
-    #[inline]
-    pub fn neighbor(&self, index: usize) -> u32 {
-        self.neighbors[index]
+        (at_offset(ids.own[index % LANES]), at_offset(ids.other[index % LANES]))
     }
 
     /// Contact `index`.
@@ -191,7 +156,7 @@ impl<L: ContactLaw> ContactList<L> {
 
     /// Appends a vacant block. Its parameters are those of a contact, so that it can be worked out.
     fn push_block(&mut self, parameters: &Of<PairParameters<L>, f64>) {
-        let (own, other) = (offset(self.vacant.0), self.kind.encode(self.vacant.1));
+        let (own, other) = (offset(self.vacant.0), offset(self.vacant.1));
         self.ids.push(Ids { own: [own; LANES], other: [other; LANES] });
         self.blocks.push(Block {
             state: ContactState::build(|_| [0.0; LANES]),
@@ -229,7 +194,7 @@ impl<L: ContactLaw> ContactList<L> {
 
     fn put_key(&mut self, index: usize, (own, other): (u32, u32)) {
         let ids = &mut self.ids[index / LANES];
-        (ids.own[index % LANES], ids.other[index % LANES]) = (offset(own), self.kind.encode(other));
+        (ids.own[index % LANES], ids.other[index % LANES]) = (offset(own), offset(other));
     }
 
     /// Lets contact `index` be with another feature of the drum, which has this place in the list of neighbors.
@@ -251,28 +216,13 @@ impl<L: ContactLaw> ContactList<L> {
         self.put(last, &ContactRecord { particle, other, ..ContactRecord::default() }, &parameters);
         let neighbor = self.neighbors.swap_remove(index);
         if last.is_multiple_of(LANES) {
-            self.pop_block();
+            self.ids.pop();
+            self.blocks.pop();
+            self.other_moments.pop();
+            if let ListParameters::Each(blocks) = &mut self.parameters {
+                blocks.pop();
+            }
         }
         (key, neighbor)
-    }
-
-    fn pop_block(&mut self) {
-        self.ids.pop();
-        self.blocks.pop();
-        self.other_moments.pop();
-        if let ListParameters::Each(blocks) = &mut self.parameters {
-            blocks.pop();
-        }
-    }
-
-    /// Forgets all contacts.
-    pub fn clear(&mut self) {
-        self.ids.clear();
-        self.blocks.clear();
-        self.other_moments.clear();
-        self.neighbors.clear();
-        if let ListParameters::Each(blocks) = &mut self.parameters {
-            blocks.clear();
-        }
     }
 }

@@ -1,7 +1,6 @@
 //! One step of a block of four contacts: relative motion, law, new state; the same for pairs and for walls.
 
-use super::StepTime;
-use super::totals::LaneTotals;
+use super::totals::Totals;
 use crate::engine::contacts::Block;
 use crate::engine::simd::{F64x4, Vec2x4};
 use crate::physics::columns::{Columns, Of};
@@ -34,12 +33,12 @@ pub fn evaluate<L: ContactLaw>(
     law: &Of<L::Parameters, F64x4>,
     motion: &RelativeMotion<F64x4>,
     (normal, arm): (Vec2x4, F64x4),
-    time: StepTime,
-    totals: &mut LaneTotals,
+    time: [f64; 2],
+    totals: &mut Totals<F64x4>,
 ) -> BlockForces {
     let last = ContactState::map(&block.state, F64x4::new);
     let history = L::History::map(&block.history, F64x4::new);
-    let contact = Kinematics::new(motion, &last, time.lanes());
+    let contact = Kinematics::new(motion, &last, time.map(F64x4::splat));
     let (response, history) = L::respond(law, &contact, &history);
     let (push, pull) = (response.normal_force, response.tangential_force);
     let force = Vec2x4 { x: normal.x * push + normal.y * pull, y: normal.y * push - normal.x * pull };

@@ -6,9 +6,9 @@ use super::pairs::GroupGeometry;
 use super::reactions::RemoteReactions;
 use super::totals::Totals;
 use super::{Bodies, StepInputs, outlines, pairs, walls};
-use crate::engine::contacts::{ContactList, ContactRecord, ListKind, ListParameters, NOT_LISTED};
+use crate::engine::contacts::{ContactList, ListKind, ListParameters};
 use crate::engine::motion::{CHUNK_FLAT, MotionView, far, inside};
-use crate::engine::pair_list::{ChunkNeighbors, NearLimits, Opened};
+use crate::engine::pair_list::{ChunkNeighbors, Opened};
 use crate::engine::parallel::CHUNK;
 use crate::engine::simd::{ALL_LANES, LANES};
 use crate::physics::contact::law::ContactLaw;
@@ -31,6 +31,19 @@ pub struct Chunk<L: ContactLaw> {
     /// What each surface of the drum does to the particles.
     pub surfaces: Vec<SurfaceLoad>,
     scratch: Scratch,
+}
+
+/// One step of a chunk, as its lists go through it.
+pub struct ChunkStep<'a, V> {
+    /// How the particles move.
+    pub motion: V,
+    /// What is the same for all contacts.
+    pub inputs: &'a StepInputs<'a>,
+    /// Where forces go.
+    pub sums: ChunkSums<'a, V>,
+    /// What the ledger is told.
+    pub totals: &'a mut Totals,
+    pub scratch: &'a mut Scratch,
 }
 
 /// Written before it is read; kept, since making it takes time.
@@ -120,13 +133,6 @@ impl<L: ContactLaw> Chunk<L> {
         [&self.pairs, &self.rim, &self.outlines]
     }
 
-    /// Forgets all contacts.
-    pub fn clear(&mut self) {
-        self.pairs.clear();
-        self.rim.clear();
-        self.outlines.clear();
-    }
-
     /// Links the contacts to neighbors that have been searched for anew.
     pub fn link(&mut self, neighbors: &mut ChunkNeighbors) {
         self.pairs.link(&mut neighbors.pairs);
@@ -134,39 +140,27 @@ impl<L: ContactLaw> Chunk<L> {
         self.outlines.link(&mut neighbors.features);
     }
 
-    /// Adds a contact with another particle as it is, at the end of its list.
-    pub fn insert_pair(&mut self, record: &ContactRecord, bodies: &Bodies) {
-        self.pairs.insert(record, NOT_LISTED, bodies);
-    }
-
-    /// Adds a contact with the drum.
-    pub fn insert_wall(&mut self, record: &ContactRecord, bodies: &Bodies) {
-        let list = if record.other == RIM { &mut self.rim } else { &mut self.outlines };
-        list.insert(record, NOT_LISTED, bodies);
-    }
-
     /// One step of the contacts; `force` and `torque` are those of the chunk's particles.
     pub fn evaluate<V: MotionView>(
         &mut self,
         neighbors: &mut ChunkNeighbors,
-        limits: NearLimits,
         motion: V,
         inputs: &StepInputs,
         (force, torque): (&mut [f64; CHUNK_FLAT], &mut [f64; CHUNK]),
     ) {
         let Self { pairs, rim, outlines, totals, remote, surfaces, scratch } = self;
         if neighbors.horizon.is_over() {
-            neighbors.refresh(motion, inputs, limits);
+            neighbors.refresh(motion, inputs);
         }
         remote.clear();
         let chunk = neighbors.particles.start / CHUNK as u32;
-        let sums = &mut ChunkSums::<V>::new(chunk, force, torque, remote);
-        pairs::evaluate(pairs, &mut neighbors.pairs, motion, inputs, sums, totals, scratch);
-        surfaces[0] = walls::evaluate_rim(rim, &mut neighbors.rim, motion, inputs, sums, totals, scratch);
+        let sums = ChunkSums::new(chunk, force, torque, remote);
+        let step = &mut ChunkStep { motion, inputs, sums, totals, scratch };
+        pairs::evaluate(pairs, &mut neighbors.pairs, step);
+        surfaces[0] = walls::evaluate_rim(rim, &mut neighbors.rim, step);
         if inputs.drum.surface_count() > 1 {
             surfaces[1..].fill(SurfaceLoad::default());
-            let features = &mut neighbors.features;
-            outlines::evaluate(outlines, features, motion, inputs, sums, totals, surfaces, scratch);
+            outlines::evaluate(outlines, &mut neighbors.features, step, surfaces);
         }
     }
 }

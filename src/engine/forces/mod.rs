@@ -12,10 +12,9 @@ mod totals;
 mod walls;
 
 pub use pass::{ForcePass, Lists, new_pass};
-pub use totals::{FoldedTotals, Totals};
+pub use totals::Totals;
 
 use crate::engine::contacts::{Geometry, ListKind, PairParameters};
-use crate::engine::simd::F64x4;
 use crate::physics::columns::Of;
 use crate::physics::contact::law::{BodyPair, ContactLaw};
 use crate::physics::contact::species::SpeciesTable;
@@ -23,28 +22,12 @@ use crate::physics::drum::Drum;
 use crate::physics::energy::SurfaceLoad;
 use crate::physics::vector::Rotation;
 
-/// The length of a step [s] and its inverse [1/s].
-#[derive(Debug, Clone, Copy)]
-pub struct StepTime {
-    /// Length; 0 where a load has just been started and has not moved yet.
-    pub step: f64,
-    /// Inverse of the length that steps have.
-    pub rate: f64,
-}
-
-impl StepTime {
-    /// Both, in lanes.
-    #[inline(always)]
-    pub fn lanes(self) -> [F64x4; 2] {
-        [F64x4::splat(self.step), F64x4::splat(self.rate)]
-    }
-}
-
 /// What is the same for all contacts of a step.
 #[derive(Debug, Clone, Copy)]
 pub struct StepInputs<'a> {
-    /// Length of the step.
-    pub time: StepTime,
+    /// Length of the step [s], 0 where a load has just been started and has not moved yet; inverse of the length that steps
+    /// have [1/s].
+    pub time: [f64; 2],
     /// Rim and outlines.
     pub drum: &'a Drum,
     /// The drum's rotation at the end of the step.

@@ -1,11 +1,41 @@
 //! Contacts that open and end, in an order that neither lists nor threads show in.
 
-use super::Bodies;
-use super::chunk::Ended;
+use super::chunk::{ChunkStep, Ended, Scratch};
+use super::{Bodies, Totals};
 use crate::engine::contacts::{ContactList, ContactRecord};
 use crate::engine::pair_list::{Neighbors, Opened};
-use crate::engine::simd::LANES;
+use crate::engine::simd::{F64x4, LANES};
 use crate::physics::contact::law::ContactLaw;
+
+impl<V> ChunkStep<'_, V> {
+    /// Makes contacts of neighbors that have begun to touch. Returns the sums to add to, none where the list is empty.
+    #[inline]
+    pub fn open<L: ContactLaw>(
+        &mut self,
+        list: &mut ContactList<L>,
+        neighbors: &mut Neighbors,
+    ) -> Option<Totals<F64x4>> {
+        let Scratch { opened, ended, .. } = &mut *self.scratch;
+        if !opened.is_empty() {
+            list.open(opened, neighbors, &self.inputs.bodies);
+        }
+        ended.clear(list.blocks.len());
+        (!list.is_empty()).then(|| self.totals.open())
+    }
+
+    /// Keeps the sums, of which depths are in units of `unit`, and takes out contacts that have ended.
+    #[inline]
+    pub fn close<L: ContactLaw>(
+        &mut self,
+        list: &mut ContactList<L>,
+        neighbors: &mut Neighbors,
+        sums: &Totals<F64x4>,
+        unit: f64,
+    ) {
+        self.totals.close(sums, unit);
+        list.close(&self.scratch.ended, neighbors);
+    }
+}
 
 impl<L: ContactLaw> ContactList<L> {
     /// Adds a contact as it is, at the end of the list; `place` is its place among the neighbors.
@@ -18,7 +48,7 @@ impl<L: ContactLaw> ContactList<L> {
         for index in 0..self.len() {
             let place = neighbors.place_of(self.key(index));
             neighbors.open(place);
-            *self.neighbor_mut(index) = place;
+            self.neighbors[index] = place;
         }
     }
 
@@ -48,9 +78,10 @@ impl<L: ContactLaw> ContactList<L> {
     #[cold]
     fn close_in(&mut self, blocks: &[u32], neighbors: &mut Neighbors) {
         for &block in blocks.iter().rev() {
+            let block = block as usize;
             for lane in (0..LANES).rev() {
-                let index = LANES * block as usize + lane;
-                if index < self.len() && self.overlap(index) == 0.0 {
+                let index = LANES * block + lane;
+                if index < self.len() && self.blocks[block].state.overlap[lane] == 0.0 {
                     let (key, place) = self.remove(index);
                     neighbors.release(key, place);
                 }

@@ -1,14 +1,12 @@
 //! Contacts of particles with edges and vertices of outlines, four at a time.
 
-use super::accumulate::ChunkSums;
-use super::chunk::Scratch;
-use super::totals::Totals;
-use super::walls::{ContactGeometry, FourBodies, advance};
+use super::chunk::{ChunkStep, Scratch};
+use super::walls::{ContactGeometry, advance};
 use super::{StepInputs, SurfaceLoad};
 use crate::engine::contacts::ContactList;
-use crate::engine::motion::{MotionView, offset};
+use crate::engine::motion::{MotionView, at_offset, offset};
 use crate::engine::pair_list::Neighbors;
-use crate::engine::simd::{F64x4, LANES, Vec2x4, lanes};
+use crate::engine::simd::{F64x4, LANES, Vec2x4, lanes, vectors};
 use crate::physics::contact::law::ContactLaw;
 use crate::physics::drum::RIM;
 use crate::physics::scalar::Scalar;
@@ -36,57 +34,53 @@ impl Spot {
 
 /// One step of the contacts with outlines: those that open, then all, then those that end. Adds what outlines do to the load to
 /// `surfaces`.
-#[allow(clippy::too_many_arguments)]
 pub fn evaluate<L: ContactLaw, V: MotionView>(
     list: &mut ContactList<L>,
     neighbors: &mut Neighbors,
-    motion: V,
-    inputs: &StepInputs,
-    sums: &mut ChunkSums<V>,
-    totals: &mut Totals,
+    step: &mut ChunkStep<V>,
     surfaces: &mut [SurfaceLoad],
-    scratch: &mut Scratch,
 ) {
-    find_spots(list, neighbors, motion, inputs, scratch);
-    let Scratch { spots, ended, .. } = scratch;
-    ended.clear(list.blocks());
-    let mut open_totals = totals.open();
+    find_spots(list, neighbors, step);
+    let Some(mut totals) = step.open(list, neighbors) else { return };
+    let ChunkStep { motion, inputs, sums, scratch: Scratch { spots, ended, .. }, .. } = &mut *step;
+    let motion = *motion;
+    for (particle, feature) in (spots.len()..list.len()).map(|index| list.key(index)) {
+        spots.push(Spot::of(particle, feature, motion, inputs).unwrap_or_default());
+    }
     let speed = F64x4::splat(inputs.angular_velocity);
     for (index, spots) in spots.chunks(LANES).enumerate() {
         let parameters = list.block_parameters(index);
         let (block, ids) = (&mut list.blocks[index], &list.ids[index]);
-        let bodies = FourBodies::gather(ids, motion);
+        let position = vectors(|lane| motion.position(ids.own[lane]));
         let spot = |lane: usize| spots.get(lane).copied().unwrap_or_default();
         let overlap = lanes(|lane| spot(lane).overlap);
         let normal = Vec2x4 { x: lanes(|lane| spot(lane).normal.x), y: lanes(|lane| spot(lane).normal.y) };
         let arm = parameters.1.radius - overlap.larger(F64x4::ZERO);
-        let point = bodies.position.plus(normal.scaled(arm));
+        let point = position.plus(normal.scaled(arm));
         let surface_rates = [speed * point.cross(normal), speed * point.dot(normal)];
         let geometry = ContactGeometry { normal, overlap, arm, surface_rates };
-        let totals = &mut open_totals;
-        let reaction =
-            advance::<L, V, true>(block, ids, &bodies, &geometry, &parameters, inputs, sums, totals);
-        let moments = (reaction.moment - bodies.position.cross(reaction.force)).to_array();
-        for (lane, force) in reaction.force.to_array().into_iter().enumerate().take(spots.len()) {
-            let surface = &mut surfaces[inputs.drum.surface_of(ids.other[lane])];
+        let forces =
+            advance::<L, V, true>(block, ids, &geometry, &parameters, motion, inputs, sums, &mut totals);
+        let moments = (forces.moment - position.cross(forces.force)).to_array();
+        for (lane, force) in forces.force.to_array().into_iter().enumerate().take(spots.len()) {
+            let surface = &mut surfaces[inputs.drum.surface_of(at_offset(ids.other[lane]))];
             let [x, y] = force.to_array();
             surface.force -= Vec2::new(x, y);
             surface.moment += moments[lane];
         }
-        ended.note(index, reaction.touching);
+        ended.note(index, forces.touching);
     }
-    totals.close(&open_totals, 1.0);
-    list.close(ended, neighbors);
+    step.close(list, neighbors, &totals, 1.0);
 }
 
-/// Where each contact meets the drum, the new ones last.
-fn find_spots<L: ContactLaw>(
+/// Where each contact meets the drum, and which neighbors have begun to touch.
+fn find_spots<L: ContactLaw, V: MotionView>(
     list: &mut ContactList<L>,
     neighbors: &mut Neighbors,
-    motion: impl MotionView,
-    inputs: &StepInputs,
-    Scratch { opened, spots, .. }: &mut Scratch,
+    step: &mut ChunkStep<V>,
 ) {
+    let (motion, inputs) = (step.motion, step.inputs);
+    let Scratch { opened, spots, .. } = &mut *step.scratch;
     spots.clear();
     for index in 0..list.len() {
         let (particle, feature) = list.key(index);
@@ -94,27 +88,16 @@ fn find_spots<L: ContactLaw>(
         let spot = spot.or_else(|| transfer_history(list, index, neighbors, motion, inputs));
         spots.push(spot.unwrap_or_default());
     }
-    for block in 0..neighbors.near.blocks().len() {
-        let touches = |lane: &usize| {
-            let (particle, feature) = neighbors.near.key(block, *lane);
+    neighbors.near.take_where(opened, |near| {
+        let touches = |&lane: &usize| {
+            let (particle, feature) = (at_offset(near.own[lane]), at_offset(near.other[lane]));
             feature != RIM
                 && Spot::of(particle, feature, motion, inputs).is_some_and(|spot| spot.overlap > 0.0)
         };
-        let touching = (0..LANES).filter(touches).fold(0, |bits, lane| bits | 1 << lane);
-        if touching != 0 {
-            neighbors.near.take(block, touching, opened);
-        }
-    }
+        (0..LANES).filter(touches).fold(0, |bits, lane| bits | 1 << lane)
+    });
     // A history may have passed to a feature in the meantime.
     opened.retain(|&(_, place)| neighbors.is_apart(place as usize));
-    if !opened.is_empty() {
-        let first = list.len();
-        list.open(opened, neighbors, &inputs.bodies);
-        spots.extend((first..list.len()).map(|index| {
-            let (particle, feature) = list.key(index);
-            Spot::of(particle, feature, motion, inputs).unwrap_or_default()
-        }));
-    }
 }
 
 /// Passes the history of a contact to the neighboring feature of the outline when a particle rolls from one to the other.
@@ -136,7 +119,7 @@ fn transfer_history<L: ContactLaw>(
             .filter(|spot| spot.overlap > 0.0)?;
         Some((place, spot))
     })?;
-    neighbors.release((particle, feature), list.neighbor(index));
+    neighbors.release((particle, feature), list.neighbors[index]);
     neighbors.open(successor as u32);
     list.pass_to(index, neighbors.pairs()[successor].1, successor as u32);
     Some(spot)

@@ -3,15 +3,12 @@
 //! Eight blocks go through the stages together: gathering the positions, root and division first, then law, work and
 //! scattering. The root of one block then overlaps with the work on others; in one stage each block waits for its own.
 
-use std::marker::PhantomData;
-
 use super::accumulate::ChunkSums;
-use super::chunk::{Ended, Scratch};
-use super::totals::{LaneTotals, Totals};
-use super::{StepInputs, StepTime, block};
+use super::chunk::{ChunkStep, Scratch};
+use super::{Totals, block};
 use crate::engine::contacts::{Block, ContactList, Geometry, Ids, ListParameters, PairParameters};
 use crate::engine::motion::{MotionView, at_offset};
-use crate::engine::pair_list::{NearBlock, Neighbors, Opened};
+use crate::engine::pair_list::{NearBlock, Neighbors};
 use crate::engine::simd::{F64x4, LANES, Vec2x4, differences, lanes};
 use crate::physics::columns::{Columns, Of};
 use crate::physics::contact::RelativeMotion;
@@ -22,7 +19,7 @@ use crate::physics::scalar::Scalar;
 const GROUP: usize = 8;
 
 /// Where the bodies of a block meet.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 struct ContactGeometry {
     normal: Vec2x4,
     /// Overlap; below zero where they are apart.
@@ -30,69 +27,40 @@ struct ContactGeometry {
 }
 
 /// Where the bodies of a group meet. Written before it is read; kept, since clearing it takes time.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct GroupGeometry([ContactGeometry; GROUP]);
-
-impl Default for GroupGeometry {
-    fn default() -> Self {
-        let zero = F64x4::ZERO;
-        Self([ContactGeometry { normal: Vec2x4 { x: zero, y: zero }, overlap: zero }; GROUP])
-    }
-}
 
 /// One step of the contacts between particles: those that open, then all, then those that end.
 pub fn evaluate<L: ContactLaw, V: MotionView>(
     list: &mut ContactList<L>,
     neighbors: &mut Neighbors,
-    motion: V,
-    inputs: &StepInputs,
-    sums: &mut ChunkSums<V>,
-    totals: &mut Totals,
-    scratch: &mut Scratch,
+    step: &mut ChunkStep<V>,
 ) {
-    let Scratch { opened, ended, group, .. } = scratch;
-    find_touching(neighbors, motion, inputs, opened);
-    if !opened.is_empty() {
-        list.open(opened, neighbors, &inputs.bodies);
-    }
-    if list.is_empty() {
-        return;
-    }
-    ended.clear(list.blocks());
-    let (time, mut lanes) = (inputs.time, totals.open());
+    find_touching(neighbors, step);
+    let Some(mut totals) = step.open(list, neighbors) else { return };
     let ContactList { ids, blocks, other_moments, parameters, .. } = list;
     let unit = match parameters {
         ListParameters::Same(same) => {
             let own = PairParameters::<L>::map(same, F64x4::splat);
-            let (of, moments) = (|_| own, other_moments.as_mut_slice());
-            if moments.is_empty() {
-                let pass = Pass::<L, _, _, false, false> { motion, time, parameters: of, law: PhantomData };
-                pass.run(ids, blocks, moments, sums, &mut lanes, group, ended);
+            if other_moments.is_empty() {
+                run::<L, V, false, false>(ids, blocks, other_moments, |_| own, step, &mut totals);
             } else {
-                let pass = Pass::<L, _, _, true, false> { motion, time, parameters: of, law: PhantomData };
-                pass.run(ids, blocks, moments, sums, &mut lanes, group, ended);
+                run::<L, V, true, false>(ids, blocks, other_moments, |_| own, step, &mut totals);
             }
             same.1.radius.min(same.1.other_radius)
         }
         ListParameters::Each(each) => {
             let of = |block: usize| PairParameters::<L>::map(&each[block], F64x4::new);
-            let pass = Pass::<L, _, _, true, true> { motion, time, parameters: of, law: PhantomData };
-            pass.run(ids, blocks, other_moments, sums, &mut lanes, group, ended);
+            run::<L, V, true, true>(ids, blocks, other_moments, of, step, &mut totals);
             1.0
         }
     };
-    totals.close(&lanes, unit);
-    list.close(ended, neighbors);
+    step.close(list, neighbors, &totals, unit);
 }
 
 /// Takes the pairs that touch out of the near list.
-fn find_touching(
-    neighbors: &mut Neighbors,
-    motion: impl MotionView,
-    inputs: &StepInputs,
-    opened: &mut Vec<Opened>,
-) {
-    let bodies = inputs.bodies;
+fn find_touching<V: MotionView>(neighbors: &mut Neighbors, step: &mut ChunkStep<V>) {
+    let (motion, bodies, opened) = (step.motion, step.inputs.bodies, &mut step.scratch.opened);
     let squared_distance = |near: &NearBlock| {
         let (own, other) = (|lane: usize| near.own[lane], |lane: usize| near.other[lane]);
         let apart = differences(|lane| motion.position(own(lane)), |lane| motion.position(other(lane)));
@@ -100,124 +68,117 @@ fn find_touching(
     };
     if let Some(radius) = bodies.radius {
         let reach = F64x4::splat((radius + radius) * (radius + radius));
-        neighbors.near.take_where(opened, |near| reach.simd_gt(squared_distance(near)));
+        neighbors.near.take_where(opened, |near| reach.simd_gt(squared_distance(near)).to_bitmask());
     } else {
         let radius = |offset: u32| bodies.radius_of(at_offset(offset));
         neighbors.near.take_where(opened, |near| {
             let reach = lanes(|lane| radius(near.own[lane]) + radius(near.other[lane]));
-            (reach * reach).simd_gt(squared_distance(near))
+            (reach * reach).simd_gt(squared_distance(near)).to_bitmask()
         });
     }
 }
 
 /// One pass over a list. With `BOTH`, moments on bodies j are kept apart from those on bodies i; with `MIXED`, radii differ,
 /// and depths are ratios.
-struct Pass<L, V, P, const BOTH: bool, const MIXED: bool>
-where
-    L: ContactLaw,
-    P: Fn(usize) -> Of<PairParameters<L>, F64x4>,
-{
-    motion: V,
-    time: StepTime,
-    parameters: P,
-    law: PhantomData<L>,
+#[inline(never)]
+fn run<L: ContactLaw, V: MotionView, const BOTH: bool, const MIXED: bool>(
+    ids: &[Ids],
+    blocks: &mut [Block<L>],
+    other_moments: &mut [[f64; LANES]],
+    parameters: impl Fn(usize) -> Of<PairParameters<L>, F64x4>,
+    step: &mut ChunkStep<V>,
+    totals: &mut Totals<F64x4>,
+) {
+    let ChunkStep { sums, scratch: Scratch { group: GroupGeometry(geometries), ended, .. }, .. } = step;
+    let (motion, time) = (step.motion, step.inputs.time);
+    for (group, (blocks, ids)) in blocks.chunks_mut(GROUP).zip(ids.chunks(GROUP)).enumerate() {
+        let first = GROUP * group;
+        contact_geometries(|block| parameters(first + block).1, ids, motion, geometries);
+        for (index, ((block, ids), geometry)) in blocks.iter_mut().zip(ids).zip(&*geometries).enumerate() {
+            let index = first + index;
+            let other = if BOTH { Some(&mut other_moments[index]) } else { None };
+            let touching = advance::<L, V, BOTH, MIXED>(
+                block,
+                ids,
+                geometry,
+                &parameters(index),
+                other,
+                motion,
+                time,
+                sums,
+                totals,
+            );
+            ended.note(index, touching);
+        }
+    }
 }
 
-impl<L, V, P, const BOTH: bool, const MIXED: bool> Pass<L, V, P, BOTH, MIXED>
-where
-    L: ContactLaw,
-    V: MotionView,
-    P: Fn(usize) -> Of<PairParameters<L>, F64x4>,
-{
-    #[allow(clippy::too_many_arguments)]
-    #[inline(never)]
-    fn run(
-        &self,
-        ids: &[Ids],
-        blocks: &mut [Block<L>],
-        other_moments: &mut [[f64; LANES]],
-        sums: &mut ChunkSums<V>,
-        totals: &mut LaneTotals,
-        GroupGeometry(geometries): &mut GroupGeometry,
-        ended: &mut Ended,
-    ) {
-        for (group, (blocks, ids)) in blocks.chunks_mut(GROUP).zip(ids.chunks(GROUP)).enumerate() {
-            let first = GROUP * group;
-            self.contact_geometries(first, ids, geometries);
-            for (index, ((block, ids), geometry)) in blocks.iter_mut().zip(ids).zip(&*geometries).enumerate()
-            {
-                let index = first + index;
-                let other = if BOTH { Some(&mut other_moments[index]) } else { None };
-                let touching =
-                    self.advance(block, ids, geometry, &(self.parameters)(index), other, sums, totals);
-                ended.note(index, touching);
-            }
-        }
+/// Where the bodies of some blocks meet. A function of its own, for which the registers suffice.
+#[inline(never)]
+fn contact_geometries(
+    radii: impl Fn(usize) -> Geometry<F64x4>,
+    ids: &[Ids],
+    motion: impl MotionView,
+    geometries: &mut [ContactGeometry; GROUP],
+) {
+    for (index, (ids, geometry)) in ids.iter().zip(geometries).enumerate() {
+        let Geometry { radius, other_radius } = radii(index);
+        let apart = between(ids, |particle| motion.position(particle));
+        let distance = apart.dot(apart).sqrt();
+        let normal = apart.scaled(F64x4::ONE / distance);
+        *geometry = ContactGeometry { normal, overlap: (radius + other_radius) - distance };
     }
+}
 
-    /// Where the bodies of some blocks meet, the first of which is `first`. A function of its own, for which the registers
-    /// suffice.
-    #[inline(never)]
-    fn contact_geometries(&self, first: usize, ids: &[Ids], geometries: &mut [ContactGeometry; GROUP]) {
-        for (index, (ids, geometry)) in ids.iter().zip(geometries).enumerate() {
-            let Geometry { radius, other_radius } = (self.parameters)(first + index).1;
-            let apart = between(ids, |particle| self.motion.position(particle));
-            let distance = apart.dot(apart).sqrt();
-            let normal = apart.scaled(F64x4::ONE / distance);
-            *geometry = ContactGeometry { normal, overlap: (radius + other_radius) - distance };
-        }
+/// One step of a block: relative motion, law, work, forces. Returns which lanes touch.
+#[inline(always)]
+#[allow(clippy::too_many_arguments)]
+fn advance<L: ContactLaw, V: MotionView, const BOTH: bool, const MIXED: bool>(
+    block: &mut Block<L>,
+    ids: &Ids,
+    &ContactGeometry { normal, overlap }: &ContactGeometry,
+    (law, geometry): &Of<PairParameters<L>, F64x4>,
+    other_moment: Option<&mut [f64; LANES]>,
+    view: V,
+    time: [f64; 2],
+    sums: &mut ChunkSums<V>,
+    totals: &mut Totals<F64x4>,
+) -> u32 {
+    let velocity = between(ids, |particle| view.velocity(particle));
+    let spin = lanes(|lane| view.angular_velocity(ids.own[lane]));
+    let other_spin = lanes(|lane| view.angular_velocity(ids.other[lane]));
+    // Bodies touch halfway into the overlap.
+    let half = overlap.larger(F64x4::ZERO) * 0.5;
+    let (arm, other_arm) = (geometry.radius - half, geometry.other_radius - half);
+    let turning = if BOTH { arm * spin + other_arm * other_spin } else { arm * (spin + other_spin) };
+    let motion = RelativeMotion {
+        overlap,
+        separation_rate: velocity.dot(normal),
+        slip_rate: normal.cross(velocity) - turning,
+        rolling_rate: spin - other_spin,
+    };
+    let step = block::evaluate::<L>(block, law, &motion, (normal, arm), time, totals);
+
+    let moment = step.moment;
+    let moment_on_other = if BOTH { other_arm * step.tangential - step.rolling_moment } else { moment };
+    // Each force is charged half of the displacement: the trapezoid of the step.
+    let both = Vec2x4 { x: step.force.x + step.last.force_x, y: step.force.y + step.last.force_y };
+    let mut power = both.dot(velocity);
+    if let Some(kept) = other_moment {
+        power += (moment + step.last.moment) * spin + (moment_on_other + F64x4::new(*kept)) * other_spin;
+        *kept = moment_on_other.to_array();
+    } else {
+        power += (moment + step.last.moment) * (spin + other_spin);
     }
-
-    /// One step of a block: relative motion, law, work, forces. Returns which lanes touch.
-    #[inline(always)]
-    #[allow(clippy::too_many_arguments)]
-    fn advance(
-        &self,
-        block: &mut Block<L>,
-        ids: &Ids,
-        &ContactGeometry { normal, overlap }: &ContactGeometry,
-        (law, geometry): &Of<PairParameters<L>, F64x4>,
-        other_moment: Option<&mut [f64; LANES]>,
-        sums: &mut ChunkSums<V>,
-        totals: &mut LaneTotals,
-    ) -> u32 {
-        let velocity = between(ids, |particle| self.motion.velocity(particle));
-        let spin = lanes(|lane| self.motion.angular_velocity(ids.own[lane]));
-        let other_spin = lanes(|lane| self.motion.angular_velocity(ids.other[lane]));
-        // Bodies touch halfway into the overlap.
-        let half = overlap.larger(F64x4::ZERO) * 0.5;
-        let (arm, other_arm) = (geometry.radius - half, geometry.other_radius - half);
-        let turning = if BOTH { arm * spin + other_arm * other_spin } else { arm * (spin + other_spin) };
-        let motion = RelativeMotion {
-            overlap,
-            separation_rate: velocity.dot(normal),
-            slip_rate: normal.cross(velocity) - turning,
-            rolling_rate: spin - other_spin,
-        };
-        let step = block::evaluate::<L>(block, law, &motion, (normal, arm), self.time, totals);
-
-        let moment = step.moment;
-        let moment_on_other = if BOTH { other_arm * step.tangential - step.rolling_moment } else { moment };
-        // Each force is charged half of the displacement: the trapezoid of the step.
-        let both = Vec2x4 { x: step.force.x + step.last.force_x, y: step.force.y + step.last.force_y };
-        let mut power = both.dot(velocity);
-        if let Some(kept) = other_moment {
-            power += (moment + step.last.moment) * spin + (moment_on_other + F64x4::new(*kept)) * other_spin;
-            *kept = moment_on_other.to_array();
-        } else {
-            power += (moment + step.last.moment) * (spin + other_spin);
-        }
-        totals.power -= power;
-        let depth =
-            if MIXED { overlap / geometry.radius.smaller(geometry.other_radius) } else { step.overlap };
-        totals.deepest = depth.larger(totals.deepest);
-        let (moments, other_moments) = (moment.to_array(), moment_on_other.to_array());
-        for (lane, force) in step.force.to_array().into_iter().enumerate() {
-            sums.subtract(ids.own[lane], force, moments[lane]);
-            sums.add(ids.other[lane], force, other_moments[lane]);
-        }
-        step.touching
+    totals.power -= power;
+    let depth = if MIXED { overlap / geometry.radius.smaller(geometry.other_radius) } else { step.overlap };
+    totals.deepest = depth.larger(totals.deepest);
+    let (moments, other_moments) = (moment.to_array(), moment_on_other.to_array());
+    for (lane, force) in step.force.to_array().into_iter().enumerate() {
+        sums.subtract(ids.own[lane], force, moments[lane]);
+        sums.add(ids.other[lane], force, other_moments[lane]);
     }
+    step.touching
 }
 
 /// What the vectors of bodies j have that those of bodies i have not.

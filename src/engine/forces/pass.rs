@@ -7,17 +7,18 @@
 use std::fmt::Debug;
 
 use super::chunk::Chunk;
-use super::totals::{FoldedTotals, Totals};
+use super::totals::Totals;
 use super::{Bodies, StepInputs};
-use crate::engine::contacts::ContactRecord;
+use crate::engine::contacts::{ContactRecord, NOT_LISTED};
 use crate::engine::motion::verlet::{DriftSums, Verlet, WHOLE};
-use crate::engine::motion::{Arrays, ChunkForces, MotionArrays, MovingArrays, with_arrays};
+use crate::engine::motion::{Arrays, MotionArrays, with_arrays};
 use crate::engine::pair_list::PairList;
-use crate::engine::parallel::{CHUNK, PerChunk, Threads, chunk_count};
+use crate::engine::parallel::{CHUNK, Threads, chunk_count};
 use crate::physics::columns::Columns;
 use crate::physics::contact::Stored;
 use crate::physics::contact::law::ContactLaw;
-use crate::physics::contact::model::{ForLaw, Model};
+use crate::physics::contact::model::{Model, with_law};
+use crate::physics::drum::RIM;
 use crate::physics::energy::SurfaceLoad;
 
 /// Contacts of pairs, and of particles with the drum, each in the order of their lists.
@@ -34,21 +35,27 @@ impl Lists {
     pub fn counts(&self) -> (usize, usize) {
         (self.pairs.len(), self.walls.len())
     }
+
+    /// The deepest contact: its overlap over the smaller radius, its bodies, and whether both are particles.
+    pub fn deepest(&self, radii: &[f64]) -> Option<(f64, (u32, u32), bool)> {
+        let radius = |particle: u32| radii[particle as usize];
+        let pairs = self.pairs.iter().map(|c| (c, radius(c.particle).min(radius(c.other)), true));
+        let all = pairs.chain(self.walls.iter().map(|c| (c, radius(c.particle), false)));
+        let ratios = all.map(|(c, radius, is_pair)| (c.overlap / radius, c.key(), is_pair));
+        ratios.max_by(|a, b| a.0.total_cmp(&b.0))
+    }
 }
 
 /// The pass over contacts, whatever their law.
 pub trait ForcePass: Debug + Send + Sync {
-    /// Evaluates every contact. The forces must be zero before.
-    fn evaluate(&mut self, list: &mut PairList, arrays: &mut Arrays, inputs: &StepInputs, threads: &Threads);
-
-    /// Evaluates every contact and moves the particles on: the second half of this step's kick, the first of the next one's,
-    /// and the drift. `sums` tells what each chunk did.
-    fn evaluate_and_advance(
+    /// Evaluates every contact; the forces must be zero before. With an integrator the particles are moved on: the second half of
+    /// this step's kick, the first of the next one's, and the drift, of which `sums` tells what each chunk did.
+    fn evaluate(
         &mut self,
         list: &mut PairList,
         arrays: &mut Arrays,
         inputs: &StepInputs,
-        verlet: &Verlet,
+        integrator: Option<&Verlet>,
         sums: &mut [DriftSums],
         threads: &Threads,
     );
@@ -63,7 +70,7 @@ pub trait ForcePass: Debug + Send + Sync {
     fn deepest(&self) -> f64;
 
     /// The sums for the ledger, which begin anew.
-    fn fold(&mut self) -> FoldedTotals;
+    fn fold(&mut self) -> Totals<f64>;
 
     /// These sums by chunk, as they are.
     fn totals(&self) -> Vec<Totals>;
@@ -89,20 +96,7 @@ pub trait ForcePass: Debug + Send + Sync {
 
 /// A pass for these particles, with the law that they need.
 pub fn new_pass(model: Model, surfaces: usize, bodies: &Bodies) -> Box<dyn ForcePass> {
-    model.make(NewPass { surfaces, bodies })
-}
-
-struct NewPass<'a> {
-    surfaces: usize,
-    bodies: &'a Bodies<'a>,
-}
-
-impl ForLaw for NewPass<'_> {
-    type Made = Box<dyn ForcePass>;
-
-    fn make<L: ContactLaw>(self) -> Self::Made {
-        Box::new(Pass::<L>::new(self.surfaces, self.bodies))
-    }
+    with_law!(model, L => Box::new(Pass::<L>::new(surfaces, bodies)))
 }
 
 #[derive(Debug, Clone)]
@@ -143,66 +137,46 @@ impl<L: ContactLaw> Pass<L> {
             self.chunks[sender as usize].remote.gather(chunk, own);
         }
     }
-
-    /// Evaluates the contacts of all chunks, on several threads where that pays; reactions are still to be gathered.
-    fn evaluate_chunks(
-        &mut self,
-        list: &mut PairList,
-        arrays: &mut impl MovingArrays,
-        inputs: &StepInputs,
-        threads: &Threads,
-    ) {
-        let limits = list.limits();
-        let (motion, ChunkForces { force, torque }) = arrays.lend();
-        let chunks = (PerChunk(&mut self.chunks), PerChunk(&mut list.chunks));
-        let work = (chunks, (PerChunk(&mut *force), PerChunk(&mut *torque)));
-        threads.for_each_chunk(self.count, work, &|((chunk, neighbors), (force, torque))| {
-            let PerChunk::<Chunk<L>>([chunk]) = chunk else { return };
-            // The arrays are longer than the load.
-            if let ([neighbors], [force, ..], [torque, ..]) = (neighbors.0, force.0, torque.0) {
-                chunk.evaluate(neighbors, limits, motion, inputs, (force, torque));
-            }
-        });
-    }
 }
 
 impl<L: ContactLaw> ForcePass for Pass<L> {
-    fn evaluate(&mut self, list: &mut PairList, arrays: &mut Arrays, inputs: &StepInputs, threads: &Threads) {
-        with_arrays!(arrays, arrays => {
-            self.evaluate_chunks(list, arrays, inputs, threads);
-            let work = arrays.part(0..self.count);
-            threads.for_each_chunk(self.count, work, &|mut own: MotionArrays| self.gather(&mut own));
-        });
-        self.add_up();
-    }
-
-    fn evaluate_and_advance(
+    fn evaluate(
         &mut self,
         list: &mut PairList,
         arrays: &mut Arrays,
         inputs: &StepInputs,
-        verlet: &Verlet,
+        integrator: Option<&Verlet>,
         sums: &mut [DriftSums],
         threads: &Threads,
     ) {
+        let advance = |own: MotionArrays, sums: &mut DriftSums| {
+            if let Some(verlet) = integrator {
+                *sums = verlet.advance::<WHOLE>(own);
+            }
+        };
         with_arrays!(arrays, arrays => if threads.serve(self.count) {
-            self.evaluate_chunks(list, arrays, inputs, threads);
-            let work = (arrays.part(0..self.count), PerChunk(&mut *sums));
-            threads.for_each_chunk(self.count, work, &|(mut own, sums): (MotionArrays, PerChunk<_>)| {
+            let (motion, forces) = arrays.lend();
+            // The arrays are longer than the load.
+            let own = forces.force.iter_mut().zip(forces.torque);
+            let chunks = self.chunks.iter_mut().zip(&mut list.chunks).zip(own);
+            threads.for_each(self.count, chunks, |((chunk, neighbors), own)| {
+                chunk.evaluate(neighbors, motion, inputs, own);
+            });
+            let chunks = arrays.part(0..self.count).chunks().zip(sums);
+            threads.for_each(self.count, chunks, |(mut own, sums)| {
                 self.gather(&mut own);
-                sums.set(verlet.advance::<WHOLE>(own));
+                advance(own, sums);
             });
         } else {
             // Chunk after chunk, and each is moved on while it is in the cache.
-            let limits = list.limits();
             for (index, sums) in sums.iter_mut().enumerate() {
                 let (motion, forces) = arrays.lend();
                 let own = (&mut forces.force[index], &mut forces.torque[index]);
-                self.chunks[index].evaluate(&mut list.chunks[index], limits, motion, inputs, own);
+                self.chunks[index].evaluate(&mut list.chunks[index], motion, inputs, own);
                 let first = index * CHUNK;
                 let mut own = arrays.part(first..self.count.min(first + CHUNK));
                 self.gather(&mut own);
-                *sums = verlet.advance::<WHOLE>(own);
+                advance(own, sums);
             }
         });
         self.add_up();
@@ -230,9 +204,9 @@ impl<L: ContactLaw> ForcePass for Pass<L> {
         self.chunks.iter().fold(0.0, |most, chunk| most.max(chunk.totals.deepest()))
     }
 
-    fn fold(&mut self) -> FoldedTotals {
+    fn fold(&mut self) -> Totals<f64> {
         let folded = self.chunks.iter_mut().map(|chunk| chunk.totals.fold());
-        folded.fold(FoldedTotals::default(), FoldedTotals::plus)
+        folded.fold(Totals::default(), Totals::plus)
     }
 
     fn totals(&self) -> Vec<Totals> {
@@ -247,7 +221,7 @@ impl<L: ContactLaw> ForcePass for Pass<L> {
 
     fn stored(&self) -> Stored<f64> {
         let mut sum = Stored::build(|_| 0.0);
-        for list in self.chunks.iter().flat_map(super::chunk::Chunk::lists) {
+        for list in self.chunks.iter().flat_map(Chunk::lists) {
             for (index, record) in list.records().enumerate() {
                 let (law, _) = list.parameters(index);
                 let stored = L::stored(&law, record.overlap, &record.history_of::<L>());
@@ -274,19 +248,21 @@ impl<L: ContactLaw> ForcePass for Pass<L> {
 
     fn insert(&mut self, contacts: &Lists, bodies: &Bodies) {
         for record in &contacts.pairs {
-            let chunk = &mut self.chunks[record.particle as usize / CHUNK];
-            chunk.insert_pair(record, bodies);
+            self.chunks[record.particle as usize / CHUNK].pairs.insert(record, NOT_LISTED, bodies);
         }
         for record in &contacts.walls {
-            let chunk = &mut self.chunks[record.particle as usize / CHUNK];
-            chunk.insert_wall(record, bodies);
+            let Chunk { rim, outlines, .. } = &mut self.chunks[record.particle as usize / CHUNK];
+            let list = if record.other == RIM { rim } else { outlines };
+            list.insert(record, NOT_LISTED, bodies);
         }
     }
 
     fn drain(&mut self) -> Lists {
         let lists = self.contacts();
-        for chunk in &mut self.chunks {
-            chunk.clear();
+        for list in self.chunks.iter_mut().flat_map(|own| [&mut own.pairs, &mut own.rim, &mut own.outlines]) {
+            while !list.is_empty() {
+                list.remove(list.len() - 1);
+            }
         }
         lists
     }

@@ -67,9 +67,8 @@ impl RemoteReactions {
         let Ok(index) = self.targets.binary_search(&(chunk as u32)) else { return };
         for reaction in &self.reactions[index] {
             let own = reaction.particle as usize - chunk * CHUNK;
-            let (Some(force), Some(torque)) = (arrays.force.get_mut(own), arrays.torque.get_mut(own)) else {
-                continue;
-            };
+            let ([.., forces], [.., torques]) = (&mut arrays.vectors, &mut arrays.scalars);
+            let (Some(force), Some(torque)) = (forces.get_mut(own), torques.get_mut(own)) else { continue };
             force[0] += reaction.force[0];
             force[1] += reaction.force[1];
             *torque += reaction.moment;

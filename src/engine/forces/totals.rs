@@ -3,69 +3,43 @@
 use serde::{Deserialize, Serialize};
 
 use crate::engine::simd::{F64x4, LANES, greatest, sum};
-use crate::physics::columns::Columns;
+use crate::physics::columns::{Columns, Field};
 use crate::physics::contact::Flows;
 use crate::physics::scalar::Scalar;
 
-/// Sums over contacts, lane by lane. They belong to the state: a checkpoint between two samples keeps them.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Totals {
+/// Sums over contacts: kept lane by lane, added to in registers, folded to numbers. They belong to the state: a checkpoint
+/// between two samples keeps them.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct Totals<T = [f64; LANES]> {
     /// Power that contacts take out of the particles, force at the start of a step and at its end added [W/m].
-    power: [f64; LANES],
+    pub power: T,
     /// Energy taken, flow by flow [J/m].
-    flows: [[f64; LANES]; Flows::NAMES.len()],
+    pub flows: Flows<T>,
     /// Greatest overlap over the smaller radius.
-    deepest: [f64; LANES],
+    pub deepest: T,
 }
 
-impl Default for Totals {
-    fn default() -> Self {
-        Self { power: [0.0; LANES], flows: [[0.0; LANES]; Flows::NAMES.len()], deepest: [0.0; LANES] }
+impl<T: Field> Totals<T> {
+    #[inline(always)]
+    fn map<U: Field>(&self, convert: impl Fn(T) -> U) -> Totals<U> {
+        let flows = Flows::map(&self.flows, &convert);
+        Totals { power: convert(self.power), flows, deepest: convert(self.deepest) }
     }
-}
-
-/// The same while they are added to.
-#[derive(Debug, Clone, Copy)]
-pub struct LaneTotals {
-    /// Power [W/m].
-    pub power: F64x4,
-    /// Energy taken [J/m].
-    pub flows: Flows<F64x4>,
-    /// Greatest depth, in any unit.
-    pub deepest: F64x4,
-}
-
-/// The sums, as the ledger takes them.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct FoldedTotals {
-    /// Power at the start and at the end of all steps [W/m].
-    pub power: f64,
-    /// Energy taken [J/m].
-    pub flows: Flows<f64>,
-    /// Greatest overlap over the smaller radius.
-    pub deepest: f64,
 }
 
 impl Totals {
     /// To be added to; depths begin anew, as they are in a unit of their own.
     #[inline(always)]
-    pub fn open(&self) -> LaneTotals {
-        LaneTotals {
-            power: F64x4::new(self.power),
-            flows: Flows::build(|flow| F64x4::new(self.flows[flow])),
-            deepest: F64x4::ZERO,
-        }
+    pub fn open(&self) -> Totals<F64x4> {
+        Totals { deepest: F64x4::ZERO, ..self.map(F64x4::new) }
     }
 
     /// Keeps them; depths are in units of `unit`.
     #[inline(always)]
-    pub fn close(&mut self, totals: &LaneTotals, unit: f64) {
-        self.power = totals.power.to_array();
-        for (flow, kept) in self.flows.iter_mut().enumerate() {
-            *kept = Flows::field(&totals.flows, flow).to_array();
-        }
+    pub fn close(&mut self, totals: &Totals<F64x4>, unit: f64) {
         let ratios = totals.deepest * F64x4::splat(1.0 / unit);
-        self.deepest = ratios.larger(F64x4::new(self.deepest)).to_array();
+        let deepest = ratios.larger(F64x4::new(self.deepest));
+        *self = Totals { deepest, ..*totals }.map(F64x4::to_array);
     }
 
     /// The greatest overlap over the smaller radius.
@@ -74,15 +48,13 @@ impl Totals {
     }
 
     /// The sums over the lanes, in their order; they begin anew.
-    pub fn fold(&mut self) -> FoldedTotals {
-        let Self { power, flows, .. } = *self;
+    pub fn fold(&mut self) -> Totals<f64> {
         let deepest = self.deepest();
-        *self = Self::default();
-        FoldedTotals { power: sum(power), flows: Flows::build(|flow| sum(flows[flow])), deepest }
+        Totals { deepest, ..std::mem::take(self).map(sum) }
     }
 }
 
-impl FoldedTotals {
+impl Totals<f64> {
     /// These and others.
     #[must_use]
     pub fn plus(self, other: Self) -> Self {
@@ -94,7 +66,7 @@ impl FoldedTotals {
     }
 }
 
-impl LaneTotals {
+impl Totals<F64x4> {
     /// Adds the flows of a set; the others are none.
     #[inline(always)]
     pub fn add_flows(&mut self, set: Flows<bool>, flows: &Flows<F64x4>) {

@@ -3,29 +3,20 @@
 use wide::f64x2;
 
 use super::accumulate::ChunkSums;
-use super::chunk::{Ended, Scratch};
-use super::totals::{LaneTotals, Totals};
-use super::{StepInputs, SurfaceLoad, block};
+use super::block::{self, BlockForces};
+use super::chunk::{ChunkStep, Scratch};
+use super::{StepInputs, SurfaceLoad, Totals};
 use crate::engine::contacts::{Block, ContactList, Ids, ListParameters, PairParameters};
 use crate::engine::motion::{MotionView, at_offset};
-use crate::engine::pair_list::{Neighbors, Opened};
-use crate::engine::simd::{F64x4, LANES, Vec2x4, lanes, rows, sum};
+use crate::engine::pair_list::Neighbors;
+use crate::engine::simd::{F64x4, LANES, Vec2x4, lanes, sum, vectors};
 use crate::physics::columns::{Columns, Of};
 use crate::physics::contact::RelativeMotion;
 use crate::physics::contact::law::ContactLaw;
 use crate::physics::scalar::Scalar;
 use crate::physics::vector::Vec2;
 
-/// Four particles at the drum.
-#[derive(Debug, Clone, Copy)]
-pub struct FourBodies {
-    /// Their centers [m].
-    pub position: Vec2x4,
-    velocity: Vec2x4,
-    spin: F64x4,
-}
-
-/// Where they meet it.
+/// Where four particles meet the drum.
 #[derive(Debug, Clone, Copy)]
 pub struct ContactGeometry {
     /// Towards the drum.
@@ -38,140 +29,98 @@ pub struct ContactGeometry {
     pub surface_rates: [F64x4; 2],
 }
 
-/// What four contacts do to the load.
-pub struct Reaction {
-    /// Force on the drum.
-    pub force: Vec2x4,
-    /// Moment on the particles about their centers.
-    pub moment: F64x4,
-    /// Which lanes touch.
-    pub touching: u32,
-}
-
 /// One step of the contacts with the rim: those that open, then all, then those that end. Returns what the rim does to the
 /// load.
 pub fn evaluate_rim<L: ContactLaw, V: MotionView>(
     list: &mut ContactList<L>,
     neighbors: &mut Neighbors,
-    motion: V,
-    inputs: &StepInputs,
-    sums: &mut ChunkSums<V>,
-    totals: &mut Totals,
-    scratch: &mut Scratch,
+    step: &mut ChunkStep<V>,
 ) -> SurfaceLoad {
-    let Scratch { opened, ended, .. } = scratch;
-    find_touching_rim(neighbors, motion, inputs, opened);
-    if !opened.is_empty() {
-        list.open(opened, neighbors, &inputs.bodies);
-    }
-    if list.is_empty() {
-        return SurfaceLoad::default();
-    }
-    ended.clear(list.blocks());
+    find_touching_rim(neighbors, step);
+    let Some(mut totals) = step.open(list, neighbors) else { return SurfaceLoad::default() };
     let ContactList { ids, blocks, parameters, .. } = list;
-    let mut lanes = totals.open();
     let (load, unit) = match parameters {
         ListParameters::Same(same) => {
             let own = PairParameters::<L>::map(same, F64x4::splat);
-            let load = rim_pass::<L, V, false>(ids, blocks, |_| own, motion, inputs, sums, &mut lanes, ended);
-            (load, same.1.radius)
+            (rim_pass::<L, V, false>(ids, blocks, |_| own, step, &mut totals), same.1.radius)
         }
         ListParameters::Each(each) => {
             let of = |block: usize| PairParameters::<L>::map(&each[block], F64x4::new);
-            (rim_pass::<L, V, true>(ids, blocks, of, motion, inputs, sums, &mut lanes, ended), 1.0)
+            (rim_pass::<L, V, true>(ids, blocks, of, step, &mut totals), 1.0)
         }
     };
-    totals.close(&lanes, unit);
-    list.close(ended, neighbors);
+    step.close(list, neighbors, &totals, unit);
     load
 }
 
 /// Takes the particles that touch the rim out of the near list.
-fn find_touching_rim(
-    neighbors: &mut Neighbors,
-    motion: impl MotionView,
-    inputs: &StepInputs,
-    opened: &mut Vec<Opened>,
-) {
-    let Some(rim) = inputs.drum.radius() else { return };
-    let bodies = inputs.bodies;
+fn find_touching_rim<V: MotionView>(neighbors: &mut Neighbors, step: &mut ChunkStep<V>) {
+    let (motion, bodies, opened) = (step.motion, step.inputs.bodies, &mut step.scratch.opened);
+    let Some(rim) = step.inputs.drum.radius() else { return };
     let same = bodies.radius.map(|radius| F64x4::splat((rim - radius) * (rim - radius)));
     neighbors.near.take_where(opened, |near| {
-        let position = Vec2x4::from_rows(rows(|lane| motion.position(near.own[lane])));
+        let position = vectors(|lane| motion.position(near.own[lane]));
         let free = same.unwrap_or_else(|| {
             let free = lanes(|lane| rim - bodies.radius_of(at_offset(near.own[lane])));
             free * free
         });
-        position.dot(position).simd_gt(free)
+        position.dot(position).simd_gt(free).to_bitmask()
     });
 }
 
 /// One pass over the contacts with the rim.
 #[inline(always)]
-#[allow(clippy::too_many_arguments)]
 fn rim_pass<L: ContactLaw, V: MotionView, const MIXED: bool>(
     ids: &[Ids],
     blocks: &mut [Block<L>],
     parameters: impl Fn(usize) -> Of<PairParameters<L>, F64x4>,
-    motion: V,
-    inputs: &StepInputs,
-    sums: &mut ChunkSums<V>,
-    totals: &mut LaneTotals,
-    ended: &mut Ended,
+    step: &mut ChunkStep<V>,
+    totals: &mut Totals<F64x4>,
 ) -> SurfaceLoad {
+    let ChunkStep { motion, inputs, sums, scratch: Scratch { ended, .. }, .. } = step;
+    let motion = *motion;
     let Some(rim) = inputs.drum.radius() else { return SurfaceLoad::default() };
     let zero = F64x4::ZERO;
-    let (mut moment, mut force) = (zero, Vec2x4 { x: zero, y: zero });
+    let (mut moment, mut force) = (zero, Vec2x4::default());
     let (rim, speed) = (F64x4::splat(rim), F64x4::splat(inputs.angular_velocity));
     for (index, (block, ids)) in blocks.iter_mut().zip(ids).enumerate() {
         let parameters = parameters(index);
-        let bodies = FourBodies::gather(ids, motion);
-        let distance = bodies.position.dot(bodies.position).sqrt();
+        let position = vectors(|lane| motion.position(ids.own[lane]));
+        let distance = position.dot(position).sqrt();
         let overlap = distance - (rim - parameters.1.radius);
         let arm = parameters.1.radius - overlap.larger(zero);
         let geometry = ContactGeometry {
-            normal: bodies.position.scaled(F64x4::ONE / distance),
+            normal: position.scaled(F64x4::ONE / distance),
             overlap,
             arm,
             // The rim moves along itself.
             surface_rates: [zero, speed * (distance + arm)],
         };
-        let reaction =
-            advance::<L, V, MIXED>(block, ids, &bodies, &geometry, &parameters, inputs, sums, totals);
-        moment += reaction.moment - bodies.position.cross(reaction.force);
-        force = force.plus(reaction.force);
-        ended.note(index, reaction.touching);
+        let step = advance::<L, V, MIXED>(block, ids, &geometry, &parameters, motion, inputs, sums, totals);
+        moment += step.moment - position.cross(step.force);
+        force = force.plus(step.force);
+        ended.note(index, step.touching);
     }
     let total = |lanes: F64x4| sum(lanes.to_array());
     SurfaceLoad { force: Vec2::new(-total(force.x), -total(force.y)), moment: total(moment) }
 }
 
-impl FourBodies {
-    /// Those of a block.
-    #[inline(always)]
-    pub fn gather(ids: &Ids, motion: impl MotionView) -> Self {
-        Self {
-            position: Vec2x4::from_rows(rows(|lane| motion.position(ids.own[lane]))),
-            velocity: Vec2x4::from_rows(rows(|lane| motion.velocity(ids.own[lane]))),
-            spin: lanes(|lane| motion.angular_velocity(ids.own[lane])),
-        }
-    }
-}
-
 /// One step of a block: relative motion, law, work on the particles, forces. With `MIXED`, radii differ, and depths are
-/// ratios.
+/// ratios. Returns what it does to the drum.
 #[allow(clippy::too_many_arguments)]
 #[inline(always)]
 pub fn advance<L: ContactLaw, V: MotionView, const MIXED: bool>(
     block: &mut Block<L>,
     ids: &Ids,
-    &FourBodies { velocity, spin, .. }: &FourBodies,
     geometry: &ContactGeometry,
     (law, radii): &Of<PairParameters<L>, F64x4>,
+    view: V,
     inputs: &StepInputs,
     sums: &mut ChunkSums<V>,
-    totals: &mut LaneTotals,
-) -> Reaction {
+    totals: &mut Totals<F64x4>,
+) -> BlockForces {
+    let velocity = vectors(|lane| view.velocity(ids.own[lane]));
+    let spin = lanes(|lane| view.angular_velocity(ids.own[lane]));
     let &ContactGeometry { normal, overlap, arm, surface_rates: [separation, sliding] } = geometry;
     let motion = RelativeMotion {
         overlap,
@@ -190,5 +139,5 @@ pub fn advance<L: ContactLaw, V: MotionView, const MIXED: bool>(
     for lane in 0..LANES {
         sums.subtract(ids.own[lane], forces[lane], moments[lane]);
     }
-    Reaction { force: step.force, moment: step.moment, touching: step.touching }
+    step
 }

@@ -4,7 +4,7 @@ pub mod verlet;
 
 use std::ops::Range;
 
-use crate::engine::parallel::{CHUNK, Chunked, chunk_count};
+use crate::engine::parallel::CHUNK;
 use crate::physics::particles::Particles;
 
 /// Numbers in the flat force array of a chunk.
@@ -31,69 +31,40 @@ pub fn at_offset(offset: u32) -> u32 {
 pub struct MotionArrays<'a> {
     /// The number of the first particle.
     pub first: usize,
-    /// Centers [m].
-    pub position: &'a mut [[f64; 2]],
-    /// Velocities [m/s].
-    pub velocity: &'a mut [[f64; 2]],
-    /// Angles [rad].
-    pub angle: &'a mut [f64],
-    /// Angular velocities [rad/s].
-    pub angular_velocity: &'a mut [f64],
-    /// Forces [N/m].
-    pub force: &'a mut [[f64; 2]],
-    /// Torques [N m/m].
-    pub torque: &'a mut [f64],
+    /// Centers [m], velocities [m/s], forces [N/m].
+    pub vectors: [&'a mut [[f64; 2]]; 3],
+    /// Angles [rad], angular velocities [rad/s], torques [N m/m].
+    pub scalars: [&'a mut [f64]; 3],
 }
 
 impl<'a> MotionArrays<'a> {
     /// Those of some particles.
     pub fn of(particles: &'a mut Particles) -> Self {
-        Self {
-            first: 0,
-            position: bytemuck::must_cast_slice_mut(&mut particles.positions),
-            velocity: bytemuck::must_cast_slice_mut(&mut particles.velocities),
-            angle: &mut particles.angles,
-            angular_velocity: &mut particles.angular_velocities,
-            force: bytemuck::must_cast_slice_mut(&mut particles.forces),
-            torque: &mut particles.torques,
+        let Particles { positions, velocities, forces, angles, angular_velocities, torques, .. } = particles;
+        let vectors = [positions, velocities, forces].map(|vectors| bytemuck::must_cast_slice_mut(vectors));
+        Self { first: 0, vectors, scalars: [angles, angular_velocities, torques].map(Vec::as_mut_slice) }
+    }
+
+    /// Those of each chunk; the first of these particles is the first of all.
+    pub fn chunks(self) -> impl Iterator<Item = Self> + Send {
+        let [positions, velocities, forces] = self.vectors.map(|values| values.chunks_mut(CHUNK));
+        let [angles, spins, torques] = self.scalars.map(|values| values.chunks_mut(CHUNK));
+        let chunks = positions.zip(velocities).zip(forces).zip(angles.zip(spins).zip(torques)).enumerate();
+        chunks.map(|(chunk, (((x, v), f), ((a, w), t)))| Self {
+            first: CHUNK * chunk,
+            vectors: [x, v, f],
+            scalars: [a, w, t],
+        })
+    }
+
+    /// Takes the values of others, of as many particles.
+    pub fn copy_from(&mut self, other: &MotionArrays) {
+        for (own, other) in self.vectors.iter_mut().zip(&other.vectors) {
+            own.copy_from_slice(other);
         }
-    }
-
-    fn copy_from(&mut self, other: &MotionArrays) {
-        self.position.copy_from_slice(other.position);
-        self.velocity.copy_from_slice(other.velocity);
-        self.force.copy_from_slice(other.force);
-        self.angle.copy_from_slice(other.angle);
-        self.angular_velocity.copy_from_slice(other.angular_velocity);
-        self.torque.copy_from_slice(other.torque);
-    }
-}
-
-impl Chunked for MotionArrays<'_> {
-    fn chunks(&self) -> usize {
-        chunk_count(self.position.len())
-    }
-
-    fn split(self, chunks: usize) -> (Self, Self) {
-        let middle = chunks * CHUNK;
-        let (position, more_position) = self.position.split_at_mut(middle);
-        let (velocity, more_velocity) = self.velocity.split_at_mut(middle);
-        let (angle, more_angle) = self.angle.split_at_mut(middle);
-        let (angular_velocity, more_angular_velocity) = self.angular_velocity.split_at_mut(middle);
-        let (force, more_force) = self.force.split_at_mut(middle);
-        let (torque, more_torque) = self.torque.split_at_mut(middle);
-        (
-            Self { first: self.first, position, velocity, angle, angular_velocity, force, torque },
-            Self {
-                first: self.first + middle,
-                position: more_position,
-                velocity: more_velocity,
-                angle: more_angle,
-                angular_velocity: more_angular_velocity,
-                force: more_force,
-                torque: more_torque,
-            },
-        )
+        for (own, other) in self.scalars.iter_mut().zip(&other.scalars) {
+            own.copy_from_slice(other);
+        }
     }
 }
 
@@ -156,18 +127,11 @@ impl Arrays {
             _ => Self::Large(FlatArrays::new(count, inside)),
         }
     }
-}
 
-/// Arrays that hold what moves of a load.
-pub trait MovingArrays {
-    /// How contacts read them.
-    type View<'a>: MotionView
-    where
-        Self: 'a;
-    /// How the particles move, to read; forces and torques by chunk, to write to.
-    fn lend(&mut self) -> (Self::View<'_>, ChunkForces<'_>);
-    /// The arrays of some of the particles.
-    fn part(&mut self, range: Range<usize>) -> MotionArrays<'_>;
+    /// The arrays of the first `count` particles.
+    pub fn motion(&mut self, count: usize) -> MotionArrays<'_> {
+        with_arrays!(self, arrays => arrays.part(0..count))
+    }
 }
 
 impl<const N: usize, const M: usize, const H: usize, const ONE_CHUNK: bool> FlatArrays<N, M, H, ONE_CHUNK> {
@@ -189,49 +153,23 @@ impl<const N: usize, const M: usize, const H: usize, const ONE_CHUNK: bool> Flat
         (three(vectors), three(scalars))
     }
 
-    /// Takes what moves from the particles.
-    pub fn load(&mut self, particles: &mut Particles) {
-        let count = particles.len();
-        self.part(0..count).copy_from(&MotionArrays::of(particles));
-    }
-
-    /// Brings it back to them.
-    pub fn store(&mut self, particles: &mut Particles) {
-        let count = particles.len();
-        MotionArrays::of(particles).copy_from(&self.part(0..count));
-    }
-
-    /// Brings the positions back to the particles.
-    pub fn store_positions(&mut self, particles: &mut Particles) {
-        let count = particles.len();
-        MotionArrays::of(particles).position.copy_from_slice(self.part(0..count).position);
-    }
-}
-
-impl<const N: usize, const M: usize, const H: usize, const ONE_CHUNK: bool> MovingArrays
-    for FlatArrays<N, M, H, ONE_CHUNK>
-{
-    type View<'a> = FlatView<'a, N, M, H, ONE_CHUNK>;
-
+    /// How the particles move, to read; forces and torques by chunk, to write to.
     #[inline(always)]
-    fn lend(&mut self) -> (Self::View<'_>, ChunkForces<'_>) {
+    pub fn lend(&mut self) -> (FlatView<'_, N, M, H, ONE_CHUNK>, ChunkForces<'_>) {
         let ([position, velocity, force], [_, angular_velocity, torque]) = self.split();
         let forces = ChunkForces { force: force.as_chunks_mut().0, torque: torque.as_chunks_mut().0 };
         (FlatView { position, velocity, angular_velocity }, forces)
     }
 
+    /// The arrays of some of the particles.
     #[inline(always)]
-    fn part(&mut self, range: Range<usize>) -> MotionArrays<'_> {
+    pub fn part(&mut self, range: Range<usize>) -> MotionArrays<'_> {
         let flat = 2 * range.start..2 * range.end;
-        let ([position, velocity, force], [angle, angular_velocity, torque]) = self.split();
+        let (vectors, scalars) = self.split();
         MotionArrays {
             first: range.start,
-            position: position[flat.clone()].as_chunks_mut().0,
-            velocity: velocity[flat.clone()].as_chunks_mut().0,
-            force: force[flat].as_chunks_mut().0,
-            angle: &mut angle[range.clone()],
-            angular_velocity: &mut angular_velocity[range.clone()],
-            torque: &mut torque[range],
+            vectors: vectors.map(|values| values[flat.clone()].as_chunks_mut().0),
+            scalars: scalars.map(|values| &mut values[range.clone()]),
         }
     }
 }

@@ -35,12 +35,13 @@ pub struct Verlet {
     time_step: f64,
     /// The velocity that gravity gives in half a step [m/s].
     half_gravity: [f64; 2],
-    inertias: Vec<BodyConstants>,
+    /// Of each particle, or of the first where they are equal.
+    bodies: Vec<BodyConstants>,
     are_equal: bool,
 }
 
 /// The constants of one particle.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 struct BodyConstants {
     mass: f64,
     /// Half a step over the mass.
@@ -49,37 +50,78 @@ struct BodyConstants {
     half_per_inertia: f64,
 }
 
+/// The constants of four particles; those of two vectors a row, for x and y.
+struct QuadConstants {
+    /// What positions are weighed with: the masses, or 1 where all are equal.
+    weights: [F64x4; 2],
+    half_per_mass: [F64x4; 2],
+    half_per_inertia: F64x4,
+}
+
 impl Verlet {
     /// For these particles.
     pub fn new(particles: &Particles, time_step: f64, gravity: Vec2) -> Self {
         let half = 0.5 * time_step;
         let per = |value: f64| if value > 0.0 { half / value } else { 0.0 };
-        let inertia = |(&mass, &inertia): (&f64, &f64)| BodyConstants {
+        let body = |(&mass, &inertia): (&f64, &f64)| BodyConstants {
             mass,
             half_per_mass: per(mass),
             half_per_inertia: per(inertia),
         };
-        let mut inertias: Vec<_> = particles.masses.iter().zip(&particles.inertias).map(inertia).collect();
-        let are_equal = inertias.windows(2).all(|two| two[0] == two[1]);
+        let mut bodies: Vec<_> = particles.masses.iter().zip(&particles.inertias).map(body).collect();
+        let are_equal = bodies.windows(2).all(|two| two[0] == two[1]);
         if are_equal {
-            inertias.truncate(1);
-            inertias.shrink_to_fit();
+            bodies.truncate(1);
+            bodies.shrink_to_fit();
         }
-        Self { time_step, half_gravity: [gravity.x * half, gravity.y * half], inertias, are_equal }
+        Self { time_step, half_gravity: [gravity.x * half, gravity.y * half], bodies, are_equal }
     }
 
     /// Moves a chunk's particles; `arrays` are theirs alone.
     pub fn advance<const PART: Part>(&self, arrays: MotionArrays) -> DriftSums {
-        match self.inertias.first() {
-            Some(&inertia) if self.are_equal => self.run::<PART>(&Same::new(inertia), arrays),
-            _ => self.run::<PART>(&Each(&self.inertias[arrays.first..]), arrays),
+        match self.bodies.first() {
+            Some(&body) if self.are_equal => {
+                let quad = |_| QuadConstants {
+                    weights: [F64x4::ONE; 2],
+                    half_per_mass: [F64x4::splat(body.half_per_mass); 2],
+                    half_per_inertia: F64x4::splat(body.half_per_inertia),
+                };
+                self.run::<PART>(arrays, quad, |_| body, body.mass)
+            }
+            _ => {
+                let bodies = &self.bodies[arrays.first..];
+                let quad = |quad: usize| {
+                    let [a, b, c, d] = std::array::from_fn(|lane| bodies[LANES * quad + lane]);
+                    let rows = |value: fn(BodyConstants) -> f64| {
+                        let row = |a, b| F64x4::new([value(a), value(a), value(b), value(b)]);
+                        [row(a, b), row(c, d)]
+                    };
+                    QuadConstants {
+                        weights: rows(|body| body.mass),
+                        half_per_mass: rows(|body| body.half_per_mass),
+                        half_per_inertia: F64x4::new([a, b, c, d].map(|body| body.half_per_inertia)),
+                    }
+                };
+                self.run::<PART>(arrays, quad, |particle| bodies[particle], 1.0)
+            }
         }
     }
 
-    fn run<const PART: Part>(&self, inertia: &impl EachBody, arrays: MotionArrays) -> DriftSums {
-        let MotionArrays { position, velocity, angle, angular_velocity, force, torque, .. } = arrays;
+    /// Moves them by the constants of quads, and of those after the last whole quad; sums of weighed positions are multiplied by
+    /// `mass`.
+    #[inline(always)]
+    fn run<const PART: Part>(
+        &self,
+        arrays: MotionArrays,
+        constants: impl Fn(usize) -> QuadConstants,
+        body: impl Fn(usize) -> BodyConstants,
+        mass: f64,
+    ) -> DriftSums {
+        let ([position, velocity, force], [angle, angular_velocity, torque]) =
+            (arrays.vectors, arrays.scalars);
         let (count, quads) = (position.len(), position.len() / LANES);
-        let mut sums = LaneSums::default();
+        // Σ x, or Σ m x where masses differ, x and y in turn; the greatest square of half a kick.
+        let (mut moments, mut greatest_square) = (F64x4::ZERO, F64x4::ZERO);
         {
             // Slices of one known length let the compiler drop the bounds checks.
             let position = &mut position.as_flattened_mut().as_chunks_mut::<{ 2 * LANES }>().0[..quads];
@@ -93,20 +135,24 @@ impl Verlet {
             for quad in 0..quads {
                 let (position, velocity, force) =
                     (&mut position[quad], &mut velocity[quad], &mut force[quad]);
-                let rows = [0, LANES].map(|row| {
-                    let half_per_mass = inertia.half_per_mass(quad, row / LANES);
-                    let [f, v, x] = [&*force, velocity, position].map(|values| F64x4::new(from(values, row)));
-                    let kick = f * half_per_mass + gravity;
+                let constants = constants(quad);
+                let squares = [0, 1].map(|row| {
+                    let start = LANES * row;
+                    let [f, v, x] =
+                        [&*force, velocity, position].map(|values| F64x4::new(from(values, start)));
+                    let kick = f * constants.half_per_mass[row] + gravity;
                     let (x, v) = kick_and_drift::<_, PART>(x, v, kick, step);
-                    put(velocity, row, v);
+                    put(velocity, start, v);
                     if PART & START != 0 {
-                        put(position, row, x);
-                        put(force, row, F64x4::ZERO);
+                        put(position, start, x);
+                        put(force, start, F64x4::ZERO);
                     }
-                    (kick, x)
+                    moments += x * constants.weights[row];
+                    kick * kick
                 });
-                sums.add(rows, inertia, quad);
-                let kick = F64x4::new(torque[quad]) * inertia.half_per_inertia(quad);
+                let squares = Vec2x4::from_rows(squares);
+                greatest_square = (squares.x + squares.y).larger(greatest_square);
+                let kick = F64x4::new(torque[quad]) * constants.half_per_inertia;
                 let (a, w) =
                     kick_and_drift::<_, PART>(F64x4::new(angle[quad]), F64x4::new(spin[quad]), kick, step);
                 spin[quad] = w.to_array();
@@ -116,10 +162,14 @@ impl Verlet {
                 }
             }
         }
-        let mut total = sums.total(inertia, self.time_step);
+        let [a, b, c, d] = moments.to_array();
+        let mut total = DriftSums {
+            mass_moment: [(a + c) * mass, (b + d) * mass],
+            change: 2.0 * self.time_step * greatest(greatest_square.to_array()).sqrt(),
+        };
         // Those after the last whole quad, one by one.
         for k in LANES * quads..count {
-            let BodyConstants { mass, half_per_mass, half_per_inertia } = inertia.of(k);
+            let BodyConstants { mass, half_per_mass, half_per_inertia } = body(k);
             let mut squared_kick = 0.0;
             for axis in 0..2 {
                 let kick = force[k][axis] * half_per_mass + self.half_gravity[axis];
@@ -158,123 +208,4 @@ fn from(values: &[f64; 2 * LANES], start: usize) -> [f64; LANES] {
 #[inline(always)]
 fn put(values: &mut [f64; 2 * LANES], start: usize, four: F64x4) {
     values[start..start + LANES].copy_from_slice(&four.to_array());
-}
-
-/// The constants of particles in a row.
-trait EachBody {
-    /// Those of one.
-    fn of(&self, particle: usize) -> BodyConstants;
-    /// Of two particles, for x and y.
-    fn half_per_mass(&self, quad: usize, row: usize) -> F64x4;
-    fn half_per_inertia(&self, quad: usize) -> F64x4;
-    /// Positions (two a row) times masses, where these differ.
-    fn weigh(&self, quad: usize, row: usize, position: F64x4) -> F64x4;
-    /// The mass where all have the same.
-    fn mass(&self) -> f64;
-}
-
-/// Equal particles.
-struct Same {
-    inertia: BodyConstants,
-    half_per_mass: F64x4,
-    half_per_inertia: F64x4,
-}
-
-impl Same {
-    fn new(inertia: BodyConstants) -> Self {
-        let [half_per_mass, half_per_inertia] =
-            [inertia.half_per_mass, inertia.half_per_inertia].map(F64x4::splat);
-        Self { inertia, half_per_mass, half_per_inertia }
-    }
-}
-
-impl EachBody for Same {
-    fn of(&self, _particle: usize) -> BodyConstants {
-        self.inertia
-    }
-
-    #[inline(always)]
-    fn half_per_mass(&self, _quad: usize, _row: usize) -> F64x4 {
-        self.half_per_mass
-    }
-
-    #[inline(always)]
-    fn half_per_inertia(&self, _quad: usize) -> F64x4 {
-        self.half_per_inertia
-    }
-
-    #[inline(always)]
-    fn weigh(&self, _quad: usize, _row: usize, position: F64x4) -> F64x4 {
-        position
-    }
-
-    fn mass(&self) -> f64 {
-        self.inertia.mass
-    }
-}
-
-/// Particles that differ.
-struct Each<'a>(&'a [BodyConstants]);
-
-impl Each<'_> {
-    #[inline(always)]
-    fn two(&self, quad: usize, row: usize, value: impl Fn(&BodyConstants) -> f64) -> F64x4 {
-        let first = LANES * quad + 2 * row;
-        let (a, b) = (value(&self.0[first]), value(&self.0[first + 1]));
-        F64x4::new([a, a, b, b])
-    }
-}
-
-impl EachBody for Each<'_> {
-    fn of(&self, particle: usize) -> BodyConstants {
-        self.0[particle]
-    }
-
-    #[inline(always)]
-    fn half_per_mass(&self, quad: usize, row: usize) -> F64x4 {
-        self.two(quad, row, |inertia| inertia.half_per_mass)
-    }
-
-    #[inline(always)]
-    fn half_per_inertia(&self, quad: usize) -> F64x4 {
-        let four = &self.0[LANES * quad..LANES * quad + LANES];
-        F64x4::new(std::array::from_fn(|lane| four[lane].half_per_inertia))
-    }
-
-    #[inline(always)]
-    fn weigh(&self, quad: usize, row: usize, position: F64x4) -> F64x4 {
-        position * self.two(quad, row, |inertia| inertia.mass)
-    }
-
-    fn mass(&self) -> f64 {
-        1.0
-    }
-}
-
-/// Sums over quads, lane by lane.
-#[derive(Debug, Default)]
-struct LaneSums {
-    /// Σ x, or Σ m x where masses differ; x and y in turn.
-    moments: F64x4,
-    /// The greatest square of half a kick.
-    squared_kick: F64x4,
-}
-
-impl LaneSums {
-    #[inline(always)]
-    fn add(&mut self, rows: [(F64x4, F64x4); 2], inertia: &impl EachBody, quad: usize) {
-        let [(kick, position), (other_kick, other)] = rows;
-        self.moments += inertia.weigh(quad, 0, position);
-        self.moments += inertia.weigh(quad, 1, other);
-        let squares = Vec2x4::from_rows([kick * kick, other_kick * other_kick]);
-        self.squared_kick = (squares.x + squares.y).larger(self.squared_kick);
-    }
-
-    fn total(&self, inertia: &impl EachBody, time_step: f64) -> DriftSums {
-        let ([a, b, c, d], mass) = (self.moments.to_array(), inertia.mass());
-        DriftSums {
-            mass_moment: [(a + c) * mass, (b + d) * mass],
-            change: 2.0 * time_step * greatest(self.squared_kick.to_array()).sqrt(),
-        }
-    }
 }

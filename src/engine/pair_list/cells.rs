@@ -1,7 +1,5 @@
 //! A uniform grid of cells, filled by counting sort.
 
-use std::ops::Range;
-
 use crate::engine::parallel::Threads;
 use crate::physics::vector::Vec2;
 
@@ -40,7 +38,7 @@ impl CellGrid {
         (self.origin, self.inverse_size) = (low, 1.0 / size);
         let mut cells = std::mem::take(&mut self.cells);
         cells.resize(positions.len(), 0);
-        threads.set_each(&mut cells, &|i| self.cell_of(positions[i]));
+        threads.set_each(&mut cells, |i| self.cell_of(positions[i]));
         self.cells = cells;
         self.sort(positions);
     }
@@ -75,13 +73,8 @@ impl CellGrid {
     pub fn around(&self, particle: usize) -> impl Iterator<Item = &(u32, Vec2)> {
         let cell = self.cells[particle] as usize;
         let rows = [cell - self.columns, cell, cell + self.columns];
-        rows.into_iter().flat_map(|middle| &self.members[self.row(middle)])
-    }
-
-    /// The members of three cells in a row, by the one in the middle.
-    #[inline]
-    fn row(&self, middle: usize) -> Range<usize> {
-        self.starts[middle - 1] as usize..self.starts[middle + 2] as usize
+        let members = |middle: usize| self.starts[middle - 1] as usize..self.starts[middle + 2] as usize;
+        rows.into_iter().flat_map(move |middle| &self.members[members(middle)])
     }
 }
 

@@ -5,11 +5,10 @@ use std::ops::Range;
 use super::horizon::{Horizon, STEPS};
 use super::near::Reach;
 use super::neighbors::Neighbors;
-use crate::engine::contacts::ListKind;
 use crate::engine::forces::StepInputs;
 use crate::engine::motion::{MotionView, far, inside, offset};
 use crate::engine::parallel::CHUNK;
-use crate::engine::simd::{ALL_LANES, F64x4, LANES, Vec2x4, greatest, lanes, rows};
+use crate::engine::simd::{ALL_LANES, F64x4, LANES, Vec2x4, greatest, lanes, vectors};
 use crate::physics::drum::RIM;
 use crate::physics::scalar::Scalar;
 use crate::physics::vector::Vec2;
@@ -31,40 +30,35 @@ pub struct ChunkNeighbors {
     pub horizon: Horizon,
     /// No particle of the chunk moves farther in a step, as seen from the drum [m].
     pub longest_displacement: f64,
-}
-
-/// What the near lists are made from, apart from the step's inputs.
-#[derive(Debug, Clone, Copy)]
-pub struct NearLimits {
     /// 1 / (distance + reach) for the farthest and largest pair of the list of neighbors, and slightly less [1/m].
-    pub inverse_sum: f64,
+    inverse_sum: f64,
 }
 
 impl ChunkNeighbors {
     /// For chunk `index` of `count` particles.
-    pub fn new(index: usize, count: usize) -> Self {
+    pub fn new(index: usize, count: usize, inverse_sum: f64) -> Self {
         let first = (index * CHUNK) as u32;
         let particles = first..(count.min((index + 1) * CHUNK)) as u32;
         Self {
-            pairs: Neighbors::new(ListKind::Pairs, (first, far(count))),
-            rim: Neighbors::new(ListKind::Walls, (inside(count), RIM)),
-            features: Neighbors::new(ListKind::Walls, (far(count), RIM)),
+            pairs: Neighbors::new((first, far(count))),
+            rim: Neighbors::new((inside(count), RIM)),
+            features: Neighbors::new((far(count), RIM)),
             watched: Vec::new(),
             horizon: Horizon::of(STEPS),
             longest_displacement: f64::INFINITY,
+            inverse_sum,
             particles,
         }
     }
 
     /// Makes the near lists anew.
     #[inline(never)]
-    pub fn refresh(&mut self, motion: impl MotionView, inputs: &StepInputs, limits: NearLimits) {
+    pub fn refresh(&mut self, motion: impl MotionView, inputs: &StepInputs) {
         self.horizon.restart();
-        let time = f64::from(self.horizon.steps()) * inputs.time.step;
+        let time = f64::from(self.horizon.steps()) * inputs.time[0];
         let reach = Reach {
-            radius: inputs.bodies.radius,
-            radii: inputs.bodies.radii,
-            inverse_sum: F64x4::splat(limits.inverse_sum),
+            bodies: inputs.bodies,
+            inverse_sum: F64x4::splat(self.inverse_sum),
             time: F64x4::splat(time),
             budget: F64x4::splat(self.horizon.budget()),
         };
@@ -122,25 +116,18 @@ impl ChunkNeighbors {
         let mut most = F64x4::ZERO;
         for first in self.particles.clone().step_by(LANES) {
             let (position, velocity) = gather(motion, |lane| (first + lane as u32).min(last));
-            most = squared_rate(position, velocity, speed).larger(most);
+            let seen = Vec2x4 { x: velocity.x + position.y * speed, y: velocity.y - position.x * speed };
+            most = seen.dot(seen).larger(most);
         }
-        greatest(most.to_array()).sqrt() * inputs.time.step
+        greatest(most.to_array()).sqrt() * inputs.time[0]
     }
 }
 
 /// Positions and velocities of four particles.
 #[inline(always)]
 fn gather(motion: impl MotionView, particle: impl Fn(usize) -> u32) -> (Vec2x4, Vec2x4) {
-    let position = rows(|lane| motion.position(offset(particle(lane))));
-    let velocity = rows(|lane| motion.velocity(offset(particle(lane))));
-    (Vec2x4::from_rows(position), Vec2x4::from_rows(velocity))
-}
-
-/// Squares of velocities as seen from a drum that turns at some speed.
-#[inline(always)]
-fn squared_rate(position: Vec2x4, velocity: Vec2x4, speed: F64x4) -> F64x4 {
-    let seen = Vec2x4 { x: velocity.x + position.y * speed, y: velocity.y - position.x * speed };
-    seen.dot(seen)
+    let at = |lane| offset(particle(lane));
+    (vectors(|lane| motion.position(at(lane))), vectors(|lane| motion.velocity(at(lane))))
 }
 
 /// Distances are taken slightly low, which covers round-off.

@@ -12,7 +12,7 @@ mod neighbors;
 mod search;
 
 use cells::CellGrid;
-pub use chunk::{ChunkNeighbors, NearLimits};
+pub use chunk::ChunkNeighbors;
 use horizon::Horizon;
 pub use near::{NearBlock, Opened};
 pub use neighbors::Neighbors;
@@ -46,8 +46,11 @@ pub struct PairList {
 impl PairList {
     /// A list for `count` particles with the margin `skin` [m] that asks to be built at once.
     pub fn new(count: usize, skin: f64, largest_radius: f64) -> Self {
+        // Within the list, a distance is at most the reach and the skin when it was built, and one skin more since.
+        let inverse_sum = ROUND_OFF / (4.0 * largest_radius + 2.0 * skin);
+        let chunk = |index| ChunkNeighbors::new(index, count, inverse_sum);
         Self {
-            chunks: (0..chunk_count(count)).map(|index| ChunkNeighbors::new(index, count)).collect(),
+            chunks: (0..chunk_count(count)).map(chunk).collect(),
             skin,
             largest_radius,
             anchors: Vec::new(),
@@ -56,12 +59,6 @@ impl PairList {
             last_turn: 0.0,
             grid: CellGrid::default(),
         }
-    }
-
-    /// What near lists are made from. Within the list, a distance is at most the reach and the skin when it was built, and
-    /// one skin more since.
-    pub fn limits(&self) -> NearLimits {
-        NearLimits { inverse_sum: ROUND_OFF / (4.0 * self.largest_radius + 2.0 * self.skin) }
     }
 
     /// Takes note of a drift, of which `sums` tells what each chunk's particles did, while the drum turned by `turn` [rad].
@@ -102,7 +99,7 @@ impl PairList {
         }
         let half = 0.5 * self.skin;
         let moved = |i: usize| [(rotation.apply_inverse(positions[i]) - self.anchors[i]).norm_squared()];
-        let [most] = threads.greatest(self.anchors.len(), &moved);
+        let [most] = threads.greatest(self.anchors.len(), moved);
         self.slack = half * ROUND_OFF - most.sqrt();
         // A list about to expire is not worth another look at every particle soon after.
         self.slack > 0.1 * half
@@ -146,17 +143,15 @@ impl PairList {
             let position = positions[i];
             [position.norm_squared(), -position.x, -position.y, position.x, position.y]
         };
-        let [farthest, left, low, right, high] = threads.greatest(positions.len(), &extremes);
+        let [farthest, left, low, right, high] = threads.greatest(positions.len(), extremes);
         self.farthest = farthest.sqrt();
         self.slack = 0.5 * self.skin * ROUND_OFF;
         self.anchors.resize(positions.len(), Vec2::zeros());
-        threads.set_each(&mut self.anchors, &|i| inputs.rotation.apply_inverse(positions[i]));
+        threads.set_each(&mut self.anchors, |i| inputs.rotation.apply_inverse(positions[i]));
         let bounds = (Vec2::new(-left, -low), Vec2::new(right, high));
         self.grid.fill(positions, bounds, 2.0 * self.largest_radius + self.skin, threads);
         let Self { chunks, grid, anchors, skin, .. } = self;
         let search = Search { grid, anchors, positions, skin: *skin };
-        threads.for_each(positions.len(), chunks.iter_mut(), &|chunk: &mut ChunkNeighbors| {
-            search.run(chunk, inputs);
-        });
+        threads.for_each(positions.len(), chunks.iter_mut(), |chunk| search.run(chunk, inputs));
     }
 }

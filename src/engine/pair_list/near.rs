@@ -6,7 +6,8 @@
 //! prunes its outer list to an inner one in the same way). No result depends on it, since a pair that is left out cannot
 //! touch before the list ends (`horizon`).
 
-use crate::engine::contacts::{ListKind, NOT_LISTED};
+use crate::engine::contacts::NOT_LISTED;
+use crate::engine::forces::Bodies;
 use crate::engine::motion::{MotionView, at_offset, offset};
 use crate::engine::simd::{ALL_LANES, F64x4, LANES, differences, lanes};
 use crate::physics::scalar::Scalar;
@@ -16,7 +17,7 @@ use crate::physics::scalar::Scalar;
 pub struct NearBlock {
     /// Offsets of bodies i.
     pub own: [u32; LANES],
-    /// Offsets of bodies j; at the drum, features.
+    /// Offsets of bodies j; features of the drum are doubled likewise.
     pub other: [u32; LANES],
     /// Their places among the neighbors.
     place: [u32; LANES],
@@ -28,7 +29,6 @@ pub struct NearBlock {
 pub struct NearList {
     blocks: Vec<NearBlock>,
     len: usize,
-    kind: ListKind,
     /// The bodies of a vacant lane.
     vacant: (u32, u32),
 }
@@ -38,8 +38,8 @@ pub type Opened = ((u32, u32), u32);
 
 impl NearList {
     /// An empty list; vacant lanes refer to the bodies `vacant`.
-    pub fn new(kind: ListKind, vacant: (u32, u32)) -> Self {
-        Self { blocks: Vec::new(), len: 0, kind, vacant }
+    pub fn new(vacant: (u32, u32)) -> Self {
+        Self { blocks: Vec::new(), len: 0, vacant }
     }
 
     /// Forgets all, keeping the memory.
@@ -48,60 +48,39 @@ impl NearList {
         self.len = 0;
     }
 
-    /// The pairs, four by four.
-    #[inline(always)]
-    pub fn blocks(&self) -> &[NearBlock] {
-        &self.blocks
-    }
-
     /// Appends a pair.
     #[inline]
     pub fn push(&mut self, (own, other): (u32, u32), place: u32) {
         let lane = self.len % LANES;
         if lane == 0 {
-            let (own, other) = self.encode(self.vacant);
-            self.blocks.push(NearBlock {
-                own: [own; LANES],
-                other: [other; LANES],
-                place: [NOT_LISTED; LANES],
-            });
+            let (own, other) = (offset(self.vacant.0), offset(self.vacant.1));
+            let (own, other) = ([own; LANES], [other; LANES]);
+            self.blocks.push(NearBlock { own, other, place: [NOT_LISTED; LANES] });
         }
-        let (own, other) = self.encode((own, other));
         if let Some(block) = self.blocks.last_mut() {
-            (block.own[lane], block.other[lane], block.place[lane]) = (own, other, place);
+            (block.own[lane], block.other[lane], block.place[lane]) = (offset(own), offset(other), place);
         }
         self.len += 1;
     }
 
-    fn encode(&self, (own, other): (u32, u32)) -> (u32, u32) {
-        (offset(own), self.kind.encode(other))
-    }
-
-    /// The bodies of one lane of a block.
-    pub fn key(&self, block: usize, lane: usize) -> (u32, u32) {
-        let block = &self.blocks[block];
-        (at_offset(block.own[lane]), self.kind.decode(block.other[lane]))
-    }
-
-    /// Takes out the pairs for which a mask of each block holds.
+    /// Takes out the pairs that touch, which each block tells by bits.
     #[inline(always)]
-    pub fn take_where(&mut self, opened: &mut Vec<Opened>, touching: impl Fn(&NearBlock) -> F64x4) {
+    pub fn take_where(&mut self, opened: &mut Vec<Opened>, touching: impl Fn(&NearBlock) -> u32) {
         for block in 0..self.blocks.len() {
-            let touching = touching(&self.blocks[block]).to_bitmask();
+            let touching = touching(&self.blocks[block]);
             if touching != 0 {
                 self.take(block, touching, opened);
             }
         }
     }
 
-    /// Takes out the pairs of a block that touch, given as bits.
     #[cold]
     #[inline(never)]
-    pub fn take(&mut self, block: usize, touching: u32, opened: &mut Vec<Opened>) {
-        let vacant = self.encode(self.vacant);
+    fn take(&mut self, block: usize, touching: u32, opened: &mut Vec<Opened>) {
+        let vacant = (offset(self.vacant.0), offset(self.vacant.1));
         for lane in (0..LANES).filter(|lane| touching >> lane & 1 == 1) {
-            let key = self.key(block, lane);
             let block = &mut self.blocks[block];
+            let key = (at_offset(block.own[lane]), at_offset(block.other[lane]));
             opened.push((key, block.place[lane]));
             (block.own[lane], block.other[lane]) = vacant;
             block.place[lane] = NOT_LISTED;
@@ -117,10 +96,8 @@ impl NearList {
 /// When two particles count as near.
 #[derive(Debug, Clone, Copy)]
 pub struct Reach<'a> {
-    /// The radius [m] where all have the same.
-    pub radius: Option<f64>,
-    /// The radii [m].
-    pub radii: &'a [f64],
+    /// What the particles are.
+    pub bodies: Bodies<'a>,
     /// 1 / (distance + reach) for the farthest and largest pair of the list of neighbors, and slightly less [1/m].
     pub inverse_sum: F64x4,
     /// The time for which the list is made [s].
@@ -136,26 +113,15 @@ impl Reach<'_> {
         let (own, other) = (|lane: usize| offset(pairs[lane].0), |lane: usize| offset(pairs[lane].1));
         let apart = differences(|lane| motion.position(own(lane)), |lane| motion.position(other(lane)));
         let velocity = differences(|lane| motion.velocity(own(lane)), |lane| motion.velocity(other(lane)));
-        let distance = self.of(|lane| pairs[lane]);
+        let radius = |particle| self.bodies.radius_of(particle);
+        let distance = match self.bodies.radius {
+            Some(radius) => F64x4::splat(radius + radius),
+            None => lanes(|lane| radius(pairs[lane].0) + radius(pairs[lane].1)),
+        };
         // The gap is (d² − reach²) / (d + reach). The approach is over d, which is no less than the reach.
         let excess = apart.dot(apart) - distance * distance;
         let gap = excess.larger(F64x4::ZERO) * self.inverse_sum;
         let approach = -(apart.dot(velocity)) * (self.time / distance);
         !gap.exceeds(approach.larger(F64x4::ZERO) + self.budget).to_bitmask() & ALL_LANES
-    }
-
-    /// The sums of the radii of four pairs.
-    #[inline(always)]
-    fn of(&self, pair: impl Fn(usize) -> (u32, u32)) -> F64x4 {
-        match self.radius {
-            Some(radius) => F64x4::splat(radius + radius),
-            // Vacant lanes refer to bodies that are no particles.
-            None => lanes(|lane| {
-                let (own, other) = pair(lane);
-                let radius = |particle: u32| self.radii.get(particle as usize).copied().unwrap_or_default();
-                let sum = radius(own) + radius(other);
-                if sum > 0.0 { sum } else { 1.0 }
-            }),
-        }
     }
 }

@@ -1,45 +1,36 @@
 //! The neighbors of a chunk's particles: which pairs may touch while the list holds, whether they do, and which are near.
 
 use super::near::{NearList, Reach};
-use crate::engine::contacts::{ListKind, NOT_LISTED};
+use crate::engine::contacts::NOT_LISTED;
 use crate::engine::motion::MotionView;
 use crate::engine::simd::LANES;
-
-/// What is known of two neighbors.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[repr(u8)]
-pub enum Status {
-    /// They do not touch.
-    Apart,
-    /// They are a contact.
-    Contact,
-}
 
 /// Pairs of bodies near each other, in key order.
 #[derive(Debug, Clone)]
 pub struct Neighbors {
     pairs: Vec<(u32, u32)>,
-    status: Vec<Status>,
+    /// Whether each has not begun to touch.
+    are_apart: Vec<bool>,
     /// Those that may touch within the next steps.
     pub near: NearList,
 }
 
 impl Neighbors {
     /// None yet; vacant lanes of the near list refer to the bodies `vacant`.
-    pub fn new(kind: ListKind, vacant: (u32, u32)) -> Self {
-        Self { pairs: Vec::new(), status: Vec::new(), near: NearList::new(kind, vacant) }
+    pub fn new(vacant: (u32, u32)) -> Self {
+        Self { pairs: Vec::new(), are_apart: Vec::new(), near: NearList::new(vacant) }
     }
 
     /// Forgets all, keeping the memory.
     pub fn clear(&mut self) {
         self.pairs.clear();
-        self.status.clear();
+        self.are_apart.clear();
     }
 
     /// Appends a pair of the greatest key so far, or of its owner: `sort_from` then brings these in order.
     pub fn push(&mut self, own: u32, other: u32) {
         self.pairs.push((own, other));
-        self.status.push(Status::Apart);
+        self.are_apart.push(true);
     }
 
     /// Brings the pairs from `start` on in order.
@@ -55,20 +46,20 @@ impl Neighbors {
     /// Whether the pair at a place is no contact; false where there is no such place.
     #[inline]
     pub fn is_apart(&self, place: usize) -> bool {
-        self.status.get(place) == Some(&Status::Apart)
+        self.are_apart.get(place) == Some(&true)
     }
 
     /// Takes note that the pair at a place, if it is listed, is a contact.
     pub fn open(&mut self, place: u32) {
         if place != NOT_LISTED {
-            self.status[place as usize] = Status::Contact;
+            self.are_apart[place as usize] = false;
         }
     }
 
     /// Takes note that the pair at a place, if it is listed, has parted: it may touch again at once.
     pub fn release(&mut self, key: (u32, u32), place: u32) {
         if place != NOT_LISTED {
-            self.status[place as usize] = Status::Apart;
+            self.are_apart[place as usize] = true;
             self.near.push(key, place);
         }
     }

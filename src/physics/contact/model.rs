@@ -2,7 +2,6 @@
 
 use super::adhesion::Adhesion;
 use super::hertz::Hertz;
-use super::law::ContactLaw;
 use super::linear::Linear;
 use super::parameters::{Base, ContactParameters};
 use super::rolling::RollingResistance;
@@ -24,14 +23,6 @@ pub type BareHertzLaw = Hertz;
 /// Hertz–Mindlin with the terms that do not go with the tangential stiffness.
 pub type FullHertzLaw = (Hertz, Adhesion);
 
-/// What is made for a law, once it is known which.
-pub trait ForLaw {
-    /// What comes of it.
-    type Made;
-    /// Makes it for a law.
-    fn make<L: ContactLaw>(self) -> Self::Made;
-}
-
 /// Which law a simulation has. Chosen once: a term that is 0 for every pair costs nothing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Model {
@@ -48,17 +39,6 @@ pub enum Model {
 }
 
 impl Model {
-    /// Makes what is to be made for this law.
-    pub fn make<F: ForLaw>(self, for_law: F) -> F::Made {
-        match self {
-            Self::Bare => for_law.make::<BareLaw>(),
-            Self::Clipped => for_law.make::<ClippedLaw>(),
-            Self::Full => for_law.make::<FullLaw>(),
-            Self::Hertz => for_law.make::<BareHertzLaw>(),
-            Self::FullHertz => for_law.make::<FullHertzLaw>(),
-        }
-    }
-
     /// The simplest one that does what the table asks for.
     pub fn of(table: &SpeciesTable) -> Self {
         let has_terms = table.all().any(ContactParameters::has_terms);
@@ -71,3 +51,33 @@ impl Model {
         }
     }
 }
+
+/// Does the same with the law of any model.
+macro_rules! with_law {
+    ($model:expr, $law:ident => $work:expr) => {{
+        use $crate::physics::contact::model as laws;
+        match $model {
+            laws::Model::Bare => {
+                type $law = laws::BareLaw;
+                $work
+            }
+            laws::Model::Clipped => {
+                type $law = laws::ClippedLaw;
+                $work
+            }
+            laws::Model::Full => {
+                type $law = laws::FullLaw;
+                $work
+            }
+            laws::Model::Hertz => {
+                type $law = laws::BareHertzLaw;
+                $work
+            }
+            laws::Model::FullHertz => {
+                type $law = laws::FullHertzLaw;
+                $work
+            }
+        }
+    }};
+}
+pub(crate) use with_law;

@@ -22,10 +22,7 @@ impl SpeciesTable {
         Self { count, pairs: vec![bundle.clone(); count * count], walls: vec![drum.clone(); count] }
     }
 
-    /// Sets what acts between two species, in either order.
-    ///
-    /// # Errors
-    /// `Error::Config` where there is no such species.
+    /// Sets what acts between two species, in either order; refuses one that is not there.
     pub fn set_pair(&mut self, one: u16, other: u16, parameters: &ContactParameters) -> Result<(), Error> {
         let (a, b) = (self.index(one)?, self.index(other)?);
         self.pairs[a * self.count + b] = parameters.clone();
@@ -33,10 +30,7 @@ impl SpeciesTable {
         Ok(())
     }
 
-    /// Sets what acts between a species and the drum.
-    ///
-    /// # Errors
-    /// `Error::Config` where there is no such species.
+    /// Sets what acts between a species and the drum; refuses one that is not there.
     pub fn set_wall(&mut self, species: u16, parameters: &ContactParameters) -> Result<(), Error> {
         let index = self.index(species)?;
         self.walls[index] = parameters.clone();

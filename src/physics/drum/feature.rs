@@ -16,6 +16,8 @@ pub(super) struct Feature {
     pub(super) shape: FeatureShape,
     /// The edges of a vertex, the vertices of an edge.
     pub(super) links: Box<[FeatureId]>,
+    /// The surface that it is part of.
+    pub(super) surface: usize,
 }
 
 /// A feature with all that its proximity needs.

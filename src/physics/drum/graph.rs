@@ -1,7 +1,6 @@
 //! What outlines are made of: vertices, and straight edges between them.
 
 use super::segment::Segment;
-use super::union_find::UnionFind;
 use crate::physics::vector::Vec2;
 
 /// Vertices and the edges between them: a polygon, a polyline, or walls that meet in any number at a vertex.
@@ -15,6 +14,8 @@ pub(super) struct Graph {
     pub(super) segments: Vec<Segment>,
     /// For each vertex its edges: first those that end there, then those that start there.
     pub(super) incidences: Vec<Vec<Incidence>>,
+    /// Whether it is a closed polygon, counter-clockwise, felt from outside only; others are lines felt from both sides.
+    pub(super) is_solid: bool,
 }
 
 /// A directed straight edge.
@@ -50,6 +51,7 @@ impl Incidence {
 }
 
 impl Graph {
+    /// Lines without thickness.
     pub(super) fn new(vertices: Vec<Vec2>, edges: Vec<GraphEdge>) -> Self {
         let segment = |edge: &GraphEdge| Segment::new(vertices[edge.ends[0]], vertices[edge.ends[1]]);
         let segments = edges.iter().map(segment).collect();
@@ -59,14 +61,14 @@ impl Graph {
                 incidences[edge.ends[end]].push(Incidence { edge: index, end });
             }
         }
-        Self { vertices, edges, segments, incidences }
+        Self { vertices, edges, segments, incidences, is_solid: false }
     }
 
-    /// A closed polygon, part of one surface.
-    pub(super) fn polygon(vertices: Vec<Vec2>, surface: usize) -> Self {
+    /// A solid, part of one surface.
+    pub(super) fn solid(vertices: Vec<Vec2>, surface: usize) -> Self {
         let count = vertices.len();
         let edge = |index: usize| GraphEdge { ends: [index, (index + 1) % count], surface };
-        Self::new(vertices, (0..count).map(edge).collect())
+        Self { is_solid: true, ..Self::new(vertices, (0..count).map(edge).collect()) }
     }
 
     /// The vector of an edge, from the end that is seen to the other one.
@@ -116,6 +118,41 @@ impl Graph {
             edges.push(GraphEdge { ends, surface });
         }
         components.into_iter().map(|(vertices, edges)| Self::new(vertices, edges)).collect()
+    }
+}
+
+/// Disjoint sets of the numbers 0, 1, … (union-find): points that coincide, edges that hang together. The least member stands for
+/// its set.
+#[derive(Debug, Clone, Default)]
+pub(super) struct UnionFind {
+    parents: Vec<usize>,
+}
+
+impl UnionFind {
+    /// `count` sets of one member each.
+    pub(super) fn new(count: usize) -> Self {
+        Self { parents: (0..count).collect() }
+    }
+
+    /// Adds the next number as a set of its own.
+    pub(super) fn push(&mut self) {
+        self.parents.push(self.parents.len());
+    }
+
+    /// The least member of the set that `member` belongs to.
+    pub(super) fn find(&mut self, mut member: usize) -> usize {
+        while self.parents[member] != member {
+            // Halves the path, so that later walks are short.
+            self.parents[member] = self.parents[self.parents[member]];
+            member = self.parents[member];
+        }
+        member
+    }
+
+    /// Makes one set of the sets of `a` and `b`.
+    pub(super) fn unite(&mut self, a: usize, b: usize) {
+        let (a, b) = (self.find(a), self.find(b));
+        self.parents[a.max(b)] = a.min(b);
     }
 }
 

@@ -1,5 +1,5 @@
-//! The drum in its own frame: a rim, handled analytically, and outlines (baffles, straight walls), queried
-//! with parry2d.
+//! The drum in its own frame: a rim, handled analytically, and outlines (baffles, straight walls), whose edges are
+//! queried with parry2d.
 //!
 //! A `Drum` never moves; `rotation` says how its frame turns. What a disc can touch is counted in features:
 //! the rim, and every edge and vertex of the outlines. Each contact belongs to one of them. Walls that meet are
@@ -14,7 +14,6 @@ mod outline;
 mod parameters;
 mod polygon;
 mod segment;
-mod union_find;
 mod validate;
 mod visibility;
 
@@ -22,7 +21,7 @@ use crate::error::Error;
 use crate::physics::vector::Vec2;
 use feature::{Feature, FeatureShape};
 use graph::Graph;
-use outline::{Kind, Outline};
+use outline::Outline;
 pub use parameters::DrumParameters;
 use polygon::length;
 use segment::Segment;
@@ -54,8 +53,6 @@ pub struct Drum {
     outlines: Vec<Outline>,
     /// All features by id.
     features: Vec<Feature>,
-    /// The surface of each.
-    surfaces: Vec<u32>,
     /// The edges of all outlines.
     segments: Vec<Segment>,
     /// Every baffle lies at least this far [m] from the axis.
@@ -73,26 +70,23 @@ impl Drum {
             baffle_count: baffles.len(),
             shapes: baffles.iter().cloned().chain(walls).collect(),
             outlines: Vec::new(),
-            features: vec![Feature { shape: FeatureShape::Rim, links: [].into() }],
-            surfaces: vec![0],
+            features: vec![Feature { shape: FeatureShape::Rim, links: [].into(), surface: 0 }],
             segments: Vec::new(),
             free_radius: f64::INFINITY,
         };
         for (index, points) in baffles.into_iter().enumerate() {
-            drum.push(&Graph::polygon(points, 1 + index), Kind::Solid);
+            drum.push(&Graph::solid(points, 1 + index));
         }
         let clearances = drum.outlines.iter().map(|baffle| baffle.signed_distance(Vec2::zeros()));
         drum.free_radius = clearances.fold(f64::INFINITY, f64::min);
-        parameters.joined_walls()?.iter().for_each(|walls| drum.push(walls, Kind::Wall));
+        parameters.joined_walls()?.iter().for_each(|walls| drum.push(walls));
         Ok(drum)
     }
 
     /// Appends an outline.
-    fn push(&mut self, graph: &Graph, kind: Kind) {
-        let (outline, features, surfaces) =
-            Outline::new(graph, kind, self.feature_count(), self.segments.len() as u32);
+    fn push(&mut self, graph: &Graph) {
+        let (outline, features) = Outline::new(graph, self.feature_count(), self.segments.len() as u32);
         self.features.extend(features);
-        self.surfaces.extend(surfaces);
         self.segments.extend_from_slice(outline.segments());
         self.outlines.push(outline);
     }
@@ -137,7 +131,7 @@ impl Drum {
     /// walls meet is part of the first of them.
     #[inline]
     pub fn surface_of(&self, feature: FeatureId) -> usize {
-        self.surfaces.get(feature as usize).map_or(0, |&surface| surface as usize)
+        self.features.get(feature as usize).map_or(0, |feature| feature.surface)
     }
 
     /// What users call a surface: "rim", "baffle 1", "wall 2".

@@ -6,10 +6,9 @@
 
 use std::collections::BTreeSet;
 
-use super::graph::{Graph, GraphEdge};
+use super::graph::{Graph, GraphEdge, UnionFind};
 use super::polygon::length;
 use super::segment::{Segment, SegmentRegion};
-use super::union_find::UnionFind;
 use crate::error::Error;
 use crate::physics::vector::{Vec2, bounds, cross};
 
@@ -108,7 +107,7 @@ impl Drawing {
     /// Compares all pieces whose extents along an axis (0 for x, 1 for y) overlap.
     fn sweep(&mut self, axis: usize, tolerance: f64) -> Result<(), Error> {
         let extent = |piece: &Piece| {
-            let (start, end) = (piece.segment.start(), piece.segment.end());
+            let (start, end) = (piece.segment.start, piece.segment.end);
             // Twice the tolerance covers round-off.
             (start.inf(&end), start.sup(&end).add_scalar(2.0 * tolerance))
         };
@@ -174,10 +173,10 @@ impl Drawing {
     fn cut_at_crossing(&mut self, first: usize, second: usize) {
         let (one, other) = (self.pieces[first].segment, self.pieces[second].segment);
         let scale = cross(one.vector(), other.vector());
-        let offset = other.start() - one.start();
+        let offset = other.start - one.start;
         let fraction = cross(offset, other.vector()) / scale;
         let point = self.points.len();
-        self.points.push(one.start() + one.vector() * fraction);
+        self.points.push(one.start + one.vector() * fraction);
         self.same.push();
         self.cut_count += 1;
         self.pieces[first].cuts.push(Cut { fraction, point });

@@ -2,20 +2,11 @@
 
 use super::FeatureId;
 use super::feature::{Edge, Feature, FeatureShape, Spoke, Vertex};
-use super::graph::{Element, Graph, Incidence};
+use super::graph::{Element, Graph, GraphEdge, Incidence};
 use super::polygon::contains;
 use super::segment::{Segment, SegmentRegion};
 use super::visibility::{edge_occluders, neighbors, vertex_occluders};
 use crate::physics::vector::{Vec2, bounds, cross, dot};
-
-/// What an outline bounds.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Kind {
-    /// A closed polygon, counter-clockwise: felt from outside only.
-    Solid,
-    /// Lines without thickness: felt from both sides.
-    Wall,
-}
 
 /// Consecutive features that share a bounding box: enough to skip most of a long outline, few enough to be close
 /// to each other.
@@ -27,7 +18,7 @@ const MARGIN: f64 = 1.0 + 1e-9;
 /// An outline in the body frame.
 #[derive(Debug, Clone)]
 pub(super) struct Outline {
-    kind: Kind,
+    is_solid: bool,
     segments: Vec<Segment>,
     /// The id of its first feature.
     first: FeatureId,
@@ -46,25 +37,18 @@ struct Bounds {
 }
 
 impl Outline {
-    /// The outline, its features and their surfaces, from a validated graph; a solid's runs counter-clockwise.
-    /// Features are counted from `first`, edges from `first_segment`.
-    pub(super) fn new(
-        graph: &Graph,
-        kind: Kind,
-        first: FeatureId,
-        first_segment: u32,
-    ) -> (Self, Vec<Feature>, Vec<u32>) {
+    /// The outline and its features, from a validated graph. Features are counted from `first`, edges from `first_segment`.
+    pub(super) fn new(graph: &Graph, first: FeatureId, first_segment: u32) -> (Self, Vec<Feature>) {
         let elements = graph.elements();
         let outline = Self {
-            kind,
+            is_solid: graph.is_solid,
             segments: graph.segments.clone(),
             first,
             bounds: Bounds::of(&graph.vertices),
             groups: elements.chunks(GROUP).map(|group| Bounds::of_elements(graph, group)).collect(),
             feature_count: elements.len(),
         };
-        let (features, surfaces) = Builder { graph, kind, first_segment }.features(&elements, first);
-        (outline, features, surfaces)
+        (outline, features(graph, &elements, first, first_segment))
     }
 
     /// Its edges.
@@ -76,13 +60,13 @@ impl Outline {
     pub(super) fn signed_distance(&self, point: Vec2) -> f64 {
         let squares = self.segments.iter().map(|segment| segment.distance_squared(point));
         let distance = squares.fold(f64::INFINITY, f64::min).sqrt();
-        let inside = self.kind == Kind::Solid && contains(&self.segments, point);
+        let inside = self.is_solid && contains(&self.segments, point);
         if inside { -distance } else { distance }
     }
 
     /// Whether `point` lies inside of a solid.
     pub(super) fn contains(&self, point: Vec2) -> bool {
-        self.kind == Kind::Solid && !self.bounds.is_outside(point, 0.0) && contains(&self.segments, point)
+        self.is_solid && !self.bounds.is_outside(point, 0.0) && contains(&self.segments, point)
     }
 
     /// Whether the bounding box tells that every point of the outline is farther than `distance` [m].
@@ -141,66 +125,57 @@ impl Bounds {
     }
 }
 
-/// Makes features of the elements of a graph.
-struct Builder<'a> {
-    graph: &'a Graph,
-    kind: Kind,
-    first_segment: u32,
+/// The features of the elements of a graph.
+fn features(graph: &Graph, elements: &[Element], first: FeatureId, first_segment: u32) -> Vec<Feature> {
+    let (mut of_vertices, mut of_edges) = (vec![0; graph.vertices.len()], vec![0; graph.edges.len()]);
+    for (id, element) in (first..).zip(elements) {
+        match *element {
+            Element::Vertex(vertex) => of_vertices[vertex] = id,
+            Element::Edge(edge) => of_edges[edge] = id,
+        }
+    }
+    // Edges of this outline as segments of the drum.
+    let in_drum = |edges: Vec<usize>| edges.iter().map(|&edge| first_segment + edge as u32).collect();
+    let feature = |element: &Element| match *element {
+        Element::Vertex(vertex) => {
+            let edges = graph.incidences[vertex].iter().map(|incidence| incidence.edge);
+            Feature {
+                surface: edges.clone().map(|edge| graph.edges[edge].surface).min().unwrap_or(0),
+                links: edges.map(|edge| of_edges[edge]).collect(),
+                shape: FeatureShape::Vertex(vertex_shape(
+                    graph,
+                    vertex,
+                    in_drum(vertex_occluders(graph, vertex)),
+                )),
+            }
+        }
+        Element::Edge(index) => {
+            let (neighbors, contested) = neighbors(graph, index);
+            let GraphEdge { ends, surface } = graph.edges[index];
+            let edge = Edge {
+                segment: graph.segments[index],
+                is_solid: graph.is_solid,
+                contested,
+                neighbors: neighbors.into(),
+                occluders: in_drum(edge_occluders(graph, index)),
+            };
+            Feature {
+                shape: FeatureShape::Edge(edge),
+                links: ends.map(|vertex| of_vertices[vertex]).into(),
+                surface,
+            }
+        }
+    };
+    elements.iter().map(feature).collect()
 }
 
-impl Builder<'_> {
-    fn features(&self, elements: &[Element], first: FeatureId) -> (Vec<Feature>, Vec<u32>) {
-        let mut of_vertices = vec![0; self.graph.vertices.len()];
-        let mut of_edges = vec![0; self.graph.edges.len()];
-        for (id, element) in (first..).zip(elements) {
-            match *element {
-                Element::Vertex(vertex) => of_vertices[vertex] = id,
-                Element::Edge(edge) => of_edges[edge] = id,
-            }
-        }
-        let feature = |element: &Element| match *element {
-            Element::Vertex(vertex) => {
-                let edges = self.graph.incidences[vertex].iter().map(|incidence| incidence.edge);
-                let surfaces = edges.clone().map(|edge| self.graph.edges[edge].surface as u32);
-                let links = edges.map(|edge| of_edges[edge]).collect();
-                let shape = FeatureShape::Vertex(self.vertex(vertex));
-                (Feature { shape, links }, surfaces.min().unwrap_or(0))
-            }
-            Element::Edge(index) => {
-                let edge = &self.graph.edges[index];
-                let links = edge.ends.iter().map(|&vertex| of_vertices[vertex]).collect();
-                let shape = FeatureShape::Edge(self.edge(index));
-                (Feature { shape, links }, edge.surface as u32)
-            }
-        };
-        elements.iter().map(feature).unzip()
-    }
-
-    fn vertex(&self, vertex: usize) -> Vertex {
-        let spoke = |&Incidence { edge, end }: &Incidence| Spoke {
-            segment: self.graph.segments[edge],
-            region: if end == 0 { SegmentRegion::Start } else { SegmentRegion::End },
-        };
-        let spokes: Box<[Spoke]> = self.graph.incidences[vertex].iter().map(spoke).collect();
-        let is_concave = self.kind == Kind::Solid
-            && matches!(&*spokes, [into, out] if cross(into.segment.vector(), out.segment.vector()) < 0.0);
-        let occluders = self.in_drum(&vertex_occluders(self.graph, vertex));
-        Vertex { point: self.graph.vertices[vertex], spokes, is_concave, occluders }
-    }
-
-    fn edge(&self, index: usize) -> Edge {
-        let (neighbors, contested) = neighbors(self.graph, index);
-        Edge {
-            segment: self.graph.segments[index],
-            is_solid: self.kind == Kind::Solid,
-            contested,
-            neighbors: neighbors.into(),
-            occluders: self.in_drum(&edge_occluders(self.graph, self.kind, index)),
-        }
-    }
-
-    /// Edges of this outline as segments of the drum.
-    fn in_drum(&self, edges: &[usize]) -> Box<[u32]> {
-        edges.iter().map(|&edge| self.first_segment + edge as u32).collect()
-    }
+fn vertex_shape(graph: &Graph, vertex: usize, occluders: Box<[u32]>) -> Vertex {
+    let spoke = |&Incidence { edge, end }: &Incidence| Spoke {
+        segment: graph.segments[edge],
+        region: if end == 0 { SegmentRegion::Start } else { SegmentRegion::End },
+    };
+    let spokes: Box<[Spoke]> = graph.incidences[vertex].iter().map(spoke).collect();
+    let is_concave = graph.is_solid
+        && matches!(&*spokes, [into, out] if cross(into.segment.vector(), out.segment.vector()) < 0.0);
+    Vertex { point: graph.vertices[vertex], spokes, is_concave, occluders }
 }

@@ -1,5 +1,6 @@
-//! One straight edge of an outline, and the bridge between parry2d's vectors and ours.
+//! One straight edge of an outline, queried with parry2d.
 
+use parry2d::math::Vector;
 use parry2d::query::PointQueryWithLocation;
 use parry2d::shape::{Segment as ParrySegment, SegmentPointLocation};
 
@@ -7,7 +8,10 @@ use crate::physics::vector::{Vec2, cross, dot};
 
 /// A directed straight line from its start to its end, of non-zero length.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Segment(ParrySegment);
+pub(super) struct Segment {
+    pub(super) start: Vec2,
+    pub(super) end: Vec2,
+}
 
 /// Where on a segment the closest point lies.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,23 +35,13 @@ pub(super) struct Projection {
 
 impl Segment {
     pub(super) fn new(start: Vec2, end: Vec2) -> Self {
-        Self(ParrySegment::new(to_parry(start), to_parry(end)))
-    }
-
-    #[inline]
-    pub(super) fn start(&self) -> Vec2 {
-        from_parry(self.0.a)
-    }
-
-    #[inline]
-    pub(super) fn end(&self) -> Vec2 {
-        from_parry(self.0.b)
+        Self { start, end }
     }
 
     /// From the start to the end, in full length [m].
     #[inline]
     pub(super) fn vector(&self) -> Vec2 {
-        self.end() - self.start()
+        self.end - self.start
     }
 
     /// The point of this segment closest to `point`.
@@ -56,13 +50,15 @@ impl Segment {
     /// `is_inside` has a tolerance; it is not used.)
     #[inline]
     pub(super) fn project(&self, point: Vec2) -> Projection {
-        let (projection, location) = self.0.project_local_point_and_get_location(to_parry(point), false);
+        let [start, end, point] = [self.start, self.end, point].map(|v| Vector::new(v.x, v.y));
+        let (closest, location) =
+            ParrySegment::new(start, end).project_local_point_and_get_location(point, false);
         let region = match location {
             SegmentPointLocation::OnVertex(0) => SegmentRegion::Start,
             SegmentPointLocation::OnVertex(_) => SegmentRegion::End,
             SegmentPointLocation::OnEdge([_, fraction]) => SegmentRegion::Between(fraction),
         };
-        Projection { point: from_parry(projection.point), region }
+        Projection { point: Vec2::new(closest.point.x, closest.point.y), region }
     }
 
     /// Squared distance [m²] from `point`.
@@ -75,28 +71,28 @@ impl Segment {
     /// Positive left of the line through this segment, negative right of it, zero on it.
     #[inline]
     pub(super) fn left_of(&self, point: Vec2) -> f64 {
-        cross(self.vector(), point - self.start())
+        cross(self.vector(), point - self.start)
     }
 
     /// Whether two segments cross at a point inside both.
     #[inline]
     pub(super) fn crosses(&self, other: &Self) -> bool {
-        opposite(self.left_of(other.start()), self.left_of(other.end()))
-            && opposite(other.left_of(self.start()), other.left_of(self.end()))
+        opposite(self.left_of(other.start), self.left_of(other.end))
+            && opposite(other.left_of(self.start), other.left_of(self.end))
     }
 
     /// Whether two segments share any point at all.
     pub(super) fn meets(&self, other: &Self) -> bool {
         self.crosses(other)
-            || self.holds(other.start())
-            || self.holds(other.end())
-            || other.holds(self.start())
-            || other.holds(self.end())
+            || self.holds(other.start)
+            || self.holds(other.end)
+            || other.holds(self.start)
+            || other.holds(self.end)
     }
 
     /// Whether `point` lies on this segment.
     pub(super) fn holds(&self, point: Vec2) -> bool {
-        let (start, end) = (self.start(), self.end());
+        let Self { start, end } = *self;
         let between = |a: f64, b: f64, value: f64| a.min(b) <= value && value <= a.max(b);
         self.left_of(point) == 0.0 && between(start.x, end.x, point.x) && between(start.y, end.y, point.y)
     }
@@ -106,16 +102,6 @@ impl Segment {
 #[inline]
 fn opposite(a: f64, b: f64) -> bool {
     (a > 0.0 && b < 0.0) || (a < 0.0 && b > 0.0)
-}
-
-#[inline]
-fn to_parry(v: Vec2) -> parry2d::math::Vector {
-    parry2d::math::Vector::new(v.x, v.y)
-}
-
-#[inline]
-fn from_parry(v: parry2d::math::Vector) -> Vec2 {
-    Vec2::new(v.x, v.y)
 }
 
 #[cfg(test)]

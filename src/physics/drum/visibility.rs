@@ -6,7 +6,6 @@
 
 use super::feature::Neighbor;
 use super::graph::{Graph, Incidence};
-use super::outline::Kind;
 use super::segment::Segment;
 use crate::physics::vector::{Vec2, cross, dot, perpendicular};
 
@@ -65,10 +64,16 @@ pub(super) fn vertex_occluders(graph: &Graph, vertex: usize) -> Vec<usize> {
     reaching(&graph.segments, &region, |edge| own.iter().any(|incidence| incidence.edge == edge))
 }
 
-/// The edges that reach into the region of the edge at `index`, its neighbors apart, and so may hide it.
-pub(super) fn edge_occluders(graph: &Graph, kind: Kind, index: usize) -> Vec<usize> {
-    let ends = graph.edges[index].ends;
-    let region = edge_region(kind, &graph.segments[index]);
+/// The edges that reach into the region of the edge at `index`, its neighbors apart, and so may hide it: where the projection on
+/// it falls between its ends, outside of a solid.
+pub(super) fn edge_occluders(graph: &Graph, index: usize) -> Vec<usize> {
+    let (ends, Segment { start, end }) = (graph.edges[index].ends, graph.segments[index]);
+    let along = end - start;
+    let mut region =
+        vec![HalfPlane { normal: along, origin: start }, HalfPlane { normal: -along, origin: end }];
+    if graph.is_solid {
+        region.push(HalfPlane { normal: -perpendicular(along), origin: start });
+    }
     reaching(&graph.segments, &region, |edge| graph.edges[edge].ends.iter().any(|end| ends.contains(end)))
 }
 
@@ -76,19 +81,6 @@ pub(super) fn edge_occluders(graph: &Graph, kind: Kind, index: usize) -> Vec<usi
 struct HalfPlane {
     normal: Vec2,
     origin: Vec2,
-}
-
-/// Where the projection on an edge falls between its ends, outside of a solid.
-fn edge_region(kind: Kind, segment: &Segment) -> Vec<HalfPlane> {
-    let along = segment.vector();
-    let mut region = vec![
-        HalfPlane { normal: along, origin: segment.start() },
-        HalfPlane { normal: -along, origin: segment.end() },
-    ];
-    if kind == Kind::Solid {
-        region.push(HalfPlane { normal: -perpendicular(along), origin: segment.start() });
-    }
-    region
 }
 
 /// The segments of which some part lies in the region, the intersection of the half planes, but for those that
@@ -101,8 +93,8 @@ fn reaching(segments: &[Segment], region: &[HalfPlane], is_own: impl Fn(usize) -
 fn reaches(segment: &Segment, region: &[HalfPlane]) -> bool {
     let (mut low, mut high) = (0.0_f64, 1.0_f64);
     for HalfPlane { normal, origin } in region {
-        let at_start = dot(*normal, segment.start() - origin);
-        let at_end = dot(*normal, segment.end() - origin);
+        let at_start = dot(*normal, segment.start - origin);
+        let at_end = dot(*normal, segment.end - origin);
         if at_start < 0.0 && at_end < 0.0 {
             return false;
         }
@@ -121,7 +113,7 @@ mod tests {
     use super::*;
 
     fn polygon(points: &[[f64; 2]]) -> Graph {
-        Graph::polygon(points.iter().map(|&point| point.into()).collect(), 1)
+        Graph::solid(points.iter().map(|&point| point.into()).collect(), 1)
     }
 
     #[test]
@@ -144,12 +136,13 @@ mod tests {
 
     #[test]
     fn nothing_hides_a_feature_of_a_convex_solid() {
-        let graph = polygon(&[[0.2, 0.03], [0.15, 0.01], [0.15, -0.02], [0.2, -0.03]]);
+        let solid = polygon(&[[0.2, 0.03], [0.15, 0.01], [0.15, -0.02], [0.2, -0.03]]);
+        let walls = Graph { is_solid: false, ..solid.clone() };
         for index in 0..4 {
-            assert!(vertex_occluders(&graph, index).is_empty());
-            assert!(edge_occluders(&graph, Kind::Solid, index).is_empty());
+            assert!(vertex_occluders(&solid, index).is_empty());
+            assert!(edge_occluders(&solid, index).is_empty());
             // Seen from both sides, opposite walls do hide each other.
-            assert_eq!(edge_occluders(&graph, Kind::Wall, index), [(index + 2) % 4]);
+            assert_eq!(edge_occluders(&walls, index), [(index + 2) % 4]);
         }
     }
 

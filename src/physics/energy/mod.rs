@@ -85,7 +85,7 @@ impl StoredEnergy {
 }
 
 /// All accounts since the start. Sums over contacts are kept by the engine between two samples, and folded in here.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct EnergyLedger {
     /// Work that contacts took out of the particles [J/m].
     taken: Sum,

@@ -9,7 +9,7 @@ use crate::physics::vector::Vec2;
 ///
 /// While the drum's speed is constant the angular momentum L telescopes: it is needed only at the ends of such a spell, and
 /// in every step in between where the speed changes.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct MomentBalance {
     /// Of the outer moment over the angle turned, and of Σ m x and Σ m y over time.
     integrals: Integrals,

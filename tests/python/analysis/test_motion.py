@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from drumrs import analysis
-from drumrs.analysis import depth
+from drumrs.analysis import depth, motion
 from drumrs.errors import ConfigError
 from drumrs.frames import Frames
 
@@ -161,6 +161,16 @@ def test_mixing_grows_with_disorder():
         walk = ring(60, 0.5) + np.cumsum(steps, axis=0)
         found.append(analysis.mixed_in_a_turn(made_up(walk), WINDOW).value)
     assert found[0] < 0.01 < found[1] < found[2]
+
+
+def test_distances_of_many_bundles_are_taken_in_parts():
+    # More points than rows of the matrix that are held at a time, on a line with known distances.
+    count = 3 * motion._ROWS // 2
+    line = np.column_stack([np.arange(float(count)), np.zeros(count)])
+    assert motion._mean_distance(line) == pytest.approx((count + 1) / 3.0)
+    order = np.random.default_rng(6).permutation(count)
+    steps = np.abs(line[order][motion._nearest(line[order]), 0] - line[order, 0])
+    assert (steps == 1.0).all()
 
 
 def test_mixing_needs_a_turn():

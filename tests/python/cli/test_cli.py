@@ -154,3 +154,9 @@ def test_baseline_compares_both(drum, tmp_path):
     assert "without baffles" in printed
     assert (tmp_path / "baseline.png").is_file()
     assert (tmp_path / "with_baffles" / "summary.json").is_file()
+
+
+def test_examples_end_the_help_of_drumrs_alone(drum):
+    assert "Examples:" in drum("--help")[1]
+    for command in ("run", "sweep", "verify"):
+        assert "Examples:" not in drum(command, "--help")[1]

@@ -102,6 +102,7 @@ def test_an_unknown_scale_is_refused(tmp_path):
 
 def test_a_folder_of_a_newer_version_is_refused(tmp_path):
     (tmp_path / "runs").mkdir()
+    (tmp_path / "drumrs-reproduction.json").write_text("{}", encoding="utf-8")
     (tmp_path / "runs" / "drumrs-sweep.json").write_text('{"format": 999}', encoding="utf-8")
     with pytest.raises(ConfigError, match="of format 999, but must be of format"):
         Reproduction("quick", tmp_path)

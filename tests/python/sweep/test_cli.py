@@ -199,7 +199,7 @@ def test_progress_counts_cases_and_cost(sweep_file, tmp_path):
     """Where nobody looks there are lines; here their pauses are short."""
     code = (
         "import drumrs.progress, sys; from drumrs.cli import run_command; "
-        "drumrs.progress._FIRST_PAUSES, drumrs.progress._LATER_PAUSES = (0.05,), 0.05;"
+        "drumrs.progress._FIRST_PAUSES, drumrs.progress._PAUSE = (0.05,), 0.05;"
         f"sys.exit(run_command(['sweep', {str(sweep_file)!r}, '--out', {str(tmp_path / 'out')!r}, '--jobs', '1']))"
     )
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}

@@ -155,13 +155,13 @@ def test_sweep_file(tmp_path):
 
 @pytest.mark.parametrize("base", ['base = "../drums/machine.toml"', '[base]\nfile = "../drums/machine.toml"'])
 def test_a_sweep_file_may_name_its_base_relative_to_itself(tmp_path, monkeypatch, base):
-    for folder in ("drums", "studies"):
+    for folder in ("drums", "sweeps"):
         (tmp_path / folder).mkdir()
     (tmp_path / "drums" / "machine.toml").write_text("drum.diameter = 0.52\nrun.duration = 2.0\n")
-    path = tmp_path / "studies" / "study.toml"
+    path = tmp_path / "sweeps" / "sweep.toml"
     path.write_text(f"{base}\n[axes]\nload.fill = [0.1, 0.2]\n")
     monkeypatch.chdir(tmp_path)
-    configs = [case.config for case in read_sweep("studies/study.toml").cases]
+    configs = [case.config for case in read_sweep("sweeps/sweep.toml").cases]
     assert [(c.drum.diameter, c.run.duration, c.load.fill) for c in configs] == [
         (0.52, 2.0, 0.1),
         (0.52, 2.0, 0.2),

@@ -5,7 +5,7 @@ use rand::Rng;
 use crate::physics::vector::Vec2;
 
 /// A random number of [0, 1), a multiple of 2⁻⁵³.
-pub(super) fn unit(random: &mut impl Rng) -> f64 {
+pub fn unit(random: &mut impl Rng) -> f64 {
     (random.next_u64() >> 11) as f64 * (f64::EPSILON / 2.0)
 }
 

@@ -12,6 +12,7 @@ mod disorder;
 mod draws;
 mod pattern;
 
+pub use draws::unit;
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
 
