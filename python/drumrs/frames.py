@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drumrs.files import replacing
-from drumrs.registry import metadata
+from drumrs.registry import metadata, quantity
 from drumrs.tables import ROW_GROUP_SIZE, Compression, sink_table
 
 if TYPE_CHECKING:
@@ -114,7 +114,7 @@ class Frames:
 
     def metadata(self) -> dict[str, str]:
         """Return what a file of the table has to carry beside it: units and the drum's outline, as JSON."""
-        return {**metadata(COLUMNS), "scene": json.dumps(self.scene())}
+        return {**metadata(map(quantity, COLUMNS)), "scene": json.dumps(self.scene())}
 
     def scene(self) -> dict[str, Any]:
         """Return the drum's outline in plain numbers."""

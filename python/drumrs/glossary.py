@@ -106,9 +106,9 @@ def _places() -> Mapping[str, Sequence[str]]:
     """Return the names that are found in each place."""
     series = [column.name for column in registry.recorded(1, 1)]
     summary = [field.name for field in fields(Summary)]
-    table = [name for name in registry.units(schema()) if name not in summary]
-    known = {*series, *summary, *table, *COLUMNS}
-    study = [name for name in registry.declared() if name not in known]
+    table = [one.name for one in registry.known(schema()) if one.name not in summary]
+    placed = {*series, *summary, *table, *COLUMNS}
+    study = [name for name in registry.declared() if name not in placed]
     return {"series": series, "summary": summary, "table": table, "study": study, "frames": COLUMNS}
 
 

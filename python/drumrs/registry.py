@@ -110,17 +110,17 @@ def quantity(name: str) -> Quantity:
     return found
 
 
-def units(names: Iterable[str]) -> dict[str, str]:
-    """Return the units of those names that are quantities."""
-    return {name: found.unit for name in names if (found := _find(name)) is not None}
+def known(names: Iterable[str]) -> list[Quantity]:
+    """Return those of the names that are quantities."""
+    return [found for name in names if (found := _find(name)) is not None]
 
 
-def metadata(names: Iterable[str]) -> dict[str, str]:
+def metadata(columns: Iterable[Quantity]) -> dict[str, str]:
     """Return what a file has to carry beside a table with these columns: their units and meanings, as JSON."""
-    known = {name: found for name in names if (found := _find(name)) is not None}
+    columns = list(columns)
     return {
-        "units": json.dumps({name: found.unit for name, found in known.items()}),
-        "meanings": json.dumps({name: found.meaning for name, found in known.items()}, ensure_ascii=False),
+        "units": json.dumps({column.name: column.unit for column in columns}),
+        "meanings": json.dumps({column.name: column.meaning for column in columns}, ensure_ascii=False),
     }
 
 
@@ -135,10 +135,11 @@ def require(path: Path, names: Iterable[str], wanted: Iterable[str]) -> None:
     known = set(names)
     for name in wanted:
         if name not in known:
-            raise ConfigError(
-                f"{str(path)!r} has no {name!r}, but must have it: another version of drumrs wrote it, with other "
-                "names; run its configuration again, or read it with that version"
+            problem = (
+                f"has no {name!r}, but must have it: another version of drumrs wrote it, with other names"
             )
+            hint = "run its configuration again, or read it with that version"
+            raise ConfigError(Path(path), problem=problem, hint=hint)
 
 
 def recorded(baffles: int, walls: int) -> list[Quantity]:
@@ -269,7 +270,7 @@ _ROWS = (
     # Table of the paper's study, beyond that of a sweep.
     ("size_ratio", "D/d", "1", "run", "", "diameter of the drum over that of a bundle"),
     ("along_the_rim", "", "1", "mean", "", "share of the time that a bundle spends along the rim"),
-    ("carried_round", "", "1", "mean", "", "share of the load carried over the top along the rim in a turn"),
+    ("carried_round", "", "1", "mean", "", "share of the load that the drum carries over the top in a turn"),
     ("mixed_in_a_turn", "", "1", "mean", "", "index of mixing after a turn of the drum"),
     *(
         (

@@ -15,7 +15,7 @@ from drumrs.figures.history import mean_rate
 from drumrs.paper import measure, plots
 from drumrs.parts import Parts
 from drumrs.run_folder import RunFolder
-from drumrs.sweep import Sweep
+from drumrs.sweep import Sweep, columns
 from drumrs.sweep.columns import parameters, schema
 from drumrs.sweep.sealed import FORMAT, write_sealed
 from drumrs.viewer.curves import panels_of_series
@@ -104,7 +104,7 @@ def test_a_summary_says_what_its_numbers_are():
 def test_the_kept_study_has_the_names_of_today():
     kept = pl.read_parquet_schema(DOCS / "study" / "table.parquet")
     results = list(kept)[list(kept).index("seed") + 1 :]
-    assert set(results) - set(registry.units(results)) == set()
+    assert set(results) == {one.name for one in registry.known(results)}
     assert set(schema()) - set(kept) <= {
         *parameters(CONFIG),
         "dissipated_tangential_power",
@@ -195,3 +195,26 @@ def test_a_run_does_not_go_on_from_records_of_older_names(tmp_path):
         Parts(tmp_path).restore(
             drumrs.Simulation.load(tmp_path / "checkpoint.bin", with_records=False).records
         )
+
+
+def test_numbers_of_a_configuration_have_units():
+    kinds = columns._leaves(drumrs.Config)
+    plain = {
+        "drum.rim drum.baffles.count drum.baffles.shape load.count load.spin_locked run.seed contact.base",
+        "contact.species contact.pairs contact.walls contact.bundle.tension contact.drum.tension",
+    }
+    without = set(" ".join(plain).split())
+    for key, field in kinds:
+        if key in without:
+            assert field.json_schema_extra is None, key
+            continue
+        unit = field.json_schema_extra["unit"]
+        assert unit == "1" or field.description.endswith(f" [{unit}]."), key
+        assert field.description.count("[") <= 2, key
+
+
+def test_a_sweeps_table_tells_the_units_of_parameters_and_results(sweep):
+    units = json.loads(pl.read_parquet_metadata(sweep.write_table())["units"])
+    assert units["drum.diameter"] == "m"
+    assert units["contact.bundle.normal_damping"] == "N s/m"
+    assert units["drum_specific_power_error"] == "W/kg"

@@ -54,7 +54,7 @@ def statistics(
         ``drum_specific_power``, ``dissipated_normal_specific_power``, ``dissipated_sliding_specific_power``: what the
         drum puts in, and what normal damping and sliding take [W/kg].
         ``dissipation_ratio``: the latter two over each other.
-        ``work_ratio``: work of the contacts' normal forces over that of their tangential forces.
+        ``work_ratio``: the same with what springs store counted as well.
         ``specific_angular_momentum`` [m²/s], 0 for a load that stays where it is, however it rocks.
         All with ``…_error``; `None` where not defined.
         ``drift``: change of the drum's specific power within the window over its mean, ``share_drift``: that of the

@@ -1,6 +1,7 @@
 """`drumrs sweep`: the cases of a sweep file, each run once."""
 
 import sys
+import textwrap
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Annotated, Any
@@ -17,6 +18,7 @@ from drumrs.sweep import Outcome, Sweep, read_sweep
 _FAILED = 1
 # What is printed of each run; the table has more.
 _POWER, _RATIO = "drum_specific_power", "dissipation_ratio"
+_HEAD_WIDTH = 14
 _MOST_ROWS = 40
 _MOST_COLUMNS = 6
 
@@ -77,7 +79,7 @@ def _shard(text: str | None) -> tuple[int, int] | None:
         return None
     part, _, parts = text.partition("/")
     if not (part.isdecimal() and parts.isdecimal()):
-        raise ConfigError(f"shard is {text!r}, but must be k/n with 1 <= k <= n")
+        raise ConfigError("--shard", text, "K/N with 1 <= K <= N")
     return int(part), int(parts)
 
 
@@ -90,7 +92,8 @@ def _print_results(planned: Sweep) -> None:
     varied = planned.varied()[:_MOST_COLUMNS]
     shown = Table(box=None, highlight=False)
     shown.add_column("case", no_wrap=True)
-    for name in (*_short(varied), *(quantity(name).label for name in (_POWER, _RATIO)), ""):
+    results = (textwrap.fill(quantity(name).label, _HEAD_WIDTH) for name in (_POWER, _RATIO))
+    for name in (*_short(varied), *results, ""):
         shown.add_column(escape(name), justify="right", no_wrap=True)
     ids = planned.short_ids()
     for row in found.head(_MOST_ROWS).iter_rows(named=True):

@@ -1,15 +1,18 @@
 """The tables of a configuration, in SI units but for rpm and the baffles' phase; defaults are the paper's Table 1."""
 
 from itertools import pairwise
-from typing import Annotated, Any, ClassVar, Literal, Self
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import Field, model_validator
 
 from drumrs.config import types
 from drumrs.config.config_table import ConfigTable
-from drumrs.config.layers import both_given, merge
-from drumrs.config.messages import relation, show
+from drumrs.config.layers import merge
+from drumrs.config.messages import both_given, conflict
 from drumrs.config.types import Flag, Limit, NonNegative, Positive, Real
+
+if TYPE_CHECKING:
+    from pydantic.config import JsonDict
 
 Shape = Annotated[Literal["triangle", "trapezoid", "polygon"], Limit("'triangle', 'trapezoid' or 'polygon'")]
 Tension = Annotated[Literal["allowed", "clipped"], Limit("'allowed' or 'clipped'")]
@@ -18,10 +21,16 @@ TimeStep = Annotated[Literal["auto"] | Positive, Limit("'auto' or a positive fin
 Skin = Annotated[Literal["auto"] | NonNegative, Limit("'auto' or a finite number of at least 0")]
 
 
-def _key(default: Any, meaning: str, example: Any = None) -> Any:
-    """Describe a key, unit in brackets; `example` is what the documented TOML shows for a key that is not set."""
+def _key(default: Any, meaning: str, unit: str = "", example: Any = None) -> Any:
+    """Describe a key; `example` is what the documented TOML shows for a key that is not set.
+
+    The unit is among the extras of the field's JSON schema, and behind the meaning wherever that is printed; a word
+    or a count has none, a plain number the unit "1".
+    """
     examples = None if example is None else [example]
-    return Field(default=default, description=f"{meaning}.", examples=examples)
+    shown = f"{meaning} [{unit}]." if unit not in {"", "1"} else f"{meaning}."
+    extra: JsonDict | None = {"unit": unit} if unit else None
+    return Field(default=default, description=shown, examples=examples, json_schema_extra=extra)
 
 
 class Baffles(ConfigTable):
@@ -29,39 +38,39 @@ class Baffles(ConfigTable):
 
     count: types.BaffleCount = _key(0, "Number of baffles; 0 is a bare drum")
     shape: Shape = _key("triangle", "'triangle', 'trapezoid' or 'polygon'")
-    height: Positive = _key(0.05, "Distance of the tip from the rim [m], along the baffle's axis")
-    base: Positive = _key(0.06, "Distance (chord) of the two base corners [m], which lie on the rim")
-    tip: Positive = _key(0.02, "Distance of the two tip corners of a trapezoid [m]")
+    height: Positive = _key(0.05, "Distance of the tip from the rim, along the baffle's axis", "m")
+    base: Positive = _key(0.06, "Distance (chord) of the two base corners, which lie on the rim", "m")
+    tip: Positive = _key(0.02, "Distance of the two tip corners of a trapezoid", "m")
     points: types.Points | None = _key(
         None,
-        "Corners of a polygon [m]: x along the baffle's axis inwards from the rim, y across",
+        "Corners [x, y] of a polygon: x along the baffle's axis inwards from the rim, y across",
+        "m",
         [[0.0, -0.03], [0.05, 0.0], [0.0, 0.03]],
     )
-    phase: Real = _key(0.0, "Angle of the first baffle's axis at t = 0 [degrees], counter-clockwise from +x")
+    phase: Real = _key(0.0, "Angle of the first baffle's axis at t = 0, counter-clockwise from +x", "degrees")
 
     @model_validator(mode="after")
     def _polygon_has_points(self) -> Self:
         if self.shape == "polygon" and self.points is None:
-            raise relation("{at}points is missing, but must be given where {at}shape is 'polygon'")
+            limit = "given where {at}shape is 'polygon'"
+            raise conflict("{at}points", limit=limit, problem=f"is missing, but must be {limit}")
         return self
 
 
 class Drum(ConfigTable):
     """The drum: rim, baffles and straight walls, one rigid body that turns about the origin."""
 
-    diameter: Positive = _key(0.475, "Inner diameter D [m]")
+    diameter: Positive = _key(0.475, "Inner diameter D", "m")
     rim: Flag = _key(default=True, meaning="Whether there is a rim; false leaves the walls alone")
     walls: Annotated[tuple[types.Polyline, ...], Limit("a list of polylines")] = _key(
-        (), "Further walls: open polylines of points [m, m] at t = 0, which turn with the drum"
+        (), "Further walls: open polylines of points [x, y] at t = 0, which turn with the drum", "m"
     )
     baffles: Baffles = Field(default=Baffles())
 
     @model_validator(mode="after")
     def _baffles_stand_on_a_rim(self) -> Self:
         if self.baffles.count and not self.rim:
-            raise relation(
-                f"{{at}}baffles.count is {self.baffles.count}, but must be 0 where {{at}}rim is false"
-            )
+            raise conflict("{at}baffles.count", self.baffles.count, "0 where {at}rim is false")
         return self
 
 
@@ -70,21 +79,26 @@ class Rotation(ConfigTable):
 
     pair: ClassVar[tuple[str, str] | None] = ("rpm", "program")
 
-    rpm: Real | None = _key(None, "Constant speed [rpm]", 54.0)
+    rpm: Real | None = _key(None, "Constant speed", "rpm", 54.0)
     program: types.Program | None = _key(
         None,
-        "Knots [s, rpm] of a program: linear between them, constant beyond the first and last",
+        "Knots [time, speed] of a program: linear between them, constant beyond the first and last",
+        "s, rpm",
         [[0.0, 0.0], [2.0, 54.0], [20.0, 54.0], [22.0, -54.0]],
     )
 
     @model_validator(mode="after")
     def _knots_are_in_order(self) -> Self:
-        times = [time for time, _ in self.program or ()]
-        for index, (earlier, later) in enumerate(pairwise(times)):
-            if later <= earlier:
-                raise relation(
-                    f"{{at}}program[{index + 1}] is at {later} s, but must be later than the {earlier} s before it"
-                )
+        for index, ((earlier, before), (later, after)) in enumerate(pairwise(self.program or ()), 1):
+            if later > earlier:
+                continue
+            limit = f"later than the knot before it, which is at {earlier} s"
+            hint = ""
+            if later == earlier and before != after:
+                limit += f": the speed cannot jump from {before} to {after} rpm"
+                hint = f"to change it within a millisecond, write [{later + 1e-3:.12g}, {after}]"
+            problem = f"is at {later} s, but must be {limit}"
+            raise conflict(f"{{at}}program[{index}]", (later, after), limit, hint=hint, problem=problem)
         return self
 
 
@@ -93,13 +107,13 @@ class Load(ConfigTable):
 
     pair: ClassVar[tuple[str, str] | None] = ("fill", "count")
 
-    diameter: Positive = _key(0.02375, "Diameter d of a bundle [m]")
+    diameter: Positive = _key(0.02375, "Diameter d of a bundle", "m")
     density: Positive = _key(
-        1000.0, "Density of a bundle [kg/m³]; its mass is density · π d²/4 per meter of depth"
+        1000.0, "Density of a bundle, whose mass is density · π d²/4 per meter of depth", "kg/m³"
     )
-    fill: Positive | None = _key(None, "Fill N d²/D², a fraction of the bare drum's area", 0.25)
-    count: types.BundleCount | None = _key(None, "Number N of bundles, instead of fill", 100)
-    start_speed: NonNegative = _key(0.0, "Speed of every bundle at t = 0 [m/s], in a random direction")
+    fill: Positive | None = _key(None, "Fill N d²/D², a fraction of the bare drum's area", "1", 0.25)
+    count: types.BundleCount | None = _key(None, "Number N of bundles, instead of fill", example=100)
+    start_speed: NonNegative = _key(0.0, "Speed of every bundle at t = 0, in a random direction", "m/s")
     spin_locked: Flag = _key(default=False, meaning="Whether bundles are kept from spinning")
 
 
@@ -108,41 +122,44 @@ class LinearContact(ConfigTable):
 
     pair: ClassVar[tuple[str, str] | None] = ("restitution", "normal_damping")
 
-    normal_stiffness: Positive = Field(
-        description="Stiffness of the normal spring [N/m]; it does not count where contact.base is 'hertz'."
+    normal_stiffness: Positive = _key(
+        ..., "Stiffness of the normal spring; it does not count where contact.base is 'hertz'", "N/m"
     )
-    stiffness_ratio: Positive = _key(1.0, "Tangential stiffness over normal stiffness; likewise")
+    stiffness_ratio: Positive = _key(1.0, "Tangential stiffness over normal stiffness; likewise", "1")
     young_modulus: Positive | None = _key(
-        None, "Young's modulus of both bodies [Pa], where contact.base is 'hertz'", 1e8
+        None, "Young's modulus of both bodies, where contact.base is 'hertz'", "Pa", 1e8
     )
     poisson_ratio: types.PoissonRatio = _key(
-        0.3, "Poisson's ratio of both bodies, where contact.base is 'hertz'"
+        0.3, "Poisson's ratio of both bodies, where contact.base is 'hertz'", "1"
     )
     restitution: types.Restitution | None = _key(
-        None, "Coefficient of restitution; the damping follows from it", 0.1
+        None, "Coefficient of restitution; the damping follows from it", "1", 0.1
     )
     normal_damping: NonNegative | None = _key(
-        None, "Damping of the normal dashpot [N s/m], instead of restitution", 5.35e3
+        None, "Damping of the normal dashpot, instead of restitution", "N s/m", 5.35e3
     )
-    friction: NonNegative = _key(0.5, "Coefficient of friction")
+    friction: NonNegative = _key(0.5, "Coefficient of friction", "1")
     tension: Tension = _key("allowed", "Whether the dashpot may pull: 'allowed' (the paper) or 'clipped'")
     rolling_friction: NonNegative = _key(
         0.0,
         "Coefficient of rolling friction μ_r: a rotational spring that yields where its moment is μ_r times "
         "normal force and radius; 0 for none",
+        "1",
     )
     tangential_damping_ratio: NonNegative = _key(
         0.0,
         "Damping ratio of a dashpot beside the tangential spring, which acts while the contact sticks; 0 for none",
+        "1",
     )
     adhesion: NonNegative = _key(
         0.0,
-        "Constant pull while bodies touch [N/m of depth]; friction and rolling feel it as pressure; 0 for none",
+        "Constant pull while bodies touch, which friction and rolling feel as pressure; 0 for none",
+        "N/m",
     )
 
 
 class _PartialContact(ConfigTable):
-    """Some keys of a contact table; the rest is that of a whole one."""
+    """Those keys of a contact table that differ for some species; the others are taken from the whole table."""
 
     normal_stiffness: Positive | None = None
     stiffness_ratio: Positive | None = None
@@ -160,7 +177,7 @@ class _PartialContact(ConfigTable):
     def _has_not_both_of_the_pair(self) -> Self:
         if self.restitution is not None and self.normal_damping is not None:
             values = {"restitution": self.restitution, "normal_damping": self.normal_damping}
-            raise relation(both_given("{at}", values, values))
+            raise conflict(**both_given("{at}", list(values), values))
         return self
 
     def over(self, whole: LinearContact) -> LinearContact:
@@ -209,42 +226,42 @@ class Contact(ConfigTable):
         named += [(f"walls[{index}].species", [law.species]) for index, law in enumerate(self.walls)]
         for index, (key, species) in enumerate(named):
             if species[-1] >= self.species:
-                raise relation(f"{{at}}{key} is {species}, but must be below {{at}}species = {self.species}")
+                raise conflict(f"{{at}}{key}", species, f"below {{at}}species = {self.species}")
             earlier = next((other for other, its in named[:index] if its == species), None)
             if earlier is not None:
-                raise relation(f"{{at}}{key} is {species}, but must not be that of {{at}}{earlier}")
+                limit = f"another than {{at}}{earlier}, which has its law already"
+                raise conflict(f"{{at}}{key}", species, limit)
         return self
 
 
 class Run(ConfigTable):
     """How long to run, what to record, when to give up."""
 
-    time_step: TimeStep = _key(3.70e-6, "Time step [s]; 'auto' is the shortest collision time / 50")
+    time_step: TimeStep = _key(3.70e-6, "Time step; 'auto' is the shortest collision time / 50", "s")
     duration: Positive = _key(
-        30.0, "Simulated time [s]; the number of steps is its quotient by the step, rounded up"
+        30.0, "Simulated time; the number of steps is its quotient by the step, rounded up", "s"
     )
     window: types.Interval | None = _key(
         None,
-        "Start and end [s, s] of the averages; the last third of the duration unless given",
+        "Start and end of the averages; the last third of the duration unless given",
+        "s",
         [20.0, 30.0],
     )
-    sample_every: Positive = _key(0.002, "Interval between rows of the series [s]; means are exact for any")
-    frame_every: Positive = _key(0.04, "Interval between frames (positions, angles, speeds) [s]")
-    checkpoint_every: Positive = _key(60.0, "Interval between checkpoints [s], in time of the wall clock")
+    sample_every: Positive = _key(0.002, "Interval between rows of the series; means are exact for any", "s")
+    frame_every: Positive = _key(0.04, "Interval between frames (positions, angles, speeds)", "s")
+    checkpoint_every: Positive = _key(60.0, "Interval between checkpoints, in time of the wall clock", "s")
     seed: types.Seed = _key(1, "Seed of the random start")
-    skin: Skin = _key("auto", "Margin of the neighbor lists [m]; it changes the speed, never a result")
+    skin: Skin = _key("auto", "Margin of the neighbor lists, which changes the speed, never a result", "m")
     overlap_limit: types.OpenFraction = _key(
-        0.5, "Greatest overlap, over the smaller radius, before the run is given up as unstable"
+        0.5, "Greatest overlap, over the smaller radius, before the run is given up as unstable", "1"
     )
 
     @model_validator(mode="after")
     def _window_lies_in_the_duration(self) -> Self:
         start, end = self.averaging_window
         if not start < end <= self.duration:
-            raise relation(
-                f"{{at}}window is {show(self.window)}, but must be a pair [start, end] with "
-                f"0 <= start < end <= {{at}}duration = {self.duration}"
-            )
+            limit = f"a pair [start, end] with 0 <= start < end <= {{at}}duration = {self.duration}"
+            raise conflict("{at}window", self.window, limit)
         return self
 
     @property
@@ -260,5 +277,5 @@ class Tables(ConfigTable):
     rotation: Rotation = Field(default=Rotation(rpm=54.0))
     load: Load = Field(default=Load(fill=0.25))
     contact: Contact = Field(default=Contact())
-    gravity: Annotated[types.Vector, Field(description="Gravity [x, y] [m/s²].")] = (0.0, -9.81)
+    gravity: types.Vector = _key((0.0, -9.81), "Gravity [x, y]", "m/s²")
     run: Run = Field(default=Run())

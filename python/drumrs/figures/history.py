@@ -7,6 +7,7 @@ import numpy as np
 from drumrs.energies import energies_to_show, powers_to_show
 from drumrs.figures import labels
 from drumrs.figures.shared import Array, drumrs_style, label_lines, new_figure
+from drumrs.registry import quantity
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -94,9 +95,10 @@ def _energies(axes: "Axes", columns: dict[str, Array]) -> None:
 def _ledger(axes: "Axes", columns: dict[str, Array]) -> None:
     axes.set_title(labels.ENERGY_RESIDUAL)
     axes.set_yscale("log")
-    residual = np.abs(columns["energy_residual"])
+    name = "energy_residual"
+    residual = np.abs(columns[name])
     # A residual of exactly 0 has no place on a logarithmic axis; it is drawn at the last bit of 1.
-    axes.plot(columns["time"], np.maximum(residual, np.finfo(float).eps / 2), label="residual")
+    axes.plot(columns["time"], np.maximum(residual, np.finfo(float).eps / 2), label=quantity(name).title)
     axes.set_ylim(1e-17, max(1e-8, 10.0 * float(residual.max(initial=0.0))))
 
 

@@ -61,7 +61,7 @@ def ratio_against_fill(points: "pl.DataFrame", other: "pl.DataFrame") -> "Figure
     points
         N/T by dissipation.
     other
-        N/T by work of the contact forces: crosses.
+        N/T by net work: crosses.
     """
     return _two_readings(points, other, Labels(labels.FILL, labels.DISSIPATION_RATIO, x_scale=100.0))
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, Union, get_args, get_
 
 from pydantic import BaseModel
 
+from drumrs import registry
 from drumrs.analysis import STATISTICS
 from drumrs.config import Config
 from drumrs.config.messages import table_type
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     import polars as pl
+    from pydantic.fields import FieldInfo
 
 CASE, SEED = "case", "seed"
 # Facts of the machine, which differ from run to run.
@@ -37,7 +39,7 @@ def row(case: Case, summary: Summary, statistics: "Mapping[str, Any]") -> "pl.Da
 
 def parameters(config: Config) -> dict[str, Any]:
     """Return the configuration by dotted key, without the seed; "auto" among numbers is null."""
-    kinds = dict(_leaves(Config))
+    kinds = _kinds()
     values = dict(_flat(config.model_dump(mode="json"), kinds))
     return {key: _plain(values.get(key), kinds[key]) for key in kinds if key != _SEED_KEY}
 
@@ -50,7 +52,9 @@ def differing(cases: "Sequence[Case]") -> list[str]:
 
 def sort_keys() -> list[str]:
     """Return the columns that a table is sorted by: every parameter that has an order, the seed, the name."""
-    keys = [key for key, kind in _leaves(Config) if get_origin(_bare(kind)) is not tuple and key != _SEED_KEY]
+    keys = [
+        key for key, kind in _kinds().items() if get_origin(_bare(kind)) is not tuple and key != _SEED_KEY
+    ]
     return [*keys, SEED, CASE]
 
 
@@ -59,24 +63,40 @@ def schema() -> "dict[str, Any]":
     """Return name and polars type of every column."""
     import polars as pl
 
-    types = {key: _type(kind) for key, kind in _leaves(Config) if key != _SEED_KEY}
+    types = {key: _type(kind) for key, kind in _kinds().items() if key != _SEED_KEY}
     hints = get_type_hints(Summary)
     summary = {field.name: _type(hints[field.name]) for field in fields(Summary) if field.name not in TIMINGS}
     told = {name: pl.Boolean if name == "drifting" else pl.Float64 for name in STATISTICS}
     return {CASE: pl.String, **types, SEED: pl.Int64, **summary, **told}
 
 
-def _leaves(model: type[BaseModel], at: str = "") -> Iterator[tuple[str, Any]]:
-    """List the dotted keys that hold values, with their annotations."""
+def metadata() -> dict[str, str]:
+    """Return what the table's file carries beside it: units and meanings of parameters and results, as JSON."""
+    parameters = [
+        registry.Quantity(key, "", str(field.json_schema_extra["unit"]), "run", "", field.description or "")
+        for key, field in _leaves(Config)
+        if isinstance(field.json_schema_extra, dict)
+    ]
+    return registry.metadata([*parameters, *registry.known(schema())])
+
+
+@cache
+def _kinds() -> "Mapping[str, Any]":
+    """Return the annotations of the dotted keys that hold values."""
+    return {key: field.annotation for key, field in _leaves(Config)}
+
+
+def _leaves(model: type[BaseModel], at: str = "") -> "Iterator[tuple[str, FieldInfo]]":
+    """List the dotted keys that hold values, with their fields."""
     for key, field in model.model_fields.items():
         part = table_type(model, key)
         if part is not None:
             yield from _leaves(part, f"{at}{key}.")
         else:
-            yield f"{at}{key}", field.annotation
+            yield f"{at}{key}", field
 
 
-def _flat(values: dict[str, Any], kinds: dict[str, Any], at: str = "") -> Iterator[tuple[str, Any]]:
+def _flat(values: dict[str, Any], kinds: "Mapping[str, Any]", at: str = "") -> Iterator[tuple[str, Any]]:
     for key, value in values.items():
         if f"{at}{key}" in kinds:
             yield f"{at}{key}", value

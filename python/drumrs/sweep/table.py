@@ -7,9 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 from drumrs.errors import ConfigError
 from drumrs.files import write_whole
-from drumrs.registry import metadata
 from drumrs.sweep.case import Case
-from drumrs.sweep.columns import schema, sort_keys
+from drumrs.sweep.columns import metadata, schema, sort_keys
 from drumrs.sweep.store import TABLE, Store
 
 if TYPE_CHECKING:
@@ -29,7 +28,8 @@ def scan(cases: Sequence[Case], store: Store) -> "pl.LazyFrame":
     try:
         found = [path for case in cases if (path := store.summary_path(case)) is not None]
     except ConfigError as error:
-        raise ConfigError(f"{error}; run the sweep again to compute it anew") from None
+        error.hint = "run the sweep again to compute it anew"
+        raise
     if not found:
         return pl.LazyFrame(schema=schema())
     return pl.scan_parquet(found, glob=False).sort(sort_keys(), maintain_order=True)
@@ -47,9 +47,7 @@ def write(cases: Sequence[Case], store: Store) -> Path:
     """
     store.require_own()
     buffer = io.BytesIO()
-    scan(cases, store).collect().write_parquet(
-        buffer, compression="uncompressed", metadata=metadata(schema())
-    )
+    scan(cases, store).collect().write_parquet(buffer, compression="uncompressed", metadata=metadata())
     path = store.folder / TABLE
     write_whole(path, buffer.getvalue())
     return path

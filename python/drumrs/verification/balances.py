@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from drumrs import Config, Simulation
+from drumrs import Config, Simulation, quantity
 from drumrs.verification import scenes, theory
 from drumrs.verification.case import case
 from drumrs.verification.evidence import Check, Evidence, Panel, Trace, checks_at, shared_curve
@@ -201,13 +201,13 @@ def time_step() -> Evidence:
     one, other = means.values()
     errors = np.sqrt((one.var(axis=0, ddof=1) + other.var(axis=0, ddof=1)) / len(seeds))
     allowed = special.stdtrit(2 * (len(seeds) - 1), 0.9995) * errors
-    names = [f"mean {name.replace('_', ' ')}" for name in _MEANS]
+    names = [f"mean {quantity(name).title}" for name in _MEANS]
     found = checks_at(names, other.mean(axis=0), one.mean(axis=0), allowed, "W/kg, W/m or J/m")
     traces = tuple(
         Trace(f"Δt = {step:.2g} s", np.array(seeds), values[:, 0], ([1, 8], [values[:, 0].mean()] * 2))
         for step, values in means.items()
     )
-    return Evidence(tuple(found), Panel("seed", "specific power [W/kg], lines: means", traces))
+    return Evidence(tuple(found), Panel("seed", f"{quantity(_MEANS[0]).label}, lines: means", traces))
 
 
 def _means(config: Config) -> list[float]:

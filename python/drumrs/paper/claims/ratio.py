@@ -20,7 +20,7 @@ from drumrs.paper.claims.criteria import (
 from drumrs.paper.claims.power import steady_level
 from drumrs.paper.curves import Curve, Results
 
-# By what damping and sliding take; work of the contact forces gives the same but for the time step's error.
+# By what damping and sliding take; with what springs store counted as well it is nearly the same.
 RATIO = "dissipation_ratio"
 CIRCULATION = "specific_angular_momentum"
 
