@@ -142,7 +142,7 @@ def _two_readings(points: "pl.DataFrame", other: "pl.DataFrame", axis_labels: La
 def drift_over_time(
     runs: Mapping[str, Sequence["pl.DataFrame"]], mass: Mapping[str, float], window: tuple[float, float]
 ) -> "Figure":
-    """Draw how loads wander: running means of specific power and of N/T over each run, seed by seed.
+    """Draw how loads drift: running means of specific power and of N/T over each run, seed by seed.
 
     Parameters
     ----------
