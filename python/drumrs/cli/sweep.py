@@ -21,6 +21,7 @@ _POWER, _RATIO = "drum_specific_power", "dissipation_ratio"
 _HEAD_WIDTH = 14
 _MOST_ROWS = 40
 _MOST_COLUMNS = 6
+_WIDE = 160
 
 
 def sweep(
@@ -98,7 +99,8 @@ def _print_results(planned: Sweep) -> None:
     ids = planned.short_ids()
     for row in found.head(_MOST_ROWS).iter_rows(named=True):
         shown.add_row(ids[row["case"]], *(escape(_show(row[key])) for key in varied), *_numbers(row))
-    Console(highlight=False).print(shown)
+    # What goes to a file or a pipe has room for everything.
+    Console(highlight=False, width=None if sys.stdout.isatty() else _WIDE).print(shown)
     if found.height > _MOST_ROWS:
         sys.stdout.write(f"… and {found.height - _MOST_ROWS} more\n")
 

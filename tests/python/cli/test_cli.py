@@ -84,9 +84,8 @@ def test_info_and_version(drum):
     assert "cpu_features: " in printed
 
 
-@pytest.mark.parametrize("words", [["--help"], ["run", "--help"], ["baseline", "--help"]])
-def test_help_teaches(drum, words):
-    status, printed, _ = drum(*words)
+def test_help_teaches(drum):
+    status, printed, _ = drum("--help")
     assert status == 0
     assert "drumrs run case.toml" in printed
 
