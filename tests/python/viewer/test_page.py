@@ -2,108 +2,16 @@
 
 import base64
 import io
-import json
 import math
 
 import numpy as np
 import pytest
 
-from drumrs.frames import Frames
 from drumrs.viewer import Player, module, script
-from drumrs.viewer.recording import pack
+from shown import RADIUS, scene
 from synthetic import series_of
 
-RADIUS = 0.2
 LATER = 0.5  # seconds: long enough to see time pass, whatever else the machine does
-
-
-def scene() -> Frames:
-    """Two bundles at rest and one that circles, in a drum with a baffle: three seconds in 76 frames."""
-    times = np.linspace(0.0, 3.0, 76)
-    turned = 2.0 * times
-    circle = 0.1 * np.column_stack([np.cos(turned), np.sin(turned)])
-    still = [np.broadcast_to(place, circle.shape) for place in ((0.0, -0.15), (-0.15, 0.0))]
-    shape = (len(times), 3)
-    return Frames(
-        times=times,
-        drum_angles=turned,
-        positions=np.stack([*still, circle], axis=1).astype(np.float32),
-        angles=np.broadcast_to(turned[:, None] % math.tau - math.pi, shape).astype(np.float32),
-        speeds=np.broadcast_to([0.0, 0.0, 0.2], shape).astype(np.float32),
-        radii=np.array([0.02, 0.03, 0.04]),
-        drum_radius=RADIUS,
-        baffles=(np.array([[0.19, -0.03], [0.15, 0.0], [0.19, 0.03]]),),
-    )
-
-
-class Shown:
-    """A page with one or more players, and what it complained about or asked for."""
-
-    def __init__(self, page, file):
-        self.page = page
-        self.troubles: list[str] = []
-        page.on("console", lambda message: self.troubles.append(message.text))
-        page.on("pageerror", lambda error: self.troubles.append(str(error)))
-        page.on("request", lambda request: self._ask(request.url, file))
-        page.goto(file.as_uri())
-
-    def _ask(self, url, file):
-        # Widgets import their text as a blob, which leaves the page as little as the page itself.
-        if url != file.as_uri() and not url.startswith("blob:"):
-            self.troubles.append(f"asked for {url}")
-
-    def part(self, name, player=0):
-        return self.page.locator("drumrs-player").nth(player).locator(f".{name}")
-
-    @property
-    def time(self) -> float:
-        return self.page.evaluate("document.querySelector('drumrs-player').player.time")
-
-    def press(self, *keys):
-        for key in keys:
-            self.page.keyboard.press(key)
-
-    def wait(self, condition):
-        self.page.wait_for_function(
-            f"(player => {condition})(document.querySelector('drumrs-player').player)"
-        )
-
-    def color(self, x, y) -> tuple[int, int, int]:
-        """Return the color of the drum's picture at a place in meters."""
-        script = """(canvas, [x, y]) => {
-          const unit = canvas.width / 2 / (1.13 * 0.2);
-          const at = [canvas.width / 2 + unit * x, canvas.height / 2 - unit * y].map(Math.round);
-          const copy = Object.assign(document.createElement("canvas"), { width: 1, height: 1 });
-          const context = copy.getContext("2d", { willReadFrequently: true });
-          context.drawImage(canvas, -at[0], -at[1]);
-          return [...context.getImageData(0, 0, 1, 1).data];
-        }"""
-        red, green, blue, _ = self.part("stage").evaluate(script, [x, y])
-        return red, green, blue
-
-    def pixels(self, name="stage") -> bytes:
-        script = "canvas => canvas.toDataURL()"
-        return self.part(name).first.evaluate(script)
-
-
-@pytest.fixture
-def show(browser, tmp_path):
-    """Return a function that opens a player; at the end no page may have complained or asked for anything."""
-    opened, contexts = [], []
-
-    def open_page(text: str | None = None, **options) -> Shown:
-        file = tmp_path / f"page_{len(opened)}.html"
-        file.write_text(text or Player(scene(), title="Three bundles").page(autoplay=False), encoding="utf-8")
-        context = browser.new_context(viewport={"width": 1200, "height": 900}, **options)
-        contexts.append(context)
-        opened.append(Shown(context.new_page(), file))
-        return opened[-1]
-
-    yield open_page
-    troubles = [trouble for shown in opened for trouble in shown.troubles]
-    for context in contexts:
-        context.close()
-    assert troubles == []
 
 
 def test_bundles_drum_and_baffle_are_where_they_should_be(show):
@@ -347,82 +255,6 @@ def test_players_on_one_page_do_not_know_of_each_other(show):
     assert shown.page.evaluate(times) == pytest.approx([3.0, 0.04])
     ours = "['Recording', 'Stage', 'Plot', 'VIRIDIS', 'Player', 'KEYS'].filter(name => name in window)"
     assert shown.page.evaluate(ours) == []
-
-
-# A page as others write it: two players of one recording in elements of its own, from the module's text.
-EMBEDDED = """<!doctype html><meta charset=utf-8><div></div><div></div>
-<script type="application/json">{data}</script>
-<script type="text/plain">{module}</script>
-<script type="module">
-const text = document.querySelector("script[type='text/plain']").textContent;
-const {{ Player, unpack }} = await import(URL.createObjectURL(new Blob([text], {{ type: "text/javascript" }})));
-const recording = unpack(JSON.parse(document.querySelector("script").textContent));
-const show = (element) => new Player(element, recording, {{ start: 1 }});
-const [one, two] = [...document.querySelectorAll("div")].map(show);
-const told = [];
-for (const name of ["time", "select", "play", "pause"]) one.addEventListener(name, () => told.push(name));
-Object.assign(window, {{ recording, one, two, told }});
-</script>"""
-
-
-@pytest.fixture
-def embedded(show) -> Shown:
-    data = json.dumps(pack(scene(), series_of(7.0), "", None))
-    shown = show(EMBEDDED.format(data=data, module=module("player.js", "recording.js")))
-    shown.page.wait_for_function("'told' in window")
-    return shown
-
-
-def test_players_in_elements_of_any_page(embedded):
-    ask = embedded.page.evaluate
-    elements = embedded.page.locator("div:not(div div)")
-    assert ask("[one.time, two.time]") == [1.0, 1.0]
-    elements.nth(0).locator(".forward").click()
-    elements.nth(0).locator(".stage").press("n")
-    assert ask("[one.time, two.time]") == pytest.approx([1.04, 1.0])
-    assert ask("[one.selected, two.selected]") == [0, None]
-    ask("one.play(); one.pause()")  # in one go, so that no frame is drawn between them
-    assert ask("told") == ["time", "select", "play", "pause"]
-    # Both draw the same at one time, each on canvases of its own.
-    ask("one.select(null); two.seek(one.time)")
-    pictures = [elements.nth(k).locator(".stage").evaluate("canvas => canvas.toDataURL()") for k in (0, 1)]
-    assert pictures[0] == pictures[1]
-
-
-def test_a_player_that_is_destroyed_leaves_nothing(embedded):
-    ask = embedded.page.evaluate
-    elements = embedded.page.locator("div:not(div div)")
-    ask("one.play(); one.destroy()")
-    assert ask("told") == ["play", "pause"]
-    assert elements.nth(0).inner_html() == ""
-    # It hears neither of the recording nor of the scheme of colors, while the other one does.
-    ask("one.draw = () => { throw new Error('drawn after its end'); }; recording.extend({})")
-    embedded.page.emulate_media(color_scheme="dark")
-    embedded.page.wait_for_timeout(50)
-    elements.nth(1).locator(".forward").click()
-    assert ask("two.time") == pytest.approx(1.04)
-
-
-def test_a_recording_grows_while_it_is_shown(embedded):
-    ask = embedded.page.evaluate
-    ask("""() => {
-      two.seek(recording.end);
-      const last = recording.frames.at(-1);
-      recording.extend({
-        frames: [0.5, 1].map((later) => ({ ...last, time: last.time + later, drumAngle: last.drumAngle + 2 * later })),
-        panels: [{ title: "Power", lines: recording.panels[0].lines }],
-        speedScale: 0.5,
-      });
-    }""")
-    # Who was at the end stays there; who was elsewhere, too.
-    assert ask("[one.time, two.time]") == [1.0, 4.0]
-    second = embedded.page.locator("div:not(div div)").nth(1)
-    assert second.locator(".scrub").get_attribute("aria-valuetext") == "4.00 of 4.00 seconds, frame 78 of 78"
-    assert second.locator(".turning").inner_text() == "19.1 rpm, 1.27 turns"
-    assert second.locator(".highest").inner_text() == "≥ 0.500"
-    second.locator(".stage").press("Home")
-    second.locator(".stage").press("End")
-    assert ask("two.time") == 4.0
 
 
 def test_a_large_load_has_colors(show):
