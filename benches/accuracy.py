@@ -46,7 +46,7 @@ class Setting:
         """Return the paper's drum at this setting."""
         run = {"seed": seed, "duration": WINDOW[1], "window": WINDOW, "frame_every": WINDOW[1]}
         base = drumrs.baseline(FILL, baffles=self.baffles).replace({"run": run})
-        collision = drumrs.Simulation(base).collision_times["bundle"]
+        collision = base.derived.bundle.collision_time
         return base.replace({"run.time_step": collision / self.steps}).softer(self.softer)
 
 

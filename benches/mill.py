@@ -121,8 +121,8 @@ def of_sizes() -> Iterator[dict[str, Any]]:
         if not np.array_equal(ends[0], ends[-1]):
             raise SystemExit(f"a drum that is {length:g} times as large does not move in the same way")
         power = simulation.summary().drum_power
-        rpm, diameter = config.rotation.rpm or 0.0, config.drum.diameter
-        weight = float(simulation.masses.sum()) * GRAVITY * diameter / 2.0 * rpm * math.pi / 30.0
+        rpm, diameter, derived = config.rotation.rpm or 0.0, config.drum.diameter, config.derived
+        weight = derived.load_mass * GRAVITY * diameter / 2.0 * (derived.angular_velocity or 0.0)
         row = {"kind": "size", "baffles": 0, "fill": TABLE_1.load.fill, "rpm": rpm, "diameter": diameter}
         yield row | {"lever": power / weight, "half_width": 0.0, "power": power}
 

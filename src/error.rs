@@ -1,25 +1,26 @@
-//! What can go wrong, as one enum; each message says what was found and what would have been accepted.
+//! What can go wrong, as one enum. A message is made of its parts, each of which callers can ask for: the key, what is wrong
+//! with it, the way out.
 
 use std::fmt;
 
 /// Every failure of the core.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Error {
-    /// A parameter outside its limits. `key` is the name a user writes, such as `contact.bundle.friction`.
-    #[error("{key} is {value}, but must be {limit}")]
+    /// A parameter outside its limits.
     Config {
-        /// The dotted key.
+        /// The name a user writes, such as `contact.bundle.friction`.
         key: String,
-        /// The value found.
-        value: String,
-        /// What would have been accepted.
+        /// What was found.
+        value: Value,
+        /// What would have been accepted, in words.
         limit: String,
+        /// The limit as a number, where it is a single one.
+        bound: Option<f64>,
+        /// What to do instead, where there is more to say than the limit.
+        hint: &'static str,
     },
 
     /// More bundles than the packing can place.
-    #[error(
-        "load.count is {requested}, but must be at most {fits}: no more bundles of diameter {diameter} m fit into this drum"
-    )]
     Packing {
         /// Bundles asked for.
         requested: usize,
@@ -30,10 +31,6 @@ pub enum Error {
     },
 
     /// Bodies that overlap at the start.
-    #[error(
-        "{one} and {other} overlap by {:.3} % of the smaller radius, but may by at most {:.0} %: springs would throw them apart; move them, or start from a state of a simulation, which brings its contacts along",
-        100.0 * .ratio, 100.0 * .limit
-    )]
     StartOverlap {
         /// The key of a bundle.
         one: String,
@@ -46,17 +43,12 @@ pub enum Error {
     },
 
     /// A particle's state stopped being a number.
-    #[error("the state of bundle {} is no longer finite at {}; shorten run.time_step", .incident.particle, .incident.moment())]
     NonFinite {
         /// Which particle, when and where.
         incident: Incident,
     },
 
     /// A contact was pressed deeper than the model can mean.
-    #[error(
-        "the overlap of bundle {} reached {ratio:.3} of its radius at {incident}, beyond run.overlap_limit = {limit}; shorten run.time_step or raise the stiffness",
-        .incident.particle
-    )]
     Overlap {
         /// Which particle, when and where.
         incident: Incident,
@@ -67,10 +59,6 @@ pub enum Error {
     },
 
     /// A particle's center is inside a solid.
-    #[error(
-        "bundle {} passed through the {surface} by {incident}; shorten run.time_step or raise the stiffness",
-        .incident.particle
-    )]
     Escaped {
         /// Which particle, when and where.
         incident: Incident,
@@ -79,10 +67,6 @@ pub enum Error {
     },
 
     /// A particle moved so far in a step that it could pass through others unseen.
-    #[error(
-        "bundle {} moved {displacement:.3e} m in one step at {incident}, as seen from the drum, more than half of the smallest radius, {limit:.3e} m; shorten run.time_step, or start slower",
-        .incident.particle
-    )]
     TooFast {
         /// Which particle, when and where.
         incident: Incident,
@@ -93,14 +77,12 @@ pub enum Error {
     },
 
     /// A checkpoint that cannot be used.
-    #[error("cannot use this checkpoint: {reason}")]
     Checkpoint {
         /// What is wrong with it.
         reason: String,
     },
 
     /// Memory that there is none of. What was being done is not done; everything before it is whole.
-    #[error("{action}: there is no memory for {bytes} bytes more")]
     Memory {
         /// What was being done.
         action: &'static str,
@@ -109,13 +91,67 @@ pub enum Error {
     },
 
     /// A thread pool or file that the system refused.
-    #[error("{action}: {reason}")]
     System {
         /// What was being done.
         action: String,
         /// What the system answered.
         reason: String,
     },
+}
+
+/// What was found where something else is needed.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Value {
+    /// A number.
+    Number(f64),
+    /// A whole number.
+    Count(usize),
+    /// Words, where it is no single number.
+    Words(String),
+}
+
+impl fmt::Display for Value {
+    fn fmt(&self, formatter: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            // Nobody counts the zeros of 1e300.
+            Self::Number(number) if *number != 0.0 && !(1e-4..1e16).contains(&number.abs()) => {
+                write!(formatter, "{number:e}")
+            }
+            Self::Number(number) => write!(formatter, "{number}"),
+            Self::Count(count) => write!(formatter, "{count}"),
+            Self::Words(words) => formatter.write_str(words),
+        }
+    }
+}
+
+impl From<f64> for Value {
+    fn from(number: f64) -> Self {
+        Self::Number(number)
+    }
+}
+
+impl From<usize> for Value {
+    fn from(count: usize) -> Self {
+        Self::Count(count)
+    }
+}
+
+impl From<u16> for Value {
+    fn from(count: u16) -> Self {
+        Self::Count(count.into())
+    }
+}
+
+impl From<&str> for Value {
+    fn from(words: &str) -> Self {
+        Self::Words(words.into())
+    }
+}
+
+impl From<String> for Value {
+    fn from(words: String) -> Self {
+        Self::Words(words)
+    }
 }
 
 /// Which particle something happened to, when and where.
@@ -147,20 +183,106 @@ impl fmt::Display for Incident {
     }
 }
 
+impl std::error::Error for Error {}
+
+/// "KEY PROBLEM; HINT", without the parts that there are none of.
+impl fmt::Display for Error {
+    fn fmt(&self, formatter: &mut fmt::Formatter) -> fmt::Result {
+        if let Some(key) = self.key() {
+            write!(formatter, "{key} ")?;
+        }
+        formatter.write_str(&self.problem())?;
+        match self.hint() {
+            "" => Ok(()),
+            hint => write!(formatter, "; {hint}"),
+        }
+    }
+}
+
 impl Error {
-    /// An `Error::Config` from anything that prints.
-    #[allow(clippy::needless_pass_by_value)] // Callers hand over numbers and fresh strings.
-    pub fn config(key: impl Into<String>, value: impl ToString, limit: impl Into<String>) -> Self {
-        Self::Config { key: key.into(), value: value.to_string(), limit: limit.into() }
+    /// An `Error::Config` without further advice.
+    pub fn config(key: impl Into<String>, value: impl Into<Value>, limit: impl Into<String>) -> Self {
+        Self::Config { key: key.into(), value: value.into(), limit: limit.into(), bound: None, hint: "" }
+    }
+
+    /// The name of what is refused, as a user writes it.
+    pub fn key(&self) -> Option<&str> {
+        match self {
+            Self::Config { key, .. } => Some(key),
+            Self::Packing { .. } => Some("load.count"),
+            Self::StartOverlap { one, .. } => Some(one),
+            _ => None,
+        }
+    }
+
+    /// What is wrong, or what has happened: the message without its key and its hint.
+    pub fn problem(&self) -> String {
+        match self {
+            Self::Config { value, limit, .. } => format!("is {value}, but must be {limit}"),
+            Self::Packing { requested, .. } => format!("is {requested}, but must be {}", self.limit()),
+            Self::StartOverlap { other, ratio, .. } => {
+                format!(
+                    "and {other} overlap by {:.3} % of the smaller radius, but may by {}: springs would throw them apart",
+                    100.0 * ratio,
+                    self.limit()
+                )
+            }
+            Self::NonFinite { incident } => {
+                format!(
+                    "the state of bundle {} is no longer finite at {}",
+                    incident.particle,
+                    incident.moment()
+                )
+            }
+            Self::Overlap { incident, ratio, limit } => format!(
+                "the overlap of bundle {} reached {ratio:.3} of its radius at {incident}, beyond run.overlap_limit = {limit}",
+                incident.particle
+            ),
+            Self::Escaped { incident, surface } => {
+                format!("bundle {} passed through the {surface} by {incident}", incident.particle)
+            }
+            Self::TooFast { incident, displacement, limit } => format!(
+                "bundle {} moved {displacement:.3e} m in one step at {incident}, as seen from the drum, more than half of the smallest radius, {limit:.3e} m",
+                incident.particle
+            ),
+            Self::Checkpoint { reason } => format!("cannot use this checkpoint: {reason}"),
+            Self::Memory { action, bytes } => format!("{action}: there is no memory for {bytes} bytes more"),
+            Self::System { action, reason } => format!("{action}: {reason}"),
+        }
+    }
+
+    /// What a refused configuration would have had to be, in words.
+    pub fn limit(&self) -> String {
+        match self {
+            Self::Config { limit, .. } => limit.clone(),
+            Self::Packing { fits, diameter, .. } => {
+                format!("at most {fits}: no more bundles of diameter {diameter} m fit into this drum")
+            }
+            Self::StartOverlap { limit, .. } => format!("at most {:.0} %", 100.0 * limit),
+            _ => String::new(),
+        }
+    }
+
+    /// What to do instead.
+    pub fn hint(&self) -> &'static str {
+        match self {
+            Self::Config { hint, .. } => hint,
+            Self::StartOverlap { .. } => {
+                "move them, or start from a state of a simulation, which brings its contacts along"
+            }
+            Self::NonFinite { .. } => "shorten run.time_step",
+            Self::Overlap { .. } | Self::Escaped { .. } => "shorten run.time_step or raise the stiffness",
+            Self::TooFast { .. } => "shorten run.time_step, or start slower",
+            _ => "",
+        }
     }
 }
 
 /// An `Error::Config` unless the condition holds.
-#[allow(clippy::needless_pass_by_value)] // As in `Error::config`.
 pub fn require(
     condition: bool,
     key: impl Into<String>,
-    value: impl ToString,
+    value: impl Into<Value>,
     limit: impl Into<String>,
 ) -> Result<(), Error> {
     if condition { Ok(()) } else { Err(Error::config(key, value, limit)) }

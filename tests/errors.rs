@@ -3,7 +3,7 @@
 mod common;
 
 use common::*;
-use drumrs::error::{Error, Incident};
+use drumrs::error::{Error, Incident, Value};
 use drumrs::physics::vector::Vec2;
 use drumrs::simulation::Simulation;
 use drumrs::simulation::initial_state::InitialState;
@@ -52,6 +52,29 @@ fn every_variant_has_its_message() {
     assert_eq!(checkpoint.to_string(), "cannot use this checkpoint: it is damaged");
     let system = Error::System { action: "reading run.ckpt".into(), reason: "no such file".into() };
     assert_eq!(system.to_string(), "reading run.ckpt: no such file");
+}
+
+/// Callers ask for the parts of which a message is made.
+#[test]
+fn errors_have_parts() {
+    let error = Error::Config {
+        key: "run.time_step".into(),
+        value: 1e-3.into(),
+        limit: "at most 2e-5".into(),
+        bound: Some(2e-5),
+        hint: "or set run.time_step = \"auto\"",
+    };
+    assert_eq!(error.key(), Some("run.time_step"));
+    assert_eq!(error.problem(), "is 0.001, but must be at most 2e-5");
+    assert_eq!(error.limit(), "at most 2e-5");
+    assert_eq!(
+        error.to_string(),
+        "run.time_step is 0.001, but must be at most 2e-5; or set run.time_step = \"auto\""
+    );
+    let packing = Error::Packing { requested: 400, fits: 361, diameter: 0.02375 };
+    assert_eq!((packing.key(), packing.hint()), (Some("load.count"), ""));
+    assert_eq!(Value::from(1e300).to_string(), "1e300");
+    assert_eq!(Value::from(-0.5).to_string(), "-0.5");
 }
 
 /// A simulation ends in each of the errors that a simulation can end in.

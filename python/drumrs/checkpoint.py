@@ -44,26 +44,20 @@ def read_checkpoint(path: str | Path) -> tuple[Config, bytes]:
     try:
         data = read_plain(Path(path))
     except OSError as error:
-        raise CheckpointError(f"cannot read the checkpoint {str(path)!r}: {error.strerror}") from None
+        raise CheckpointError(f"it cannot be read: {error.strerror}", str(path)) from None
     body, digest = data[:-_DIGEST_SIZE], data[-_DIGEST_SIZE:]
     line, _, rest = body.partition(b"\n")
     if not line.startswith(_NAME):
-        raise CheckpointError(f"{str(path)!r} is not a checkpoint, but must be a file that drumrs wrote")
+        raise CheckpointError("it is not a checkpoint of drumrs", str(path))
     version = line.removeprefix(_NAME)
     if version != _VERSION:
         found = version.decode(errors="replace")[:20]
-        raise CheckpointError(
-            f"the checkpoint {str(path)!r} is of version {found!r}, but must be of version {_VERSION.decode()!r}"
-        )
+        raise CheckpointError(f"it is of version {found!r}, but must be of {_VERSION.decode()!r}", str(path))
     if hashlib.sha256(body).digest() != digest:
-        raise CheckpointError(
-            f"the checkpoint {str(path)!r} is truncated or damaged: its digest does not match"
-        )
+        raise CheckpointError("it is truncated or damaged: its digest does not match", str(path))
     head, _, core = rest.partition(b"\n")
     try:
         return Config.model_validate(json.loads(head)), core
     except (ValueError, RecursionError):
         # A digest that matches is not yet one that drumrs made.
-        raise CheckpointError(
-            f"the checkpoint {str(path)!r} holds no configuration, but must be a file that drumrs wrote"
-        ) from None
+        raise CheckpointError("it holds no valid configuration", str(path)) from None

@@ -54,18 +54,17 @@ def require_own(folder: Path, kind: str, names: Sequence[str], option: str = "fo
     ConfigError
         Where the folder is not accepted.
     """
-    told = f"{option} is {str(folder)!r}, but must be"
     for other, called in KINDS.items():
         if other != kind and (folder / marker(other)).exists():
-            raise ConfigError(
-                f"{told} a new folder or one of {KINDS[kind]}: it is that of {called}; choose another"
-            )
+            limit = f"a new folder or one of {KINDS[kind]}: it is that of {called}"
+            raise ConfigError(option, folder, limit, hint="choose another")
     found = [name for name in names if (folder / name).exists()]
     if found and not (folder / marker(kind)).exists():
-        raise ConfigError(
-            f"{told} a new folder or one that drumrs made: this one has a {found[0]} that is not overwritten, for "
-            "drumrs did not write it; choose another folder, or move the file away"
+        limit = (
+            f"a new folder or one that drumrs made: this one has a {found[0]} that is not overwritten, for drumrs did "
+            "not write it"
         )
+        raise ConfigError(option, folder, limit, hint="choose another folder, or move the file away")
 
 
 def require_unused(
@@ -98,10 +97,9 @@ def require_unused(
     if (digest and mark.get("digest") == digest) or (kind == "run" and not left):
         return
     resume = f"go on with it: drumrs run --resume {folder}; " if left == ["checkpoint.bin"] else ""
-    raise ConfigError(
-        f"{option} is {str(folder)!r}, but must be a folder without {KINDS[kind]}: it holds that of "
-        f"{mark.get('title', 'an unknown case')}; {resume}replace it: {force}; or choose another folder"
-    )
+    limit = f"a folder without {KINDS[kind]}: it holds that of {mark.get('title', 'an unknown case')}"
+    hint = f"{resume}replace it: {force}; or choose another folder"
+    raise ConfigError(option, folder, limit, hint=hint)
 
 
 def claim(folder: Path, kind: str, title: str, digest: str) -> None:

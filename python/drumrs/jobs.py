@@ -30,5 +30,5 @@ def job_count(jobs: int | None = None) -> int:
     if jobs is None:
         return len(os.sched_getaffinity(0)) if sys.platform == "linux" else os.cpu_count() or 1
     if isinstance(jobs, bool) or not isinstance(jobs, int) or not 1 <= jobs <= MOST_JOBS:
-        raise ConfigError(f"jobs is {jobs!r}, but must be a whole number from 1 to {MOST_JOBS}")
+        raise ConfigError("jobs", jobs, f"a whole number from 1 to {MOST_JOBS}", bound=MOST_JOBS)
     return jobs

@@ -1,9 +1,9 @@
-"""What a simulation may be asked for: threads, steps, samples, memory; each refusal is one sentence."""
+"""Limits of a simulation: threads, steps, samples, and the memory and disk that its records take."""
 
 import math
 import os
-import re
 import shutil
+from collections.abc import Mapping
 from pathlib import Path
 
 from drumrs.config import Config
@@ -17,28 +17,28 @@ _MOST_MEMORY = 8 * 2**30
 # Records in memory are there twice when they are read: in the simulation, and with whoever reads them. On disk as well,
 # when the parts of a run are put together.
 _COPIES = 2
-# A sample has some thirty columns, and four for each baffle and wall; a frame has four single numbers a bundle.
-_SAMPLE, _SURFACE, _BUNDLE, _FRAME = 30 * 8, 4 * 8, 4 * 4, 2 * 8
 
 
 def check_threads(threads: int) -> None:
-    """Refuse a number of threads that is none, or too many."""
+    """Refuse what is no number of threads, or too large a one."""
     if isinstance(threads, bool) or not isinstance(threads, int) or not 1 <= threads <= _MOST_THREADS:
-        raise ConfigError(f"threads is {threads!r}, but must be a whole number from 1 to {_MOST_THREADS}")
+        limit = f"a whole number from 1 to {_MOST_THREADS}"
+        raise ConfigError("threads", threads, limit, bound=_MOST_THREADS)
 
 
 def check_steps(steps: int) -> int:
-    """Return a number of steps; refuse what is none."""
+    """Return a number of steps; refuse what is no such number."""
     if isinstance(steps, bool) or not isinstance(steps, int) or not 0 <= steps <= _MOST_STEPS:
-        raise ConfigError(f"steps is {steps!r}, but must be a whole number from 0 to {_MOST_STEPS}")
+        raise ConfigError("steps", steps, f"a whole number from 0 to {_MOST_STEPS}", bound=_MOST_STEPS)
     return steps
 
 
-def step_count(name: str, duration: float, time_step: float) -> int:
-    """Return the number of steps that a time takes, rounded up."""
+def step_count(key: str, duration: float, time_step: float) -> int:
+    """Return the number of steps that a duration [s] takes, rounded up."""
     if not duration / time_step <= _MOST_STEPS:
-        greatest = f"{_MOST_STEPS * time_step:.4g}, {_MOST_STEPS} time steps of {time_step:.4g} s"
-        raise ConfigError(f"{name} is {duration}, but must be at most {greatest}")
+        greatest = _MOST_STEPS * time_step
+        limit = f"at most {greatest:.4g}, {_MOST_STEPS} time steps of {time_step:.4g} s"
+        raise ConfigError(key, duration, limit, bound=greatest)
     return math.ceil(duration / time_step)
 
 
@@ -50,84 +50,60 @@ def require_samples(config: Config, time_step: float) -> None:
         last = math.floor(step_count("run.duration", run.duration, time_step) * time_step / interval)
         if math.floor(start / interval + 0.5) < min(math.floor(end / interval + 0.5), last):
             return
-    raise ConfigError(
-        f"run.sample_every is {run.sample_every}, but must be at most {(end - start) / 2.0:.4g}, "
-        f"half the length of the window [{start:.4g}, {end:.4g}]"
-    )
+    greatest = (end - start) / 2.0
+    limit = f"at most {greatest:.4g}, half the length of the window [{start:.4g}, {end:.4g}]"
+    raise ConfigError("run.sample_every", run.sample_every, limit, bound=greatest)
 
 
-def require_memory(config: Config, count: int, time_step: float, *, with_frames: bool) -> None:
-    """Refuse samples or frames that come so often that they would flood the memory in the end.
+def require_memory(config: Config, time_step: float, sizes: Mapping[str, int], *, with_frames: bool) -> None:
+    """Refuse samples or frames that come so often that they would not fit into memory at the end.
 
     Parameters
     ----------
     config
         What is to be simulated.
-    count
-        Number of bundles.
     time_step
         Time step [s].
+    sizes
+        Size of one record [bytes] by the key of its interval, as `Records.sizes`.
     with_frames
         Whether frames stay in memory.
     """
-    sizes = _sizes(config, count)
-    if not with_frames:
-        del sizes["run.frame_every"]
-    way_out = "shorten run.duration" + (
+    kept = {key: size for key, size in sizes.items() if with_frames or key != "run.frame_every"}
+    hint = "shorten run.duration" + (
         ", or let drumrs run --out OUT write frames to disk as they come" if with_frames else ""
     )
-    _require_room(config, time_step, sizes, _memory(), "of memory", way_out)
+    _require_room(config, time_step, kept, _memory(), "of memory", hint)
 
 
-def require_disk(config: Config, count: int, time_step: float, folder: Path) -> None:
-    """Refuse samples and frames that the disk of a folder has no room for."""
+def require_disk(config: Config, time_step: float, sizes: Mapping[str, int], folder: Path) -> None:
+    """Refuse samples and frames that the disk of a folder has no room for; the parameters are as above."""
     existing = next(path for path in (folder.absolute(), *folder.absolute().parents) if path.exists())
     disk = shutil.disk_usage(existing)
     # File systems without a size, such as /proc and some of a network, do not tell what they hold.
     if disk.total:
         where = f"on the disk of {str(folder)!r}"
-        _require_room(
-            config,
-            time_step,
-            _sizes(config, count),
-            disk.free,
-            where,
-            "shorten run.duration, or free the disk",
-        )
-
-
-def _sizes(config: Config, count: int) -> dict[str, tuple[float, int]]:
-    """Return how often samples and frames come [s], and how much room one of them takes [bytes]."""
-    run, drum = config.run, config.drum
-    sample = _SAMPLE + _SURFACE * (1 + drum.baffles.count + len(drum.walls))
-    return {
-        "run.sample_every": (run.sample_every, _COPIES * sample),
-        "run.frame_every": (run.frame_every, _COPIES * (_FRAME + _BUNDLE * count)),
-    }
+        _require_room(config, time_step, sizes, disk.free, where, "shorten run.duration, or free the disk")
 
 
 def _require_room(
-    config: Config,
-    time_step: float,
-    sizes: dict[str, tuple[float, int]],
-    most: float,
-    where: str,
-    way_out: str,
+    config: Config, time_step: float, sizes: Mapping[str, int], most: float, where: str, hint: str
 ) -> None:
     duration = config.run.duration
-    needed = {key: duration / max(interval, time_step) * size for key, (interval, size) in sizes.items()}
+    intervals = {"run.sample_every": config.run.sample_every, "run.frame_every": config.run.frame_every}
+    needed = {key: duration / max(intervals[key], time_step) * _COPIES * size for key, size in sizes.items()}
     total = sum(needed.values())
     if total <= most:
         return
     key = max(needed, key=lambda key: needed[key])
-    interval, size = sizes[key]
     # The rest is the smaller part; half of the room is enough for it. A full disk has room for nothing.
     left = max(most - (total - needed[key]), most / 2.0, 1.0)
-    raise ConfigError(
-        f"{key} is {interval}, but must be at least {duration * size / left:.4g}: "
-        f"what is recorded over run.duration = {duration} would take {total / 2**30:.4g} GiB {where}, "
-        f"and {most / 2**30:.4g} are there for it; {way_out}"
+    least = duration * _COPIES * sizes[key] / left
+    limit = (
+        f"at least {least:.4g}: what is recorded over run.duration = {duration} would take "
+        f"{total / 2**30:.4g} GiB {where}, and {most / 2**30:.4g} are there for it"
     )
+    raise ConfigError(key, intervals[key], limit, hint=hint, bound=least)
 
 
 def _memory() -> float:
@@ -143,13 +119,10 @@ def _memory() -> float:
 
 
 def in_terms_of_fill(config: Config, error: ConfigError) -> ConfigError:
-    """Name the fill, which the user wrote, where the core refuses the count that follows from it."""
-    refused = re.fullmatch(r"load\.count is (\d+), but must be at most (\d+): (.*)", str(error))
-    if config.load.fill is None or refused is None:
+    """Name the fill, which the user wrote, where the core refuses the number of bundles that follows from it."""
+    if config.load.fill is None or error.key != "load.count" or error.bound is None:
         return error
-    count, most, why = refused.groups()
-    greatest = int(most) * (config.load.diameter / config.drum.diameter) ** 2
-    return ConfigError(
-        f"load.fill is {config.load.fill} ({count} bundles), but must be at most {greatest:.4g} "
-        f"({most} bundles): {why}"
-    )
+    fill, most = config.load.fill, int(error.bound)
+    limit = f"at most {config.fill_of(most):.4g} ({most} bundles): no more of them fit into this drum"
+    problem = f"is {fill} ({config.bundle_count} bundles), but must be {limit}"
+    return ConfigError("load.fill", fill, limit, problem=problem, bound=config.fill_of(most))

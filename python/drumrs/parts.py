@@ -152,7 +152,5 @@ class Parts:
         return table.head(count * rows)
 
     def _missing(self, kind: str, reached: int) -> CheckpointError:
-        return CheckpointError(
-            f"{str(self._folder / _FOLDER)!r} must hold the {kind} that the checkpoint knows of, "
-            f"but lacks what comes after the first {reached} of them; begin the run anew, without --resume"
-        )
+        reason = f"{str(self._folder / _FOLDER)!r} lacks the {kind} recorded after the first {reached}"
+        return CheckpointError(reason, str(self._folder), "begin the run anew, without --resume")

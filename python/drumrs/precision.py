@@ -40,13 +40,11 @@ class Goal:
             Where one of them is not accepted.
         """
         if not 0.0 < precision < 1.0:
-            raise ConfigError(
-                f"--until is {precision}, but must be between 0 and 1: the error over the power"
-            )
+            raise ConfigError("--until", precision, "between 0 and 1: the error over the power")
         if limit is None:
             return cls(precision, LIMIT * duration)
         if not duration <= limit < math.inf:
-            raise ConfigError(f"--limit is {limit}, but must be at least run.duration = {duration}")
+            raise ConfigError("--limit", limit, f"at least run.duration = {duration}", bound=duration)
         return cls(precision, limit)
 
 

@@ -39,6 +39,10 @@ class Core(Protocol):
         """Frames recorded before the first in memory."""
 
     @property
+    def record_sizes(self) -> tuple[int, int]:
+        """Memory that a sample and a frame take [bytes]."""
+
+    @property
     def untaken_size(self) -> int:
         """Memory of what was not taken yet [bytes]."""
 
@@ -96,6 +100,11 @@ class Records:
     def size(self) -> int:
         """Memory of what was not taken yet [bytes]."""
         return self._core.untaken_size
+
+    @property
+    def sizes(self) -> dict[str, int]:
+        """Size of one sample and of one frame [bytes], by the key of its interval."""
+        return dict(zip(("run.sample_every", "run.frame_every"), self._core.record_sizes, strict=True))
 
     @property
     def taken_samples(self) -> int:

@@ -135,10 +135,11 @@ def require(path: Path, names: Iterable[str], wanted: Iterable[str]) -> None:
     known = set(names)
     for name in wanted:
         if name not in known:
-            raise ConfigError(
-                f"{str(path)!r} has no {name!r}, but must have it: another version of drumrs wrote it, with other "
-                "names; run its configuration again, or read it with that version"
+            problem = (
+                f"has no {name!r}, but must have it: another version of drumrs wrote it, with other names"
             )
+            hint = "run its configuration again, or read it with that version"
+            raise ConfigError(Path(path), problem=problem, hint=hint)
 
 
 def recorded(baffles: int, walls: int) -> list[Quantity]:

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 
 # What a run leaves instead of summary.json where it ended unstable.
 UNSTABLE = "unstable.json"
+_FINISHED = "the folder of a finished run"
 
 
 def ended_unstable(time: float) -> str:
@@ -203,10 +204,11 @@ def load(folder: str | Path) -> Result:
         ended = read_object(folder / UNSTABLE)
         if ended is not None:
             raise ConfigError(
-                f"{str(folder)!r} holds a run that ended unstable, but must be the folder of a finished run: "
-                f"{ended.get('error')}; its series.parquet, frames.parquet and player.html show it to the end"
+                folder,
+                problem=f"holds a run that ended unstable, but must be {_FINISHED}: {ended.get('error')}",
+                hint="its series.parquet, frames.parquet and player.html show it to the end",
             )
-        raise ConfigError(f"{str(folder)!r} holds no summary.json, but must be the folder of a finished run")
+        raise ConfigError(folder, problem=f"holds no summary.json, but must be {_FINISHED}")
     try:
         require_plain(folder / "frames.parquet")
         summary = read_object(folder / "summary.json") or {}
@@ -221,6 +223,4 @@ def load(folder: str | Path) -> Result:
         raise
     # Whatever a damaged table makes of itself; polars may even panic, which is no `Exception`.
     except (Exception, pl.exceptions.PanicException) as error:  # noqa: BLE001
-        raise ConfigError(
-            f"{str(folder)!r} is damaged, but must be the folder of a finished run: {error!r:.200}"
-        ) from None
+        raise ConfigError(folder, problem=f"is damaged, but must be {_FINISHED}: {error!r:.200}") from None

@@ -5,7 +5,7 @@ from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
-from drumrs.config import Config
+from drumrs.config import Config, require_config
 from drumrs.progress import Task, with_prefix
 from drumrs.result import Result
 from drumrs.run_folder import RunFolder
@@ -23,7 +23,7 @@ def run(
     Parameters
     ----------
     config
-        What to simulate: a configuration, or the name of a TOML file that is laid over the baseline.
+        What to simulate: a configuration, or the name of a file that is laid over the baseline, as `Config.read`.
     seed
         Seed of the random start, instead of ``config.run.seed``.
     threads
@@ -51,7 +51,7 @@ def run(
     >>> result.frames.positions.shape[1:]
     (40, 2)
     """
-    config = config if isinstance(config, Config) else Config.read(config)
+    config = require_config(Config.read(config) if isinstance(config, (str, Path)) else config)
     with packing(config, show=progress):
         simulation = Simulation(config, seed, threads)
     run_to_end(simulation, progress=progress)

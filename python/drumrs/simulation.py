@@ -1,7 +1,8 @@
-"""`Simulation`: one drum, step by step; the only module that talks to the compiled core."""
+"""`Simulation`: one drum, step by step; around the compiled core."""
 
 import json
 import math
+import numbers
 import os
 import threading
 import time
@@ -15,7 +16,8 @@ from numpy.typing import NDArray
 
 from drumrs import _core
 from drumrs.checkpoint import read_checkpoint, write_checkpoint
-from drumrs.config import Config
+from drumrs.config import Config, require_config
+from drumrs.config.messages import both_given
 from drumrs.errors import CheckpointError, ConfigError, DrumrsError, DrumrsWarning
 from drumrs.limits import (
     check_steps,
@@ -32,6 +34,10 @@ from drumrs.result import Result, Summary
 from drumrs.state import State
 
 Array = NDArray[np.float64]
+
+_SIMULATE_FIRST = (
+    "run() without arguments simulates all of run.duration, and summary((start, end)) averages over a part"
+)
 
 
 class Simulation(HasRecords):
@@ -53,7 +59,7 @@ class Simulation(HasRecords):
     Raises
     ------
     ConfigError
-        Where no such simulation can be; the sentence names key, value and limit.
+        Where no such simulation can be; the error has key, value and limit.
 
     Warns
     -----
@@ -79,9 +85,13 @@ class Simulation(HasRecords):
         in_memory: bool = True,
     ) -> None:
         check_threads(threads)
+        config = require_config(config)
+        if state is not None and not isinstance(state, State):
+            raise ConfigError("state", state, "a drumrs.State", hint="drumrs.State(positions) makes one")
         config = config if seed is None else config.replace({"run.seed": seed})
         if state is None and not config.drum.rim:
-            raise ConfigError("drum.rim is false, but must be true where no initial state is given")
+            limit = "true where no initial state is given"
+            raise ConfigError("drum.rim", False, limit, problem=f"is false, but must be {limit}")
         arrays = None if state is None else state.arrays()
         if arrays is not None and len(arrays["positions"]) != config.bundle_count:
             config = config.replace({"load.count": len(arrays["positions"])})
@@ -91,9 +101,9 @@ class Simulation(HasRecords):
             raise in_terms_of_fill(config, error) from None
         self._start(config, core)
         require_samples(config, self.time_step)
-        require_memory(config, self.count, self.time_step, with_frames=in_memory)
-        for sentence in self.warnings:
-            warnings.warn(sentence, DrumrsWarning, stacklevel=2)
+        require_memory(config, self.time_step, self._records.sizes, with_frames=in_memory)
+        for message in self.warnings:
+            warnings.warn(message, DrumrsWarning, stacklevel=2)
 
     def _start(self, config: Config, core: _core.Simulation) -> None:
         self._config = config
@@ -132,16 +142,16 @@ class Simulation(HasRecords):
         Raises
         ------
         UnstableError
-            Where the state stops meaning anything; the sentence names step and bundle.
+            Where the run becomes unstable; the error has bundle, step, time and place.
         DrumrsError
             Where another thread is running this simulation.
         """
         if duration is not None and steps is not None:
-            raise ConfigError("duration and steps are both given, but only one of them may be")
+            raise ConfigError(**both_given("", ("duration", "steps"), {"duration": duration, "steps": steps}))
         if duration is not None:
-            if not 0.0 <= duration < math.inf:
-                raise ConfigError(f"duration is {duration}, but must be a finite number of at least 0")
-            steps = step_count("duration", duration, self.time_step)
+            if not (isinstance(duration, numbers.Real) and 0.0 <= duration < math.inf):
+                raise ConfigError("duration", duration, "a finite number of at least 0")
+            steps = step_count("duration", float(duration), self.time_step)
         end = self.last_step if steps is None else self.step + check_steps(steps)
         self.run_until(end, on_progress=on_progress)
 
@@ -203,7 +213,7 @@ class Simulation(HasRecords):
         """
         run = self._config.run
         if not run.duration <= duration < math.inf:
-            raise ConfigError(f"duration is {duration}, but must be at least run.duration = {run.duration}")
+            raise ConfigError("duration", duration, f"at least run.duration = {run.duration}")
         window = (run.averaging_window[0], duration)
         self._config = self._config.replace({"run": {"duration": duration, "window": window}})
 
@@ -302,7 +312,7 @@ class Simulation(HasRecords):
 
     @property
     def warnings(self) -> list[str]:
-        """What this simulation does that one may not expect, a sentence each; they are warned of at the start."""
+        """What this simulation does that one may not expect, a message each; they are warned of at the start."""
         return self._core.warnings
 
     def summary(self, window: tuple[float, float] | None = None) -> Summary:
@@ -318,15 +328,19 @@ class Simulation(HasRecords):
         ConfigError
             Where the interval has not been simulated.
         """
-        start, end = window or self._config.run.averaging_window
+        try:
+            start, end = map(float, self._config.run.averaging_window if window is None else window)
+        except (TypeError, ValueError):
+            raise ConfigError("window", window, "a pair (start, end) of times") from None
         if not 0.0 <= start < end <= self.time + self.time_step:
-            raise ConfigError(
-                f"the window is [{start}, {end}], but must lie within the {self.time} s simulated so far"
-            )
+            limit = f"within the {self.time:.6g} s simulated so far"
+            hint = _SIMULATE_FIRST if window is None else ""
+            raise ConfigError("window", (start, end), limit, hint=hint)
         if not self._records.has_whole_series:
+            hint = "load the checkpoint where its run wrote it, beside its records"
+            problem = f"is [{start}, {end}], but its samples are no longer in memory"
             raise ConfigError(
-                f"the window is [{start}, {end}], but its samples were taken and must be in memory: "
-                "load the checkpoint where its run wrote it, beside its records"
+                "window", (start, end), "one whose samples are in memory", hint=hint, problem=problem
             )
         filled = math.fsum((2.0 * self.radii) ** 2) / self._config.drum.diameter**2
         known = {"bundle_count": self.count, "steps": self.step, "fill": filled, "time_step": self.time_step}
@@ -374,9 +388,9 @@ class Simulation(HasRecords):
         try:
             core = _core.Simulation.from_checkpoint(data, threads)
         except CheckpointError as error:
-            raise CheckpointError(f"{path}: {error}") from None
+            raise CheckpointError(error.reason, str(path)) from None
         if json.loads(core.config) != json.loads(config.to_core_json()) or core.seed != config.run.seed:
-            raise CheckpointError(f"{path}: its configuration is not that of its state")
+            raise CheckpointError("its configuration is not that of its state", str(path))
         simulation = cls._around(config, core)
         if with_records and not simulation.records.are_whole:
             Parts(Path(path).parent).reload(simulation.records)

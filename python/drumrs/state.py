@@ -1,4 +1,4 @@
-"""`State`: a given start, instead of a random packing."""
+"""`State`: a given initial state, instead of a random packing."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -7,13 +7,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from drumrs.config.messages import show
-from drumrs.config.types import GREATEST_SPECIES
+from drumrs.config.derived import GREATEST_SPECIES
 from drumrs.errors import ConfigError
 
 _FLOATS = ("positions", "velocities", "angles", "angular_velocities", "radii")
 _PAIRS_OF_NUMBERS = {"positions", "velocities"}
-# What a contact is told by; the core's `ContactRecord` has the same fields.
+# The arrays of a table of contacts, as the core's `ContactRecord` has them.
 _CONTACT: dict[str, type] = {
     "particle": np.uint32,
     "other": np.uint32,
@@ -27,7 +26,7 @@ _CONTACT: dict[str, type] = {
 
 @dataclass(frozen=True, eq=False)
 class State:
-    """Where the bundles are and how they move; what is not given is 0, or the configuration's radius.
+    """Initial positions and velocities of the bundles; what is not given is 0, or the configuration's radius.
 
     Attributes
     ----------
@@ -44,12 +43,12 @@ class State:
     drum_angle
         Angle of the drum at t = 0 [rad].
     contacts
-        The contacts with what they remember, as `Simulation.state` has them: tables "pairs" and "walls" of arrays, in
-        the order in which the contacts opened. A contact whose bodies do not overlap as it says is left out.
+        The contacts with their histories, as `Simulation.state` has them: tables "pairs" and "walls" of arrays, in
+        the order in which the contacts opened. A contact whose bodies do not overlap by its overlap is left out.
 
     Notes
     -----
-    Bodies may overlap at the start by at most 10 % of the smaller radius, but for those whose contact comes along.
+    Bodies may overlap at the start by at most 10 % of the smaller radius, by more where their contact is in `contacts`.
     """
 
     positions: ArrayLike
@@ -62,12 +61,12 @@ class State:
     contacts: Mapping[str, Mapping[str, ArrayLike]] | None = None
 
     def arrays(self) -> dict[str, Any]:
-        """Return what is given as the core reads it.
+        """Return the fields that are given, as the core reads them.
 
         Raises
         ------
         ConfigError
-            Where an array has another shape or holds something but numbers.
+            Where an array has another shape or does not hold numbers.
         """
         given = {name: getattr(self, name) for name in (*_FLOATS, "species")}
         arrays = {name: _numbers(name, value) for name, value in given.items() if value is not None}
@@ -75,10 +74,12 @@ class State:
         for name, array in arrays.items():
             pairs = name in _PAIRS_OF_NUMBERS
             if array.shape != ((count, 2) if pairs else (count,)) or not count:
-                wanted = f"{'(n, 2)' if pairs else '(n,)'} with n = {count or 'at least 1'}"
-                raise ConfigError(f"state.{name} is of shape {array.shape}, but must be of shape {wanted}")
-        told: dict[str, Any] = {**arrays, "drum_angle": _angle(self.drum_angle)}
-        return told if self.contacts is None else {**told, "contacts": _contacts(self.contacts)}
+                length = "" if name == "positions" else f" with n = {count}"
+                limit = f"of shape {'(n, 2)' if pairs else '(n,)'}{length or ', n at least 1'}"
+                problem = f"is of shape {array.shape}, but must be {limit}"
+                raise ConfigError(f"state.{name}", array.shape, limit, problem=problem)
+        fields: dict[str, Any] = {**arrays, "drum_angle": _angle(self.drum_angle)}
+        return fields if self.contacts is None else {**fields, "contacts": _contacts(self.contacts)}
 
 
 def _numbers(name: str, value: ArrayLike) -> NDArray[Any]:
@@ -86,10 +87,8 @@ def _numbers(name: str, value: ArrayLike) -> NDArray[Any]:
         return _floats(f"state.{name}", value)
     whole = _floats("state.species", value)
     if not ((whole >= 0) & (whole < GREATEST_SPECIES) & (whole == np.floor(whole))).all():
-        raise ConfigError(
-            f"state.species is {show(whole.tolist())}, "
-            f"but must be of whole numbers from 0 to {GREATEST_SPECIES - 1}"
-        )
+        limit = f"of whole numbers from 0 to {GREATEST_SPECIES - 1}"
+        raise ConfigError("state.species", whole.tolist(), limit)
     return whole.astype(np.uint16)
 
 
@@ -97,14 +96,14 @@ def _floats(key: str, value: ArrayLike) -> NDArray[np.float64]:
     try:
         return np.ascontiguousarray(value, dtype=np.float64)
     except (TypeError, ValueError):
-        raise ConfigError(f"{key} is {value!r:.60}, but must be an array of numbers") from None
+        raise ConfigError(key, value, "an array of numbers") from None
 
 
 def _angle(value: float) -> float:
     try:
         return float(value)
     except (TypeError, ValueError):
-        raise ConfigError(f"state.drum_angle is {value!r:.60}, but must be a number") from None
+        raise ConfigError("state.drum_angle", value, "a number") from None
 
 
 def _contacts(contacts: Mapping[str, Mapping[str, ArrayLike]]) -> dict[str, dict[str, NDArray[Any]]]:
@@ -114,6 +113,4 @@ def _contacts(contacts: Mapping[str, Mapping[str, ArrayLike]]) -> dict[str, dict
             for kind in ("pairs", "walls")
         }
     except (TypeError, ValueError, KeyError, IndexError, OverflowError):
-        raise ConfigError(
-            f"state.contacts is {show(contacts)}, but must be the contacts of a simulation's state"
-        ) from None
+        raise ConfigError("state.contacts", contacts, "the contacts of a simulation's state") from None

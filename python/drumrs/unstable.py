@@ -27,7 +27,7 @@ class UnstableRun:
     config
         The configuration, seed included.
     error
-        The sentence of the error.
+        The message of the error.
     step, time
         When it ended [1, s].
     summary
@@ -80,8 +80,8 @@ def refuse_to_repeat(folder: Path, simulation: Simulation) -> None:
     ConfigError
         Where it did.
     """
-    told = read_object(folder / UNSTABLE)
-    if told is None:
+    ended = read_object(folder / UNSTABLE)
+    if ended is None:
         return
     settings = "--set run.time_step=auto"
     if simulation.time_step <= min(simulation.collision_times.values()) / _RESOLVED:
@@ -90,7 +90,8 @@ def refuse_to_repeat(folder: Path, simulation: Simulation) -> None:
         for side, law in (("bundle", contact.bundle), ("drum", contact.drum)):
             settings += f" --set contact.{side}.normal_stiffness={10.0 * law.normal_stiffness:.3g}"
     raise ConfigError(
-        f"the run in {str(folder)!r} ended unstable, and going on would repeat that: {told.get('error')}. "
-        f"Look at its end with: drumrs view {folder}; start it anew, changed, with, for instance: "
-        f"drumrs run {folder / 'config.toml'} {settings} --out OTHER"
+        folder,
+        problem=f"holds a run that ended unstable, and going on would repeat that: {ended.get('error')}",
+        hint=f"look at its end with: drumrs view {folder}; start it anew, changed, with, for instance: "
+        f"drumrs run {folder / 'config.toml'} {settings} --out OTHER",
     )

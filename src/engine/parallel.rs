@@ -57,7 +57,7 @@ impl Threads {
     /// `Error::Config` for no threads, `Error::System` where the system refuses them.
     pub fn new(count: usize) -> Result<Self, Error> {
         match count {
-            0 => Err(Error::config("threads", 0, "at least 1")),
+            0 => Err(Error::config("threads", 0_usize, "at least 1")),
             1 => Ok(Self { pool: None }),
             _ => rayon::ThreadPoolBuilder::new()
                 .num_threads(count)

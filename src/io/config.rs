@@ -63,7 +63,7 @@ pub struct ContactTables {
 }
 
 /// The most species that a load may have: the table of laws grows with the square.
-const MOST_SPECIES: usize = 256;
+pub const MOST_SPECIES: usize = 256;
 
 impl ContactTables {
     /// The table of laws.

@@ -70,6 +70,12 @@ impl Frames {
             + 4 * (self.positions.len() + self.angles.len() + self.speeds.len())
     }
 
+    /// How much memory a frame of `count` particles takes [bytes].
+    pub fn size_of_one(count: usize) -> usize {
+        let (numbers, singles) = (2, 4);
+        8 * numbers + 4 * singles * count
+    }
+
     /// Appends a frame.
     pub fn push(&mut self, time: f64, drum_angle: f64, particles: &Particles) {
         self.times.push(time);

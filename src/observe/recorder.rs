@@ -347,6 +347,9 @@ impl Series {
     }
 
     /// The sum over rim, baffles and walls of a quantity that each of them has, a value for each row.
+    ///
+    /// # Panics
+    /// Where they have no such quantity.
     pub fn sum_over_surfaces(&self, quantity: &str) -> Vec<f64> {
         let of_each = columns_of("rim");
         let place = of_each.iter().position(|column| column.name == format!("rim_{quantity}"));

@@ -34,7 +34,7 @@ pub fn summarize(series: &Series, mass: f64, start: f64, end: f64) -> Result<Vec
     let powers = [power, by_ledger, rate("moment_balance_work")];
     let (window_start, window_end) = (times[0], times[times.len() - 1]);
     let interval_mean = |column: &[f64]| Some(averages::mean_of_intervals(&times, column));
-    let force = |axis| interval_mean(&table.rows_of(&series.sum_over_surfaces(axis)));
+    let force = |axis| interval_mean(&series.sum_over_surfaces(axis)[rows.0..=rows.1]);
     let residual = whole_column(series, "energy_residual");
     let fixed = [
         ("window_start", Some(window_start)),
@@ -83,11 +83,7 @@ struct Table<'a> {
 
 impl Table<'_> {
     fn column(&self, name: &str) -> Vec<f64> {
-        self.rows_of(&whole_column(self.series, name))
-    }
-
-    fn rows_of(&self, column: &[f64]) -> Vec<f64> {
-        column[self.rows.0..=self.rows.1].to_vec()
+        whole_column(self.series, name)[self.rows.0..=self.rows.1].to_vec()
     }
 
     /// Energy stored at the end of the window, every part with its magnitude [J/m].

@@ -30,12 +30,7 @@ impl RotationSchedule {
         let key = "rotation.program";
         for value in self.knots.iter().flatten() {
             require_finite(key, *value)?;
-            require(
-                value.abs() <= GREATEST,
-                key,
-                format_args!("{value:e}"),
-                "a list of numbers within ±1e300",
-            )?;
+            require(value.abs() <= GREATEST, key, *value, "a list of numbers within ±1e300")?;
         }
         let Some(&[start, _]) = self.knots.first() else {
             return Err(Error::config(key, "empty", "a list of at least one time and speed"));
@@ -44,7 +39,7 @@ impl RotationSchedule {
         require(start >= 0.0, key, found, "a list that starts at 0 s or later")?;
         self.knots.windows(2).try_for_each(|pair| {
             let [before, after] = [pair[0][0], pair[1][0]];
-            let found = format_args!("a list with {after} s after {before} s");
+            let found = format!("a list with {after} s after {before} s");
             require(after > before, key, found, "a list of strictly increasing times")
         })
     }

@@ -17,6 +17,10 @@ mod _core {
     use super::averages::{block_error, mean_rate, mean_ratio, mean_sampled, window};
     #[pymodule_export]
     use super::simulation::Simulation;
+    use crate::error::Error;
+    use crate::io::config::{MOST_BUNDLES, MOST_SPECIES, SimulationConfig};
+    use crate::physics::drum::MOST_BAFFLES;
+    use crate::simulation::derived::DerivedParameters;
     /// The fewest blocks from which a standard error is taken.
     #[pymodule_export]
     const FEWEST_BLOCKS: usize = crate::observe::averages::FEWEST_BLOCKS;
@@ -32,6 +36,19 @@ mod _core {
         info.set_item("cpu_features", super::cpu_features())?;
         info.set_item("cpu_count", std::thread::available_parallelism().map_or(1, usize::from))?;
         Ok(info)
+    }
+
+    /// The greatest numbers that a configuration may have: of bundles, species, baffles.
+    #[pyfunction]
+    fn greatest_counts() -> (usize, usize, usize) {
+        (MOST_BUNDLES, MOST_SPECIES, MOST_BAFFLES)
+    }
+
+    /// What follows from a configuration, both in JSON; see `drumrs.Config.derived`.
+    #[pyfunction]
+    fn derived(config: &str) -> Result<String, Error> {
+        let derived = DerivedParameters::new(&SimulationConfig::from_json(config)?)?;
+        Ok(serde_json::to_string(&derived).expect("plain numbers"))
     }
 
     /// Before a fork: waits until no thread is inside a simulation, and keeps them out.

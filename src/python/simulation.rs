@@ -19,6 +19,7 @@ use super::fair_lock::FairLock;
 use super::fork_guard::Entered;
 use crate::error::Error;
 use crate::io::config::SimulationConfig;
+use crate::observe::frames::Frames;
 use crate::observe::recorder::columns;
 use crate::observe::summary::summarize;
 use crate::physics::particles::Particles;
@@ -358,6 +359,12 @@ impl Simulation {
     #[getter]
     fn first_frame(&self, py: Python<'_>) -> u64 {
         self.with(py, |core| core.first_frame())
+    }
+
+    /// Memory that a sample and a frame take [bytes].
+    #[getter]
+    fn record_sizes(&self, py: Python<'_>) -> (usize, usize) {
+        self.with(py, |core| (8 * core.series().width(), Frames::size_of_one(core.state().particles.len())))
     }
 
     /// Memory that records take which were not taken yet [bytes].

@@ -1,9 +1,14 @@
-//! What follows from the configuration and the particles' sizes, and never changes.
+//! What follows from a configuration: of a simulation, whose particles are known, and of the configuration alone.
+
+use serde::Serialize;
 
 use crate::engine::World;
 use crate::error::Error;
 use crate::io::config::SimulationConfig;
-use crate::physics::contact::species::SpeciesTable;
+use crate::physics::contact::law::BodyPair;
+use crate::physics::contact::linear;
+use crate::physics::contact::parameters::{Base, ContactParameters};
+use crate::physics::contact::species::{self, SpeciesTable};
 use crate::physics::drum::Drum;
 use crate::physics::particles::Particles;
 use crate::physics::vector::Vec2;
@@ -62,11 +67,25 @@ fn time_step(config: &SimulationConfig, table: &SpeciesTable, particles: &Partic
             "a positive finite number: change load.density, load.diameter or the stiffness",
         )),
         Some(time_step) if time_step <= shortest / 10.0 => Ok(time_step),
-        Some(time_step) => Err(Error::config(
-            "run.time_step",
-            time_step,
-            format!("at most {:e}, a tenth of the shortest collision time", shortest / 10.0),
-        )),
+        Some(time_step) => {
+            let greatest = shortest / 10.0;
+            Err(Error::Config {
+                key: "run.time_step".into(),
+                value: time_step.into(),
+                limit: format!("at most {}, a tenth of the shortest collision time", rounded_down(greatest)),
+                bound: Some(greatest),
+                hint: "or set run.time_step = \"auto\"",
+            })
+        }
+    }
+}
+
+/// Four digits of a number, none of them rounded up, so that what is written is within the limit, too.
+fn rounded_down(number: f64) -> String {
+    let rounded = format!("{number:.3e}");
+    match rounded.parse::<f64>() {
+        Ok(above) if above > number => format!("{:.3e}", number - (above - number)),
+        _ => rounded,
     }
 }
 
@@ -74,4 +93,84 @@ fn time_step(config: &SimulationConfig, table: &SpeciesTable, particles: &Partic
 pub(super) fn collision_times(table: &SpeciesTable, particles: &Particles) -> (f64, f64) {
     let least = |values: &[f64]| values.iter().copied().fold(f64::INFINITY, f64::min);
     table.collision_times((least(&particles.masses), least(&particles.radii)))
+}
+
+/// What follows from a configuration before anything is packed: of bundles of the configured size.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct DerivedParameters {
+    /// Mass of a bundle [kg/m].
+    pub bundle_mass: f64,
+    /// Mass of all bundles [kg/m].
+    pub load_mass: f64,
+    /// Time step [s].
+    pub time_step: f64,
+    /// Angular velocity Ω [rad/s] where it is constant.
+    pub angular_velocity: Option<f64>,
+    /// √(g/R) [rad/s], at which a bundle stays on the rim, where there is a rim.
+    pub critical_angular_velocity: Option<f64>,
+    /// Ω² R / g where there are all three.
+    pub froude_number: Option<f64>,
+    /// A contact of two bundles.
+    pub bundle: DerivedContact,
+    /// A contact of a bundle and the drum.
+    pub drum: DerivedContact,
+}
+
+/// What follows for contacts that obey one table.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct DerivedContact {
+    /// m* [kg/m].
+    pub effective_mass: f64,
+    /// Normal damping νₙ [N s/m]; none for a base law whose damping changes with the overlap.
+    pub normal_damping: Option<f64>,
+    /// νₙ / (2 √(kₙ m*)), likewise.
+    pub damping_ratio: Option<f64>,
+    /// Coefficient of restitution e of a head-on impact.
+    pub restitution: f64,
+    /// Duration of a collision [s].
+    pub collision_time: f64,
+}
+
+impl DerivedParameters {
+    /// What follows from `config`.
+    ///
+    /// # Errors
+    /// `Error::Config` for a bad configuration.
+    pub fn new(config: &SimulationConfig) -> Result<Self, Error> {
+        config.validate()?;
+        let load = &config.load;
+        let radius = 0.5 * load.diameter;
+        let one = Particles::at_rest(vec![Vec2::zeros()], vec![radius], load.density, load.spin_locked);
+        let body = (one.masses[0], radius);
+        let gravity = config.gravity[0].hypot(config.gravity[1]);
+        let angular_velocity = config.rotation.is_constant().then(|| config.rotation.angular_velocity(0.0));
+        let rim = config.drum.radius;
+        Ok(Self {
+            bundle_mass: body.0,
+            load_mass: load.count as f64 * body.0,
+            time_step: time_step(config, &config.contact.table()?, &one)?,
+            angular_velocity,
+            critical_angular_velocity: rim.map(|rim| (gravity / rim).sqrt()),
+            froude_number: angular_velocity
+                .zip(rim)
+                .filter(|_| gravity > 0.0)
+                .map(|(speed, rim)| speed * speed * rim / gravity),
+            bundle: DerivedContact::new(&config.contact.bundle, BodyPair::of_equals(body)),
+            drum: DerivedContact::new(&config.contact.drum, BodyPair::at_wall(body)),
+        })
+    }
+}
+
+impl DerivedContact {
+    fn new(parameters: &ContactParameters, bodies: BodyPair) -> Self {
+        let mass = bodies.effective_mass;
+        let is_linear = parameters.base == Base::Linear;
+        Self {
+            effective_mass: mass,
+            normal_damping: is_linear.then(|| linear::damping(parameters, mass)),
+            damping_ratio: is_linear.then(|| linear::damping_ratio(parameters, mass)),
+            restitution: linear::restitution(parameters, mass),
+            collision_time: species::collision_time(parameters, bodies),
+        }
+    }
 }

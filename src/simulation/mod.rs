@@ -1,7 +1,7 @@
 //! `Simulation`: configuration, state and engine; it steps, guards and records.
 
 mod accounts;
-mod derived;
+pub mod derived;
 mod guards;
 pub mod initial_state;
 mod records;

@@ -429,3 +429,14 @@ def test_what_is_thinned_once_is_thin(frames, count, most):
     kept = thinned(frames, count, most)
     assert len(thinned(len(kept), count, most)) == len(kept)
     assert not frames or kept[-1] == frames - 1
+
+
+def test_sizes_are_those_of_what_is_recorded():
+    config = drumrs.baseline(fill=0.1, baffles=True).replace({"drum.walls": [[[0.0, 0.0], [0.05, 0.0]]]})
+    simulation = drumrs.Simulation(config)
+    rows, frames = simulation.series, simulation.frames
+    arrays = (frames.times, frames.drum_angles, frames.positions, frames.angles, frames.speeds)
+    assert simulation.records.sizes == {
+        "run.sample_every": 8 * rows.width * rows.height,
+        "run.frame_every": sum(array.nbytes for array in arrays),
+    }

@@ -215,11 +215,11 @@ def test_two_species_meet_by_their_own_law():
         ({"contact.pairs": [{"between": [0, 0], "friction": -1.0}]}, r"contact.pairs\[0\].friction is -1"),
         (
             {"contact.walls": [{"species": 0}, {"species": 0}]},
-            r"contact.walls\[1\].species is \[0\], but must not be that",
+            r"contact.walls\[1\].species is \[0\], but must be another than",
         ),
         (
             {"contact.pairs": [{"between": [0, 0], "restitution": 0.3, "normal_damping": 3.0}]},
-            r"contact.pairs.0.restitution and contact.pairs.0.normal_damping are both given",
+            r"contact.pairs\[0\].restitution and contact.pairs\[0\].normal_damping are both given",
         ),
         ({"contact.species": 0}, "contact.species is 0, but must be a whole number from 1 to 256"),
     ],

@@ -62,7 +62,7 @@ def _tumbled(config: drumrs.Config) -> tuple[Array, float]:
     large = config.bundle_count > _TABLE_1
     times = _TUMBLED_LARGE if large else _TUMBLED
     duration = times * math.sqrt(config.drum.diameter / 2.0 / 9.81)
-    first = _softer(config) if large else config
+    first = config.softer(_SOFTER) if large else config
     simulation = drumrs.Simulation(first, seed=1)
     simulation.run(duration=duration)
     if large:
@@ -70,17 +70,6 @@ def _tumbled(config: drumrs.Config) -> tuple[Array, float]:
         simulation = drumrs.Simulation(config, state=simulation.state)
         simulation.run(duration=_REST)
     return Case(config, simulation.state).motion(), simulation.drum_angle
-
-
-def _softer(config: drumrs.Config) -> drumrs.Config:
-    contact = config.contact
-    return config.replace(
-        {
-            "contact.bundle.normal_stiffness": contact.bundle.normal_stiffness / _SOFTER,
-            "contact.drum.normal_stiffness": contact.drum.normal_stiffness / _SOFTER,
-            "run.time_step": float(config.run.time_step) * math.sqrt(_SOFTER),
-        }
-    )
 
 
 def _pieced(config: drumrs.Config, folder: Path) -> Array:
@@ -99,7 +88,7 @@ def _pieced(config: drumrs.Config, folder: Path) -> Array:
     lowest = np.argsort(motion[:, 1], kind="stable")[: config.bundle_count]
     if len(lowest) < config.bundle_count:
         raise ValueError(f"{config.bundle_count} bundles do not fit; {len(lowest)} do")
-    return _turned(motion[lowest], (config.rotation.rpm or 0.0) * math.pi / 30.0)
+    return _turned(motion[lowest], config.derived.angular_velocity or 0.0)
 
 
 def _turned(motion: Array, omega: float) -> Array:

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import drumrs
-from drumrs.config import LinearContact
+from drumrs.config import DerivedContact, LinearContact
 
 Array = NDArray[np.float64]
 
@@ -38,28 +38,20 @@ class Law:
     friction: float
 
     @classmethod
-    def of(cls, contact: LinearContact, effective_mass: float) -> "Law":
-        """Read a contact's table; the damping follows from the restitution e where that is given.
-
-        ν = −2 ln e √(m* k) / √(π² + ln² e)
-        """
+    def of(cls, contact: LinearContact, derived: DerivedContact) -> "Law":
+        """Read a contact's table, and what follows from it."""
         if contact.stiffness_ratio != 1.0:
             raise ValueError(f"stiffness_ratio is {contact.stiffness_ratio}, but must be 1 in every deck")
-        damping = contact.normal_damping
+        damping = derived.normal_damping
         if damping is None:
-            if contact.tension == "clipped":
-                raise ValueError("tension is 'clipped', but then normal_damping must be given here")
-            log = math.log(contact.restitution or 1.0)
-            damping = (
-                -2.0 * log * math.sqrt(effective_mass * contact.normal_stiffness / (math.pi**2 + log**2))
-            )
-        return cls(contact.normal_stiffness, damping, damping / effective_mass, contact.friction)
+            raise ValueError("contact.base is 'hertz', but must be 'linear' in every deck")
+        return cls(contact.normal_stiffness, damping, damping / derived.effective_mass, contact.friction)
 
 
 def laws(config: drumrs.Config) -> tuple[Law, Law]:
-    """Return the laws between bundles, whose effective mass is half a bundle's, and between a bundle and the drum."""
-    mass = config.load.density * math.pi * config.load.diameter**2 / 4.0
-    return Law.of(config.contact.bundle, mass / 2.0), Law.of(config.contact.drum, mass)
+    """Return the laws between bundles, and between a bundle and the drum."""
+    contact, derived = config.contact, config.derived
+    return Law.of(contact.bundle, derived.bundle), Law.of(contact.drum, derived.drum)
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,9 +87,10 @@ class Case:
     @property
     def angular_velocity(self) -> float:
         """The drum's angular velocity [rad/s]."""
-        if self.config.rotation.rpm is None:
+        speed = self.config.derived.angular_velocity
+        if speed is None:
             raise ValueError("rotation.program is given, but every deck turns at one speed")
-        return self.config.rotation.rpm * math.pi / 30.0
+        return speed
 
     @property
     def time_step(self) -> float:

@@ -45,7 +45,7 @@ class FrameWindow:
         slack = 1e-3 * (window[1] - window[0])
         inside = (frames.times >= window[0] - slack) & (frames.times <= window[1] + slack)
         if inside.sum() <= 1:
-            raise ConfigError(f"the window is {list(window)}, but must hold at least two frames of the run")
+            raise ConfigError("window", window, "one that holds at least two frames of the run")
         return cls(
             frames.positions[inside].astype(np.float64), frames.times[inside], frames.drum_angles[inside]
         )

@@ -12,7 +12,7 @@ import drumrs
 from drumrs.cli.baseline import baseline
 from drumrs.cli.config import config
 from drumrs.cli.info import info
-from drumrs.cli.options import stands_alone
+from drumrs.cli.options import cut_by_shell
 from drumrs.cli.quantities import quantities
 from drumrs.cli.reproduce import reproduce
 from drumrs.cli.run import run
@@ -66,28 +66,28 @@ def run_command(arguments: Sequence[str] | None = None) -> int:
     """
     words = sys.argv[1:] if arguments is None else list(arguments)
     try:
-        with _warnings_in_a_line() as told:
+        with _warnings_on_one_line() as raised:
             status = app(words, exit_on_error=False, print_error=False)
     except (ConfigError, CheckpointError) as error:
-        return _complain(str(error), _BAD_INPUT)
+        return _fail(str(error), _BAD_INPUT)
     except CycloptsError as error:
-        return _complain(_way_out(error) or " ".join(str(error).split()), _BAD_INPUT)
+        return _fail(_advice(error) or " ".join(str(error).split()), _BAD_INPUT)
     except UnstableError as error:
-        return _complain(str(error), _FAILED)
+        return _fail(str(error), _FAILED)
     except (OSError, MemoryError) as error:
-        return _complain(_of_the_system(error), _FAILED)
+        return _fail(_system_message(error), _FAILED)
     except (KeyboardInterrupt, ImportError) as error:
         # Where Ctrl-C falls into the import of a module in C++, it is the cause of an ImportError.
         interrupt = error if isinstance(error, KeyboardInterrupt) else error.__cause__
         if not isinstance(interrupt, KeyboardInterrupt):
             raise
-        return _complain(str(interrupt) or "interrupted", _INTERRUPTED)
-    pictures_failed = any(issubclass(kind, PictureWarning) for kind in told)
+        return _fail(str(interrupt) or "interrupted", _INTERRUPTED)
+    pictures_failed = any(issubclass(kind, PictureWarning) for kind in raised)
     return (status if isinstance(status, int) else 0) or (_NO_PICTURE if pictures_failed else 0)
 
 
-def _way_out(error: CycloptsError) -> str | None:
-    """Say what to write instead where somebody gave a key as an option, or a list without quotes."""
+def _advice(error: CycloptsError) -> str | None:
+    """Return what to write instead of a key given as an option, a list without quotes, or a word too many."""
     if isinstance(error, UnknownOptionError):
         option = error.token.keyword or error.token.value
         word = option.lstrip("-").replace("-", "_")
@@ -97,37 +97,39 @@ def _way_out(error: CycloptsError) -> str | None:
             return f"{option} is not an option; write {settings}"
     words = (error.unused_tokens or []) if isinstance(error, UnusedCliTokensError) else []
     if words and words[-1].endswith(("]", "}")):
-        return stands_alone(" ".join(words))
+        return str(cut_by_shell(" ".join(words)))
+    if words:
+        return f"{' '.join(words)!r} is more than the command takes; drumrs COMMAND --help shows what it does"
     return None
 
 
-def _of_the_system(error: OSError | MemoryError) -> str:
-    """Say what the system had no room for, or refused."""
+def _system_message(error: OSError | MemoryError) -> str:
+    """Return the message of an error of the operating system, or of memory."""
     if isinstance(error, OSError) and error.errno in NO_ROOM and error.strerror:
         return f"cannot write: {error.strerror}"
     return str(error) or "out of memory"
 
 
 @contextmanager
-def _warnings_in_a_line() -> Iterator[list[type[Warning]]]:
-    """Show warnings of drumrs as the command's other sentences, and list their kinds; show others as always."""
-    told: list[type[Warning]] = []
+def _warnings_on_one_line() -> Iterator[list[type[Warning]]]:
+    """Show warnings of drumrs on one line each, and list their classes; show others as Python does."""
+    raised: list[type[Warning]] = []
     with warnings.catch_warnings():
         warnings.simplefilter("default", DrumrsWarning)
         shown = warnings.showwarning
 
         def show(message: Warning | str, category: type[Warning], *place: Any, **more: Any) -> None:
             if issubclass(category, DrumrsWarning):
-                told.append(category)
+                raised.append(category)
                 note = "" if issubclass(category, PictureWarning) else "note that "
                 sys.stderr.write(f"drumrs: {note}{message}\n")
             else:
                 shown(message, category, *place, **more)
 
         warnings.showwarning = show
-        yield told
+        yield raised
 
 
-def _complain(sentence: str, status: int) -> int:
-    sys.stderr.write(f"drumrs: {sentence}\n")
+def _fail(message: str, status: int) -> int:
+    sys.stderr.write(f"drumrs: {message}\n")
     return status

@@ -9,7 +9,7 @@ from typing import Annotated
 from cyclopts import Parameter, Token
 
 import drumrs
-from drumrs.config import Config, merge, nest, parse_settings, read_toml_file
+from drumrs.config import Config, merge, nest, parse_settings, read_layer
 from drumrs.errors import ConfigError
 
 Settings = Annotated[
@@ -17,7 +17,7 @@ Settings = Annotated[
     Parameter(
         name="--set",
         negative="",
-        help="KEY=VALUE, a layer over the file; may be repeated. VALUE is a TOML literal, a bare word a string.",
+        help="KEY=VALUE, in place of the file's value; may be repeated. VALUE is as in TOML; a bare word is a string.",
     ),
 ]
 
@@ -34,9 +34,19 @@ def _whole(_: object, tokens: Sequence[Token]) -> int:
     return int(text) if text.lstrip("+-").isdigit() else int(number)
 
 
-# The type of an option that is a whole number.
+def _number(_: object, tokens: Sequence[Token]) -> float:
+    """Read a number, also one that is written as 1%, as in --set."""
+    text = tokens[0].value
+    number = parse_settings([f"number={text}"])["number"]
+    if isinstance(number, bool) or not isinstance(number, (int, float)):
+        raise ValueError(f"{text} is not a number")  # noqa: TRY004 - the exception that becomes a message
+    return float(number)
+
+
+# The types of options that are a number, or a whole number.
+NUMBER = Parameter(converter=_number)
 WHOLE = Parameter(converter=_whole)
-Seed = Annotated[int | None, WHOLE, Parameter(help="Seed of the random start, over all layers.")]
+Seed = Annotated[int | None, WHOLE, Parameter(help="Seed of the random start, in place of run.seed.")]
 Threads = Annotated[
     int, WHOLE, Parameter(help="Threads that share a step; the result is the same for any number.")
 ]
@@ -44,11 +54,11 @@ Jobs = Annotated[int | None, WHOLE, Parameter(help="Cases at once; one a usable 
 
 
 def layered(case: Path | None, settings: Sequence[str] | None, seed: int | None) -> Config:
-    """Lay a case file over the baseline, settings over the file, the seed over all."""
+    """Return the baseline with the keys of a case file, then of settings, then the seed in place of its own."""
     if case is not None and str(case).endswith(("]", "}")) and not case.exists():
-        raise ConfigError(stands_alone(str(case)))
-    layers = [read_toml_file(case)] if case is not None else []
-    layers.append(nest(parse_settings(settings or [])))
+        raise cut_by_shell(str(case))
+    upper = nest(parse_settings(settings or []))
+    layers = [read_layer(case), upper] if case is not None else [upper]
     if seed is not None:
         layers.append({"run": {"seed": seed}})
     # Layers are merged before anything is validated: an upper one may mend what a lower one breaks.
@@ -58,15 +68,19 @@ def layered(case: Path | None, settings: Sequence[str] | None, seed: int | None)
     return Config.model_validate(values)
 
 
-def stands_alone(words: str) -> str:
-    """Say of words that a shell has cut off a value how to keep them together."""
-    return f"{words!r} stands alone; a value with spaces needs quotes: --set 'KEY=[1, 2]'"
+def cut_by_shell(words: str) -> ConfigError:
+    """Return the error that the shell has cut words off a value, with how to keep them together."""
+    hint = "a value with spaces needs quotes: --set 'KEY=[1, 2]'"
+    return ConfigError(repr(words), words, problem="stands alone", hint=hint)
 
 
 def check_folder(folder: Path, option: str = "--out") -> None:
     """Refuse a folder that cannot be written, before anything is simulated or created."""
-    existing = next(path for path in (folder.absolute(), *folder.absolute().parents) if path.exists())
+    try:
+        existing = next(path for path in (folder.absolute(), *folder.absolute().parents) if path.exists())
+    except OSError as error:
+        raise ConfigError(option, folder, f"a folder that can be written: {error.strerror}") from None
     if not existing.is_dir():
-        raise ConfigError(f"{option} is {str(folder)!r}, but must be a folder: {str(existing)!r} is a file")
+        raise ConfigError(option, folder, f"a folder: {str(existing)!r} is a file")
     if not os.access(existing, os.W_OK | os.X_OK):
-        raise ConfigError(f"{option} is {str(folder)!r}, but must be a folder that can be written")
+        raise ConfigError(option, folder, "a folder that can be written")

@@ -5,8 +5,6 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from drumrs import glossary
-
 
 def quantities(part: str = "", /, *, markdown: Annotated[bool, Parameter(negative="")] = False) -> None:
     """Print what drumrs measures: the columns of its tables and the numbers of its summaries, with units and meanings.
@@ -18,6 +16,8 @@ def quantities(part: str = "", /, *, markdown: Annotated[bool, Parameter(negativ
     markdown
         Print the whole list as the page docs/quantities.md.
     """
+    from drumrs import glossary
+
     if markdown:
         sys.stdout.write(glossary.page())
         return

@@ -45,7 +45,7 @@ def reproduce(
     from drumrs.paper import Reproduction
 
     if quick and full:
-        raise ConfigError("--quick and --full are both given, but only one of them may be")
+        raise ConfigError("--quick", problem="and --full are both given, but only one of them may be")
     check_folder(out)
     reproduction = Reproduction("quick" if quick else "full" if full else "default", out, jobs)
     _announce(reproduction)

@@ -7,7 +7,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from drumrs.cli.options import Seed, Settings, Threads, check_folder, layered
+from drumrs.cli.options import NUMBER, Seed, Settings, Threads, check_folder, layered
 from drumrs.cli.tables import print_paths, print_table
 from drumrs.config import Config
 from drumrs.config.softening import softening
@@ -31,9 +31,9 @@ def run(
     out: Path | None = None,
     json: Annotated[bool, Parameter(negative="")] = False,
     resume: Path | None = None,
-    until: float | None = None,
-    limit: float | None = None,
-    softer: float | None = None,
+    until: Annotated[float | None, NUMBER] = None,
+    limit: Annotated[float | None, NUMBER] = None,
+    softer: Annotated[float | None, NUMBER] = None,
     force: Annotated[bool, Parameter(negative="")] = False,
 ) -> None:
     """Run a case: the paper's baseline, a TOML file laid over it, settings laid over the file.
@@ -67,10 +67,9 @@ def run(
     """
     if resume is not None:
         if case is not None or set_ or seed is not None or out is not None or softer is not None or force:
-            raise ConfigError(
-                "--resume takes the case from its folder, so CASE, --set, --seed, --softer, --out and --force must not "
-                "be given"
-            )
+            others = "CASE, --set, --seed, --softer, --out and --force"
+            problem = f"takes the case from its folder, so {others} must not be given"
+            raise ConfigError("--resume", resume, problem=problem)
         out = resume
         begun = RunFolder(out)
         simulation = begun.load(threads)
@@ -108,14 +107,14 @@ def _soften(config: Config, factor: float | None) -> Config:
     if factor is None:
         return config
     changes = softening(config, factor, "--softer")
-    told = ", ".join(f"{key} {before:.4g} → {after:.4g}" for key, (before, after) in changes.items())
-    sys.stderr.write(f"drumrs: --softer {factor:g} changes {told}\n")
+    changed = ", ".join(f"{key} {before:.4g} → {after:.4g}" for key, (before, after) in changes.items())
+    sys.stderr.write(f"drumrs: --softer {factor:g} changes {changed}\n")
     return config.softer(factor)
 
 
 def _goal(until: float | None, limit: float | None, duration: float) -> Goal | None:
     if until is None and limit is not None:
-        raise ConfigError(f"--limit is {limit}, but must not be given without --until")
+        raise ConfigError("--limit", limit, "left out where --until is not given")
     return Goal.of(until, limit, duration) if until is not None else None
 
 
@@ -128,10 +127,8 @@ def _first_duration(folder: Path, config: Config) -> float:
 def _require_folder(folder: Path, case: Path | None, *, force: bool) -> None:
     """Refuse a folder that holds another run, or the case file itself."""
     if case is not None and case.resolve().parent == folder.resolve() and case.name in RUN_FILES:
-        raise ConfigError(
-            f"--out is {str(folder)!r}, but must not be the folder of {str(case)!r}, which would be overwritten; "
-            "choose another folder"
-        )
+        limit = f"another folder than that of {str(case)!r}, which would be overwritten"
+        raise ConfigError("--out", folder, limit)
     require_own(folder, "run", RUN_FILES, "--out")
     if not force:
         require_unused(folder, "run", option="--out")
@@ -141,14 +138,12 @@ def _open_folder(path: Path | None, simulation: Simulation) -> RunFolder | None:
     """Create the folder and mark it as that of a run not finished yet."""
     if path is None:
         return None
-    require_disk(simulation.config, simulation.count, simulation.time_step, path)
+    require_disk(simulation.config, simulation.time_step, simulation.records.sizes, path)
     folder = RunFolder(path)
     try:
         folder.begin(simulation.config)
     except OSError as error:
-        raise ConfigError(
-            f"--out is {str(path)!r}, but must be a folder that can be written: {error.strerror}"
-        ) from None
+        raise ConfigError("--out", path, f"a folder that can be written: {error.strerror}") from None
     return folder
 
 

@@ -79,7 +79,7 @@ def _shard(text: str | None) -> tuple[int, int] | None:
         return None
     part, _, parts = text.partition("/")
     if not (part.isdecimal() and parts.isdecimal()):
-        raise ConfigError(f"shard is {text!r}, but must be k/n with 1 <= k <= n")
+        raise ConfigError("--shard", text, "K/N with 1 <= K <= N")
     return int(part), int(parts)
 
 

@@ -44,9 +44,8 @@ def view(
     try:
         player.save(page)
     except OSError as error:
-        raise ConfigError(
-            f"the page is {str(page)!r}, but must be a file that can be written (--out): {error.strerror}"
-        ) from None
+        limit = f"a file that can be written (--out): {error.strerror}"
+        raise ConfigError("the page", page, limit) from None
     print_paths([page])
     if show and out is None and not _opens(page):
         sys.stderr.write(

@@ -2,10 +2,11 @@
 
 Imports nothing else of drumrs but its errors. `types` holds the types of values and their limits in words, `tables`
 the tables of keys, `config` the whole configuration; `layers` merges tables, `messages` words what is refused,
-`toml_writer` writes TOML with comments, `to_core` translates for the compiled core.
+`toml_writer` writes TOML with comments, `to_core` translates for the compiled core, `derived` asks it what follows.
 """
 
-from drumrs.config.config import Config, baseline, read_toml_file
+from drumrs.config.config import Config, baseline, read_layer, require_config
+from drumrs.config.derived import Derived, DerivedContact
 from drumrs.config.layers import merge, nest, parse_settings
 from drumrs.config.messages import dotted_keys
 from drumrs.config.tables import (
@@ -24,6 +25,8 @@ __all__ = [
     "Baffles",
     "Config",
     "Contact",
+    "Derived",
+    "DerivedContact",
     "Drum",
     "LinearContact",
     "Load",
@@ -36,5 +39,6 @@ __all__ = [
     "merge",
     "nest",
     "parse_settings",
-    "read_toml_file",
+    "read_layer",
+    "require_config",
 ]

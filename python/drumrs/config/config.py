@@ -2,20 +2,24 @@
 
 import hashlib
 import json
+from codecs import BOM_UTF16_BE, BOM_UTF16_LE
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Self
 
 from pydantic import model_validator
 
-from drumrs.config import types
-from drumrs.config.layers import merge, nest, read_toml
-from drumrs.config.messages import relation
+from drumrs.config.derived import GREATEST_COUNT, Derived, derive
+from drumrs.config.layers import merge, nest, read_json, read_toml
+from drumrs.config.messages import conflict
 from drumrs.config.softening import layer, softening
 from drumrs.config.tables import Tables
 from drumrs.config.to_core import core_config
 from drumrs.config.toml_writer import to_toml
 from drumrs.errors import ConfigError
+
+_CHANGES = "a dict of keys with their values, such as {'load.fill': 0.3}"
+_WRITE_ONE = "drumrs config > case.toml writes one with every key"
 
 
 class Config(Tables):
@@ -33,17 +37,15 @@ class Config(Tables):
     @model_validator(mode="after")
     def _bundles_are_smaller_than_the_drum(self) -> Self:
         if self.drum.rim and self.load.diameter >= self.drum.diameter:
-            raise relation(
-                f"load.diameter is {self.load.diameter}, but must be smaller than "
-                f"drum.diameter = {self.drum.diameter}"
-            )
-        one = (self.load.diameter / self.drum.diameter) ** 2
-        if self.load.fill is not None and not one / 2.0 < self.load.fill <= one * types.GREATEST_COUNT:
-            raise relation(
-                f"load.fill is {self.load.fill}, but must be between {one / 2.0:.4g} and "
-                f"{one * types.GREATEST_COUNT:.4g}: one bundle of diameter {self.load.diameter} fills {one:.4g} "
+            limit = f"smaller than drum.diameter = {self.drum.diameter}"
+            raise conflict("load.diameter", self.load.diameter, limit)
+        least, one, greatest = (self.fill_of(count) for count in (0.5, 1, GREATEST_COUNT))
+        if self.load.fill is not None and not least < self.load.fill <= greatest:
+            limit = (
+                f"between {least:.4g} and {greatest:.4g}: one bundle of diameter {self.load.diameter} fills {one:.4g} "
                 f"of a drum of diameter {self.drum.diameter}"
             )
+            raise conflict("load.fill", self.load.fill, limit)
         return self
 
     @property
@@ -52,6 +54,37 @@ class Config(Tables):
         if self.load.count is not None:
             return self.load.count
         return round((self.load.fill or 0.0) * (self.drum.diameter / self.load.diameter) ** 2)
+
+    @property
+    def fill(self) -> float:
+        """Fill N d²/D² of the whole number of bundles N."""
+        return self.fill_of(self.bundle_count)
+
+    def fill_of(self, count: float) -> float:
+        """Return the fill N d²/D² of so many bundles of the configured size."""
+        return count * (self.load.diameter / self.drum.diameter) ** 2
+
+    @property
+    def derived(self) -> Derived:
+        """What follows from the configuration: masses, damping, collision times, time step, Froude number.
+
+        The compiled core computes it, by the formulas that it simulates with.
+
+        Raises
+        ------
+        ConfigError
+            Where no simulation can have this configuration.
+
+        Examples
+        --------
+        >>> import drumrs
+        >>> derived = drumrs.baseline().derived
+        >>> f"{derived.bundle_mass:.4g} kg/m, damping {derived.bundle.normal_damping:.3g} N s/m"
+        '0.443 kg/m, damping 5.35e+03 N s/m'
+        >>> f"{derived.bundle.collision_time:.3g} s, Froude number {derived.froude_number:.3g}"
+        '0.00019 s, Froude number 0.774'
+        """
+        return derive(self.to_core_json())
 
     @property
     def title(self) -> str:
@@ -63,9 +96,7 @@ class Config(Tables):
         >>> drumrs.baseline(fill=0.25, baffles=True).title
         '100 bundles (25 % fill), 3 baffles, 54 rpm, seed 1'
         """
-        return self.title_of(
-            self.bundle_count, self.bundle_count * (self.load.diameter / self.drum.diameter) ** 2
-        )
+        return self.title_of(self.bundle_count, self.fill)
 
     def title_of(self, bundle_count: int, fill: float) -> str:
         """Return the title with the number of bundles and the fill of a load that may have been given as a `State`.
@@ -102,6 +133,8 @@ class Config(Tables):
         ConfigError
             Where a key or a value is not accepted, or both of a pair are given.
         """
+        if not isinstance(changes, Mapping):
+            raise ConfigError("changes", changes, _CHANGES)
         lower = self.model_dump(exclude_none=True)
         return self.model_validate(merge(type(self), lower, nest(changes)))
 
@@ -158,47 +191,56 @@ class Config(Tables):
         ConfigError
             Where the text is not a JSON object, or a key or value is not accepted.
         """
-        try:
-            layer = json.loads(text)
-        except (ValueError, RecursionError) as error:
-            # Besides what is not JSON: integers of thousands of digits, lists nested a thousand deep.
-            raise ConfigError(f"the configuration is not valid JSON: {error}") from None
-        if not isinstance(layer, dict):
-            raise ConfigError("the configuration is not a JSON object, but must be one of tables")
-        return cls().replace(layer)
+        return cls().replace(read_json(text))
 
     @classmethod
     def read(cls, path: str | Path) -> Self:
-        """Lay a TOML file over the baseline.
+        """Lay a file over the baseline: TOML, or JSON where its name ends with ``.json``.
 
         Raises
         ------
         ConfigError
-            Where the file cannot be read, or `from_toml` would raise.
+            Where the file cannot be read, or `from_toml` or `from_json` would raise.
         """
-        return cls().replace(read_toml_file(path))
+        return cls().replace(read_layer(path))
 
     def to_core_json(self) -> str:
         """Return what crosses to the compiled core: angular velocities, radians, a number of bundles."""
         return json.dumps(core_config(self, self.bundle_count))
 
 
-def read_toml_file(path: str | Path) -> dict[str, Any]:
-    """Read a case file as a layer.
+def require_config(config: object) -> Config:
+    """Return a configuration; refuse what is none, and say how to get one.
 
     Raises
     ------
     ConfigError
-        Where the file cannot be read or is not TOML.
+        Where it is not a `Config`.
+    """
+    if isinstance(config, Config):
+        return config
+    hint = "drumrs.Config.read(path) reads a file, drumrs.baseline().replace({...}) changes some keys"
+    raise ConfigError("config", config, "a Config", hint=hint)
+
+
+def read_layer(path: str | Path) -> dict[str, Any]:
+    """Read a file of configuration keys as a layer: TOML, or JSON where the name ends with ``.json``.
+
+    Raises
+    ------
+    ConfigError
+        Where the file cannot be read, or is not what its name says.
     """
     try:
-        text = Path(path).read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        reason = error.strerror if isinstance(error, OSError) else "it is not UTF-8"
-        raise ConfigError(
-            f"the case file is {str(path)!r}, but must be one that can be read: {reason}"
-        ) from None
-    return read_toml(text, str(path))
+        data = Path(path).read_bytes()
+        # Some editors of Windows begin a file with a mark of its encoding, and write UTF-16.
+        text = data.decode("utf-16" if data.startswith((BOM_UTF16_LE, BOM_UTF16_BE)) else "utf-8-sig")
+    except (OSError, ValueError) as error:
+        reason = error.strerror if isinstance(error, OSError) else "it is not text in UTF-8"
+        problem = f"cannot be read as a file of configuration keys: {reason}"
+        raise ConfigError(Path(path), problem=problem, hint=_WRITE_ONE) from None
+    read = read_json if Path(path).suffix == ".json" else read_toml
+    return read(text, Path(path))
 
 
 def baseline(fill: float = 0.25, *, baffles: bool = False) -> Config:

@@ -4,9 +4,8 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 from pydantic import BaseModel, ConfigDict, ValidationError, model_validator
 
-from drumrs.config.layers import both_given
-from drumrs.config.messages import relation, sentence, show
-from drumrs.errors import ConfigError
+from drumrs.config.messages import both_given, conflict, refusal
+from drumrs.errors import ConfigError, show
 
 if TYPE_CHECKING:
     from pydantic._internal._model_construction import ModelMetaclass
@@ -15,17 +14,21 @@ else:
     ModelMetaclass = type(BaseModel)
 
 
-class _OneSentence(ModelMetaclass):
+class _RaisesConfigError(ModelMetaclass):
     """Make a constructor raise `ConfigError`; validation of nested tables does not pass here, so paths stay whole."""
 
     def __call__(cls: type[Any], *args: Any, **values: Any) -> Any:  # noqa: N805 - a metaclass's self is a class
+        if args:
+            raise TypeError(
+                f"{cls.__name__} takes keys by name; drumrs.baseline().replace({{...}}) takes a dict"
+            )
         try:
-            return ModelMetaclass.__call__(cls, *args, **values)
+            return ModelMetaclass.__call__(cls, **values)
         except ValidationError as error:
-            raise ConfigError(sentence(cls, error)) from None
+            raise refusal(cls, error) from None
 
 
-class ConfigTable(BaseModel, metaclass=_OneSentence):
+class ConfigTable(BaseModel, metaclass=_RaisesConfigError):
     """A frozen table of keys that refuses unknown ones."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", validate_default=True)
@@ -36,21 +39,21 @@ class ConfigTable(BaseModel, metaclass=_OneSentence):
     def __setattr__(self, key: str, value: Any) -> None:
         """Refuse to change a key, and say how to get a copy with another value."""
         raise ConfigError(
-            f"{key} cannot be set to {show(value)}: a configuration does not change; "
-            f'config.replace({{"…{key}": {show(value)}}}) returns a copy with its dotted key changed'
+            key,
+            value,
+            problem=f"cannot be set to {show(value)}: a configuration does not change",
+            hint=f'config.replace({{"…{key}": {show(value)}}}) returns a copy with its dotted key changed',
         )
 
     @model_validator(mode="after")
     def _has_one_of_its_pair(self) -> Self:
         given = [key for key in self.pair or () if getattr(self, key) is not None]
         if len(given) > 1:
-            values = {key: getattr(self, key) for key in given}
-            raise relation(both_given("{at}", given, values))
+            raise conflict(**both_given("{at}", given, {key: getattr(self, key) for key in given}))
         if self.pair and not given:
             first, second = self.pair
-            raise relation(
-                f"{{at}}{first} and {{at}}{second} are both missing, but one of them must be given"
-            )
+            problem = f"and {{at}}{second} are both missing, but one of them must be given"
+            raise conflict(f"{{at}}{first}", limit=f"given, or {{at}}{second} instead", problem=problem)
         return self
 
     @classmethod
@@ -59,4 +62,4 @@ class ConfigTable(BaseModel, metaclass=_OneSentence):
         try:
             return super().model_validate(obj, **options)
         except ValidationError as error:
-            raise ConfigError(sentence(cls, error)) from None
+            raise refusal(cls, error) from None

@@ -1,14 +1,16 @@
 """Layers of keys: a case file over the baseline, command-line settings over the file, the upper one winning."""
 
+import json
 import re
 import tomllib
 from collections.abc import Iterable, Mapping
+from pathlib import Path
 from typing import Any, ClassVar, Protocol, cast
 
 from pydantic import BaseModel
 
-from drumrs.config.messages import show, table_type
-from drumrs.errors import ConfigError
+from drumrs.config.messages import both_given, table_type
+from drumrs.errors import ConfigError, show
 
 
 class _Paired(Protocol):
@@ -27,10 +29,10 @@ def nest(dotted: Mapping[str, Any]) -> dict[str, Any]:
     for key, value in dotted.items():
         *tables, leaf = key.split(".")
         table = nested
-        for name in tables:
+        for depth, name in enumerate(tables, 1):
             table = table.setdefault(name, {})
             if not isinstance(table, dict):
-                raise ConfigError(f"{name} is {show(table)}, but must be a table to hold {key}")
+                raise ConfigError(".".join(tables[:depth]), table, f"a table, for {key} is given, too")
         if isinstance(value, Mapping) and isinstance(table.get(leaf), dict):
             table[leaf] = {**table[leaf], **value}
         else:
@@ -39,9 +41,9 @@ def nest(dotted: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def merge(
-    model: type[BaseModel], lower: Mapping[str, Any], upper: Mapping[str, Any], at: str = ""
+    model: type[BaseModel], lower: Mapping[str, Any], upper: Mapping[str, Any], prefix: str = ""
 ) -> dict[str, Any]:
-    """Lay `upper` over `lower`; one of an either–or pair takes the place of the other.
+    """Merge two layers, `upper` over `lower`; one of an either–or pair takes the place of the other.
 
     Raises
     ------
@@ -51,25 +53,18 @@ def merge(
     pair = cast("_Paired", model).pair or ()
     chosen = [key for key in pair if upper.get(key) is not None]
     if len(chosen) > 1:
-        raise ConfigError(both_given(at, chosen, upper))
+        raise ConfigError(**both_given(prefix, chosen, upper))
     merged = {key: value for key, value in lower.items() if not (chosen and key in pair)}
     for key, value in upper.items():
-        part = table_type(model, key)
+        table = table_type(model, key)
         below = merged.get(key)
-        if part is not None and isinstance(value, Mapping) and isinstance(below, Mapping):
-            merged[key] = merge(part, below, value, f"{at}{key}.")
+        if table is not None and isinstance(value, Mapping) and isinstance(below, Mapping):
+            merged[key] = merge(table, below, value, f"{prefix}{key}.")
         elif value is None:
             merged.pop(key, None)
         else:
             merged[key] = value
     return merged
-
-
-def both_given(at: str, pair: Iterable[str], values: Mapping[str, Any]) -> str:
-    """Say that both keys of an either–or pair stand in one layer."""
-    names = " and ".join(f"{at}{key}" for key in pair)
-    shown = " and ".join(show(values[key]) for key in pair)
-    return f"{names} are both given ({shown}), but only one of them may be"
 
 
 def parse_settings(settings: Iterable[str]) -> dict[str, Any]:
@@ -86,30 +81,70 @@ def parse_settings(settings: Iterable[str]) -> dict[str, Any]:
     for setting in settings:
         key, equals, text = setting.partition("=")
         if not equals or not key.strip():
-            raise ConfigError(f"--set is {setting!r}, but must be KEY=VALUE")
+            raise ConfigError("--set", setting, "KEY=VALUE", hint="such as --set load.fill=0.2")
         layer[key.strip()] = _literal(text.strip())
     return layer
 
 
-def read_toml(text: str, source: str = "the configuration") -> dict[str, Any]:
+def read_toml(text: str, source: str | Path = "the configuration") -> dict[str, Any]:
     """Parse TOML into a layer.
 
     Raises
     ------
     ConfigError
-        If `text` is not TOML; the sentence names `source`, the line and the column.
+        If `text` is not TOML; the message names `source`, the line and the column.
     """
     try:
         return tomllib.loads(text)
     except (ValueError, RecursionError) as error:
         # Besides what is not TOML: integers of thousands of digits, tables nested a thousand deep.
-        raise ConfigError(f"{source} is not valid TOML: {error}") from None
+        raise ConfigError(source, problem=f"is not valid TOML: {error}", hint=_corrected(text)) from None
+
+
+def _corrected(text: str) -> str:
+    """Say how to write the line at which TOML ends, where that can be guessed."""
+    from tomlkit import exceptions, parse
+
+    if text.lstrip().startswith("{"):
+        return "a file of JSON has a name that ends with .json"
+    try:
+        parse(text)
+    except exceptions.ParseError as error:
+        line = text.splitlines()[error.line - 1].strip() if text.strip() else ""
+        key, equals, typed = (part.strip() for part in line.partition("="))
+        if not equals:
+            return f"line {error.line} is {show(line)}, but must be KEY = VALUE or [TABLE]"
+        typed = typed.partition("#")[0].strip()
+        value = _typed(typed.replace(",", ".") if _DECIMAL_COMMA.fullmatch(typed) else typed)
+        if not isinstance(value, str) or value.isidentifier():
+            return f"write {key} = {json.dumps(value)}"
+    except Exception:  # noqa: BLE001 - only a hint is lost
+        return ""
+    return ""
+
+
+def read_json(text: str, source: str | Path = "the configuration") -> dict[str, Any]:
+    """Parse a JSON object into a layer.
+
+    Raises
+    ------
+    ConfigError
+        If `text` is not a JSON object; the message names `source`.
+    """
+    try:
+        layer = json.loads(text)
+    except (ValueError, RecursionError) as error:
+        # Besides what is not JSON: integers of thousands of digits, lists nested a thousand deep.
+        raise ConfigError(source, problem=f"is not valid JSON: {error}") from None
+    if not isinstance(layer, dict):
+        raise ConfigError(source, layer, "a JSON object of tables")
+    return layer
 
 
 # Numbers that people and Python write, and TOML does not take: .5, 5., 25 %.
 _NUMBER = re.compile(r"([+-]?(?:\d+\.\d*|\.\d+|\d+)(?:[eE][+-]?\d+)?)\s*(%?)")
 _DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+")
-_WORDS = {"True": True, "False": False}
+_WORDS = {"True": True, "False": False, "None": None}
 
 
 def _literal(text: str) -> Any:
@@ -125,6 +160,4 @@ def _typed(text: str) -> Any:
     number = _NUMBER.fullmatch(text)
     if number is not None:
         return float(number[1]) / (100.0 if number[2] else 1.0)
-    if _DECIMAL_COMMA.fullmatch(text):
-        raise ConfigError(f"{text} is no number; write {text.replace(',', '.')}")
     return _WORDS.get(text, text)

@@ -1,6 +1,7 @@
-"""Softer springs and the time step to match: what changes, and from what to what."""
+"""Softer springs, with the time step to match: the keys that change and their values."""
 
 import math
+import numbers
 from typing import TYPE_CHECKING, Any
 
 from drumrs.errors import ConfigError
@@ -20,12 +21,12 @@ def softening(config: "Tables", factor: float, name: str = "softer") -> dict[str
     Raises
     ------
     ConfigError
-        Where the factor is not a finite number of at least 1; `name` is what the sentence calls it.
+        Where the factor is not a finite number of at least 1; `name` is what the message calls it.
     """
-    if not 1.0 <= factor < math.inf:
-        raise ConfigError(f"{name} is {factor}, but must be a finite number of at least 1")
+    if not (isinstance(factor, numbers.Real) and 1.0 <= factor < math.inf):
+        raise ConfigError(name, factor, "a finite number of at least 1")
     if config.contact.base != "linear":
-        raise ConfigError(f"contact.base is {config.contact.base!r}, but must be 'linear' for softer springs")
+        raise ConfigError("contact.base", config.contact.base, "'linear' for softer springs")
     root = math.sqrt(factor)
     changes: dict[str, tuple[float, float]] = {}
     for at, law in _laws(config.contact):

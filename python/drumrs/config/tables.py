@@ -7,8 +7,8 @@ from pydantic import Field, model_validator
 
 from drumrs.config import types
 from drumrs.config.config_table import ConfigTable
-from drumrs.config.layers import both_given, merge
-from drumrs.config.messages import relation, show
+from drumrs.config.layers import merge
+from drumrs.config.messages import both_given, conflict
 from drumrs.config.types import Flag, Limit, NonNegative, Positive, Real
 
 if TYPE_CHECKING:
@@ -52,7 +52,8 @@ class Baffles(ConfigTable):
     @model_validator(mode="after")
     def _polygon_has_points(self) -> Self:
         if self.shape == "polygon" and self.points is None:
-            raise relation("{at}points is missing, but must be given where {at}shape is 'polygon'")
+            limit = "given where {at}shape is 'polygon'"
+            raise conflict("{at}points", limit=limit, problem=f"is missing, but must be {limit}")
         return self
 
 
@@ -69,9 +70,7 @@ class Drum(ConfigTable):
     @model_validator(mode="after")
     def _baffles_stand_on_a_rim(self) -> Self:
         if self.baffles.count and not self.rim:
-            raise relation(
-                f"{{at}}baffles.count is {self.baffles.count}, but must be 0 where {{at}}rim is false"
-            )
+            raise conflict("{at}baffles.count", self.baffles.count, "0 where {at}rim is false")
         return self
 
 
@@ -90,12 +89,16 @@ class Rotation(ConfigTable):
 
     @model_validator(mode="after")
     def _knots_are_in_order(self) -> Self:
-        times = [time for time, _ in self.program or ()]
-        for index, (earlier, later) in enumerate(pairwise(times)):
-            if later <= earlier:
-                raise relation(
-                    f"{{at}}program[{index + 1}] is at {later} s, but must be later than the {earlier} s before it"
-                )
+        for index, ((earlier, before), (later, after)) in enumerate(pairwise(self.program or ()), 1):
+            if later > earlier:
+                continue
+            limit = f"later than the knot before it, which is at {earlier} s"
+            hint = ""
+            if later == earlier and before != after:
+                limit += f": the speed cannot jump from {before} to {after} rpm"
+                hint = f"to change it within a millisecond, write [{later + 1e-3:.12g}, {after}]"
+            problem = f"is at {later} s, but must be {limit}"
+            raise conflict(f"{{at}}program[{index}]", (later, after), limit, hint=hint, problem=problem)
         return self
 
 
@@ -156,7 +159,7 @@ class LinearContact(ConfigTable):
 
 
 class _PartialContact(ConfigTable):
-    """Some keys of a contact table; the rest is that of a whole one."""
+    """Those keys of a contact table that differ for some species; the others are taken from the whole table."""
 
     normal_stiffness: Positive | None = None
     stiffness_ratio: Positive | None = None
@@ -174,7 +177,7 @@ class _PartialContact(ConfigTable):
     def _has_not_both_of_the_pair(self) -> Self:
         if self.restitution is not None and self.normal_damping is not None:
             values = {"restitution": self.restitution, "normal_damping": self.normal_damping}
-            raise relation(both_given("{at}", values, values))
+            raise conflict(**both_given("{at}", list(values), values))
         return self
 
     def over(self, whole: LinearContact) -> LinearContact:
@@ -223,10 +226,11 @@ class Contact(ConfigTable):
         named += [(f"walls[{index}].species", [law.species]) for index, law in enumerate(self.walls)]
         for index, (key, species) in enumerate(named):
             if species[-1] >= self.species:
-                raise relation(f"{{at}}{key} is {species}, but must be below {{at}}species = {self.species}")
+                raise conflict(f"{{at}}{key}", species, f"below {{at}}species = {self.species}")
             earlier = next((other for other, its in named[:index] if its == species), None)
             if earlier is not None:
-                raise relation(f"{{at}}{key} is {species}, but must not be that of {{at}}{earlier}")
+                limit = f"another than {{at}}{earlier}, which has its law already"
+                raise conflict(f"{{at}}{key}", species, limit)
         return self
 
 
@@ -256,10 +260,8 @@ class Run(ConfigTable):
     def _window_lies_in_the_duration(self) -> Self:
         start, end = self.averaging_window
         if not start < end <= self.duration:
-            raise relation(
-                f"{{at}}window is {show(self.window)}, but must be a pair [start, end] with "
-                f"0 <= start < end <= {{at}}duration = {self.duration}"
-            )
+            limit = f"a pair [start, end] with 0 <= start < end <= {{at}}duration = {self.duration}"
+            raise conflict("{at}window", self.window, limit)
         return self
 
     @property

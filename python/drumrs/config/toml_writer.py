@@ -1,69 +1,73 @@
 """A configuration as TOML in which every key carries its meaning and unit."""
 
-import json
 import textwrap
-from collections.abc import Iterator
 from decimal import Decimal
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from pydantic import BaseModel
+
+if TYPE_CHECKING:
+    from tomlkit.items import Item, Table
+    from tomlkit.toml_document import TOMLDocument
 
 _WIDTH = 100
 _LARGE = 1e6
 
 
 def to_toml(config: BaseModel, *, comments: bool) -> str:
-    """Write `config` as TOML; with `comments`, keys that are not set stand there commented out."""
-    lines = list(_table(config, "", comments=comments))
-    return "\n".join(lines).strip() + "\n"
+    """Return `config` as TOML; with `comments`, each key has its meaning above it, unset ones as an example."""
+    import tomlkit
+
+    document = tomlkit.document()
+    _write(document, config, comments=comments)
+    return document.as_string()
 
 
-def _table(part: BaseModel, path: str, *, comments: bool) -> Iterator[str]:
-    tables = {key: value for key, value in part if isinstance(value, BaseModel)}
-    if path:
-        yield ""
-        if comments:
-            yield from _comment((type(part).__doc__ or "").partition("\n")[0])
-        yield f"[{path}]"
-    for key, value in part:
-        if key not in tables:
-            yield from _key(part, key, value, comments=comments)
-    for key, value in tables.items():
-        yield from _table(value, f"{path}.{key}" if path else key, comments=comments)
+def _write(into: "TOMLDocument | Table", table: BaseModel, *, comments: bool) -> None:
+    import tomlkit
+
+    values = {key: value for key, value in table if not isinstance(value, BaseModel)}
+    for key, value in values.items():
+        field = type(table).model_fields[key]
+        for line in textwrap.wrap(field.description or "", _WIDTH) if comments else ():
+            into.add(tomlkit.comment(line))
+        if value is not None:
+            into.add(key, toml_item(value))
+        elif comments and field.examples:
+            into.add(tomlkit.comment(f"{key} = {toml_item(field.examples[0]).as_string()}"))
+    for key, value in table:
+        if isinstance(value, BaseModel):
+            inner = tomlkit.table()
+            if comments:
+                inner.comment((type(value).__doc__ or "").partition("\n")[0])
+            _write(inner, value, comments=comments)
+            into.add(key, inner)
 
 
-def _key(part: BaseModel, key: str, value: Any, *, comments: bool) -> Iterator[str]:
-    field = type(part).model_fields[key]
-    if comments:
-        yield from _comment(field.description or "")
-    if value is not None:
-        yield f"{key} = {literal(value)}"
-    elif comments and field.examples:
-        yield f"# {key} = {literal(field.examples[0])}"
-
-
-def _comment(text: str) -> list[str]:
-    return [f"# {line}" for line in textwrap.wrap(text, _WIDTH)]
-
-
-def literal(value: Any) -> str:
-    """Write a value of a configuration as TOML; a float reads back as the same bits.
+def toml_item(value: Any) -> "Item":
+    """Return a value of a configuration as TOML, tables inline; a float reads back as the same bits.
 
     Examples
     --------
-    >>> literal(9.25e7), literal((0.0, -9.81)), literal("auto"), literal(True)
-    ('9.25e+7', '[0.0, -9.81]', '"auto"', 'true')
-    >>> literal({"species": 1, "friction": 0.3})
-    '{ species = 1, friction = 0.3 }'
+    >>> [toml_item(value).as_string() for value in (9.25e7, (0.0, -9.81), "auto", True)]
+    ['9.25e+7', '[0.0, -9.81]', '"auto"', 'true']
+    >>> toml_item([{"species": 1, "friction": 0.3}]).as_string()
+    '[{species = 1, friction = 0.3}]'
     """
+    import tomlkit
+
     if isinstance(value, BaseModel):
         value = value.model_dump(exclude_none=True)
     if isinstance(value, dict):
-        return f"{{ {', '.join(f'{key} = {literal(item)}' for key, item in value.items())} }}"
+        inline = tomlkit.inline_table()
+        inline.update({key: toml_item(item) for key, item in value.items()})
+        return inline
     if isinstance(value, (list, tuple)):
-        return f"[{', '.join(literal(item) for item in value)}]"
+        array = tomlkit.array()
+        array.extend(toml_item(item) for item in value)
+        return array
     if isinstance(value, float) and abs(value) >= _LARGE:
-        return str(Decimal(repr(value)).normalize()).lower() if "e" not in repr(value) else repr(value)
-    if isinstance(value, float):
-        return repr(value)
-    return json.dumps(value)
+        # The shortest digits, with a power of ten.
+        value = tomlkit.value(f"{Decimal(repr(value)).normalize():e}")
+    item: Item = tomlkit.item(value)
+    return item

@@ -1,4 +1,4 @@
-"""Types of the configuration's values: what they accept, and the words in which a refusal says so."""
+"""Types of the configuration's values: what they accept, and their limits in words for error messages."""
 
 import numbers
 from dataclasses import dataclass
@@ -6,10 +6,12 @@ from typing import Annotated, Any
 
 from pydantic import BeforeValidator, Field
 
+from drumrs.config.derived import GREATEST_BAFFLES, GREATEST_COUNT, GREATEST_SPECIES
+
 
 @dataclass(frozen=True)
 class Limit:
-    """What a field accepts, as the end of the sentence "KEY is VALUE, but must be …"."""
+    """What a field accepts, as the end of the message "KEY is VALUE, but must be …"."""
 
     text: str
 
@@ -65,7 +67,6 @@ PoissonRatio = Annotated[float, _NUMBER, _FINITE, Field(ge=0, le=0.5), Limit("at
 OpenFraction = Annotated[float, _NUMBER, _FINITE, Field(gt=0, lt=1), Limit("between 0 and 1")]
 Flag = Annotated[bool, Field(strict=True), Limit("true or false")]
 
-GREATEST_COUNT = 10_000_000
 GREATEST_SEED = 2**63 - 1
 
 BundleCount = Annotated[
@@ -75,9 +76,13 @@ BundleCount = Annotated[
     Field(ge=1, le=GREATEST_COUNT),
     Limit(f"a whole number from 1 to {GREATEST_COUNT}"),
 ]
-BaffleCount = Annotated[int, _COUNT, _WHOLE, Field(ge=0, le=1000), Limit("a whole number from 0 to 1000")]
-GREATEST_SPECIES = 256
-
+BaffleCount = Annotated[
+    int,
+    _COUNT,
+    _WHOLE,
+    Field(ge=0, le=GREATEST_BAFFLES),
+    Limit(f"a whole number from 0 to {GREATEST_BAFFLES}"),
+]
 SpeciesCount = Annotated[
     int,
     _COUNT,

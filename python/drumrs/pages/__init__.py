@@ -49,14 +49,12 @@ def check_page(path: str | Path, what: str = "the page") -> None:
     """
     path = Path(path)
     if path.is_dir():
-        raise ConfigError(f"{what} is {str(path)!r}, but must be a file: it is a folder")
+        raise ConfigError(what, path, "a file: it is a folder")
     if path.exists():
         with path.open("rb") as file:
             if _GENERATOR not in file.read(_HEAD):
-                raise ConfigError(
-                    f"{what} is {str(path)!r}, but must be a new file or a page of drumrs: "
-                    "this one is another's, and is not overwritten"
-                )
+                limit = "a new file or a page of drumrs: this one is another's, and is not overwritten"
+                raise ConfigError(what, path, limit)
 
 
 def write_page(path: str | Path, text: str) -> Path:

@@ -70,13 +70,9 @@ def cost(configs: Iterable[Config]) -> int:
     >>> paper.cost([baseline(fill=0.25)])
     810810900
     """
-    return sum(config.bundle_count * _steps(config) for config in configs)
-
-
-def _steps(config: Config) -> int:
-    """Return the number of steps; `auto` is taken as the paper's step, near enough for a cost."""
-    step = config.run.time_step
-    return math.ceil(config.run.duration / (TIME_STEP if isinstance(step, str) else step))
+    return sum(
+        config.bundle_count * math.ceil(config.run.duration / config.derived.time_step) for config in configs
+    )
 
 
 def _points(scale: Scale) -> Iterator[Config]:

@@ -102,15 +102,14 @@ def _draw_drift(data: StudyData) -> "Figure":
         drum = f"50 % fill, {'with' if baffles else 'without'} baffles"
         runs[drum] = [data.sweep.series(case, data.folder) for case in found]
         config = found[0].config
-        mass[drum] = config.bundle_count * config.load.density * math.pi * config.load.diameter**2 / 4.0
+        mass[drum] = config.derived.load_mass
     return plots.drift_over_time(runs, mass, config.run.averaging_window)
 
 
 def _draw_speed(data: StudyData) -> "Figure":
     from drumrs.paper import plots
 
-    radius, gravity = baseline().drum.diameter / 2.0, abs(baseline().gravity[1])
-    centrifuging = math.sqrt(gravity / radius) * 60.0 / (2.0 * math.pi)
+    centrifuging = (baseline().derived.critical_angular_velocity or 0.0) * 30.0 / math.pi
     return plots.specific_power_against_speed(_both_drums(data, "speed", "drum_specific_power"), centrifuging)
 
 

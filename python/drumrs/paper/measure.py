@@ -1,6 +1,5 @@
 """The table that figures and claims read: cases, summaries, and what series and frames tell beyond them."""
 
-import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -56,7 +55,7 @@ def _frames(sweep: "Sweep", case: Any, folder: str | Path | None) -> "Frames | N
 
 def _measures(config: "Config", series: "pl.DataFrame", frames: "Frames | None") -> dict[str, Any]:
     window = config.run.averaging_window
-    mass = config.bundle_count * config.load.density * math.pi * config.load.diameter**2 / 4.0
+    mass = config.derived.load_mass
     columns: dict[str, Any] = {"size_ratio": config.drum.diameter / config.load.diameter}
     columns |= analysis.statistics(series, window, mass)
     error = columns["drum_specific_power_error"]

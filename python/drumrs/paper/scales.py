@@ -94,5 +94,5 @@ def scale_of(scale: str | Scale) -> Scale:
         return scale
     if scale not in SCALES:
         known = " or ".join([", ".join(repr(name) for name in list(SCALES)[:-1]), repr(list(SCALES)[-1])])
-        raise ConfigError(f"scale is {scale!r}, but must be {known}")
+        raise ConfigError("scale", scale, known)
     return SCALES[scale]

@@ -1,19 +1,17 @@
 """`Case`: one configuration with its seed, the name of its results and what it costs."""
 
 import hashlib
-import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cache, cached_property
 
-from drumrs.config import Config, LinearContact
+from drumrs.config import Config
+from drumrs.errors import ConfigError
 from drumrs.simulation import info
 
 _ID_DIGITS = 20
 # So many digits are shown where they tell cases apart.
 _SHORT_ID_DIGITS = 8
-# The core takes this part of the shortest collision where `run.time_step` is "auto".
-_AUTO_STEPS = 50.0
 
 
 @dataclass(frozen=True, repr=False)
@@ -54,7 +52,7 @@ class Case:
     @property
     def load_mass(self) -> float:
         """Mass of the load per meter of drum depth [kg/m]."""
-        return self.config.bundle_count * _bundle_mass(self.config)
+        return self.config.derived.load_mass
 
     @property
     def wants_frames(self) -> bool:
@@ -63,8 +61,12 @@ class Case:
 
     @cached_property
     def cost(self) -> float:
-        """Particle-steps that the case takes, near enough to compare cases by."""
-        return self.config.bundle_count * self.config.run.duration / _time_step(self.config)
+        """Particle-steps that the case takes; 0 where its configuration is refused, as its run will say."""
+        try:
+            time_step = self.config.derived.time_step
+        except ConfigError:
+            return 0.0
+        return self.config.bundle_count * self.config.run.duration / time_step
 
 
 def short_ids(ids: Iterable[str], others: Iterable[str] = ()) -> dict[str, str]:
@@ -87,25 +89,3 @@ def short_ids(ids: Iterable[str], others: Iterable[str] = ()) -> dict[str, str]:
 def physics_version() -> int:
     """Return the version of the physics: results of different versions are different results."""
     return int(info()["physics_version"])
-
-
-def _time_step(config: Config) -> float:
-    if config.run.time_step != "auto":
-        return config.run.time_step
-    mass, contact = _bundle_mass(config), config.contact
-    shortest = min(_collision_time(contact.bundle, mass / 2.0), _collision_time(contact.drum, mass))
-    return shortest / _AUTO_STEPS
-
-
-def _bundle_mass(config: Config) -> float:
-    return config.load.density * math.pi * config.load.diameter**2 / 4.0
-
-
-def _collision_time(law: LinearContact, effective_mass: float) -> float:
-    """Return half the period of the spring and dashpot [s]; near critical damping, that of the spring."""
-    frequency = math.sqrt(law.normal_stiffness / effective_mass)
-    if law.restitution is not None:
-        loss = math.log(law.restitution)
-        return math.hypot(math.pi, loss) / frequency
-    damping = (law.normal_damping or 0.0) / (2.0 * effective_mass * frequency)
-    return math.pi / frequency / math.sqrt(max(1.0 - damping**2, 1e-2))

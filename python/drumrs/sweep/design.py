@@ -5,8 +5,8 @@ from itertools import product
 from typing import Any, cast
 
 from drumrs.config import Config
-from drumrs.config.messages import dotted_keys, show
-from drumrs.errors import ConfigError
+from drumrs.config.messages import dotted_keys
+from drumrs.errors import ConfigError, show
 from drumrs.sweep.case import Case
 
 Axes = Mapping[str, Iterable[Any]]
@@ -26,9 +26,9 @@ def from_axes(base: Config, axes: Axes | None, seeds: Seeds) -> tuple[Case, ...]
         Where an axis names no key, is empty or holds a value that is not accepted, or where a case comes twice.
     """
     if axes is not None and not isinstance(axes, Mapping):
-        raise ConfigError(f"axes is {show(axes):.60}, but must be a table of keys with a list of values each")
+        raise ConfigError("axes", axes, "a table of keys with a list of values each")
     if axes is not None and not axes:
-        raise ConfigError("axes is empty, but must name at least one key with a list of values")
+        raise ConfigError("axes", axes, "a table of at least one key with a list of values")
     _check_keys(base, axes or ())
     values = {key: _values(key, axis) for key, axis in (axes or {}).items()}
     points = [dict(zip(values, point, strict=True)) for point in product(*values.values())]
@@ -48,14 +48,12 @@ def from_rows(base: Config, table: Rows, seeds: Seeds) -> tuple[Case, ...]:
     try:
         frame = table if isinstance(table, pl.DataFrame) else pl.DataFrame(table)
     except (TypeError, ValueError, pl.exceptions.PolarsError) as error:
-        raise ConfigError(
-            f"the table of rows is of type {type(table).__name__}, but must be a table of polars or pandas, "
-            f"or a list of dicts: {error}"
-        ) from None
+        limit = f"a table of polars or pandas, or a list of dicts: {error}"
+        problem = f"is of type {type(table).__name__}, but must be {limit}"
+        raise ConfigError("the table of rows", limit=limit, problem=problem) from None
     if not frame.height or not frame.width:
-        raise ConfigError(
-            f"the table of rows has {frame.height} rows and {frame.width} columns, but must have some of both"
-        )
+        problem = f"has {frame.height} rows and {frame.width} columns, but must have some of both"
+        raise ConfigError("the table of rows", problem=problem)
     _check_keys(base, frame.columns)
     rows = [
         {key: value for key, value in row.items() if value is not None} for row in frame.iter_rows(named=True)
@@ -73,7 +71,7 @@ def from_configs(configs: Iterable[Config]) -> tuple[Case, ...]:
     """
     cases = {case.id: case for case in map(Case, configs)}
     if not cases:
-        raise ConfigError("the configurations are an empty list, but must be at least one")
+        raise ConfigError("configs", [], "a list of at least one configuration")
     return tuple(cases.values())
 
 
@@ -88,7 +86,7 @@ def _check_keys(base: Config, keys: Iterable[str]) -> None:
 def _values(key: str, axis: Iterable[Any]) -> list[Any]:
     listed = _items(axis)
     if not listed:
-        raise ConfigError(f"the axis {key} is {show(axis)}, but must be a list of at least one value")
+        raise ConfigError(f"the axis {key}", axis, "a list of at least one value")
     return listed
 
 
@@ -99,7 +97,7 @@ def _with_seeds(
     if seeds is None:
         return [dict(point) for point in points]
     if _SEED in keys:
-        raise ConfigError(f"{_SEED} is varied and seeds are given, but only one of them may be")
+        raise ConfigError(_SEED, problem="is varied and seeds are given, but only one of them may be")
     return [{**point, _SEED: seed} for point in points for seed in _listed(seeds)]
 
 
@@ -108,7 +106,7 @@ def _listed(seeds: Iterable[int] | int) -> list[int]:
     is_number = isinstance(seeds, int) and not isinstance(seeds, bool)
     listed = _items(range(cast("int", seeds)) if is_number else seeds)
     if not listed:
-        raise ConfigError(f"seeds is {show(seeds)}, but must be a list of at least one seed, or their number")
+        raise ConfigError("seeds", seeds, "a list of at least one seed, or their number")
     return listed
 
 
@@ -124,6 +122,6 @@ def _distinct(base: Config, changes: Sequence[Mapping[str, Any]]) -> tuple[Case,
         case = Case(base.replace(change))
         if case.id in cases:
             settings = ", ".join(f"{key} = {show(value)}" for key, value in change.items())
-            raise ConfigError(f"the case {settings} is there twice, but must be there once")
+            raise ConfigError(f"the case {settings}", problem="is there twice, but must be there once")
         cases[case.id] = case
     return tuple(cases.values())

@@ -52,7 +52,7 @@ class Workers:
             with _children_without_interrupts() if self.halt is not None else nullcontext():
                 return self.executor.submit(run_case, *arguments, *extra)
         except Exception as error:  # noqa: BLE001 - every executor has a class of its own for it
-            raise ConfigError(f"executor is one that takes no work, but must be open: {error}") from None
+            raise ConfigError("executor", problem=f"takes no work, but must be open: {error}") from None
 
     def particle_steps(self) -> float:
         """Return the particle-steps of the simulations under way, 0 where they cannot be seen."""
@@ -109,13 +109,12 @@ def open_workers(executor: Executor | str | None, jobs: int | None) -> Iterator[
         running = Running() if isinstance(executor, ThreadPoolExecutor) else None
         yield Workers(executor, jobs or MOST_JOBS, running)
     else:
-        raise ConfigError(f"executor is {executor!r:.60}, but must be 'threads', 'processes' or an Executor")
+        raise ConfigError("executor", executor, "'threads', 'processes' or an Executor")
 
 
 def _refuse_fork(executor: Executor) -> None:
     context = getattr(executor, "_mp_context", None)
     if context is not None and context.get_start_method() == "fork":
-        raise ConfigError(
-            "executor forks its workers, but must spawn them, for a fork does not go with polars' threads: "
-            "ProcessPoolExecutor(mp_context=multiprocessing.get_context('spawn'))"
-        )
+        problem = "forks its workers, but must spawn them, for a fork does not go with polars' threads"
+        hint = "ProcessPoolExecutor(mp_context=multiprocessing.get_context('spawn')) does"
+        raise ConfigError("executor", hint=hint, problem=problem)

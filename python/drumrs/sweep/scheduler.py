@@ -169,7 +169,7 @@ def shard_of(ordered: Sequence[Case], shard: tuple[int, int] | None) -> list[Cas
         return list(ordered)
     part, parts = shard
     if not 1 <= part <= parts:
-        raise ConfigError(f"shard is {part}/{parts}, but must be k/n with 1 <= k <= n")
+        raise ConfigError("shard", f"{part}/{parts}", "k/n with 1 <= k <= n")
     return list(ordered[part - 1 :: parts])
 
 
@@ -220,9 +220,8 @@ def _outcome_of(future: "Future[CaseOutcome]", case: Case, store: Store) -> Case
         store.write_error(case, error)
         return CaseOutcome(case.id, "failed", type(error).__name__, str(error))
     if told.case != case.id:
-        raise ConfigError(
-            "executor has workers with another version of drumrs, but must have workers with this one"
-        )
+        problem = "has workers with another version of drumrs, but must have workers with this one"
+        raise ConfigError("executor", problem=problem)
     return told
 
 

@@ -84,18 +84,17 @@ def read_sealed(path: Path, case: Case, content: str) -> io.BytesIO:
     head, digest, tail = _cut(data)
     # Before the parser sees it: some damage makes it give up in a way of its own.
     if digest and hashlib.sha256(head + _BLANK.encode() + tail).hexdigest().encode() != digest:
-        raise ConfigError(f"{str(path)!r} is damaged: its digest does not match")
+        raise ConfigError(path, problem="is damaged: its digest does not match")
     seal = _seal(path, data)
     if not isinstance(seal, dict):
-        raise ConfigError(f"{str(path)!r} was not written by drumrs")
+        raise ConfigError(path, problem="was not written by drumrs")
     for name, wanted in _claims(case, content).items():
         if seal.get(name) != wanted:
             whose = "another version of drumrs wrote it" if name in _VERSIONS else "it is another's file"
-            raise ConfigError(
-                f"{str(path)!r} has {name} {seal.get(name)!r}, but must have {wanted!r}: {whose}"
-            )
+            problem = f"has {name} {seal.get(name)!r}, but must have {wanted!r}: {whose}"
+            raise ConfigError(path, seal.get(name), repr(wanted), problem=problem)
     if not digest or seal.get("sha256") != digest.decode(errors="replace"):
-        raise ConfigError(f"{str(path)!r} is damaged: its digest does not match")
+        raise ConfigError(path, problem="is damaged: its digest does not match")
     return io.BytesIO(data)
 
 
@@ -111,10 +110,10 @@ def _read(path: Path) -> bytes:
         # A file that is none of ours may be larger than all memory.
         with path.open("rb") if path.is_file() else contextlib.nullcontext() as file:
             if file is not None and (path.stat().st_size < len(_MAGIC) or _ending(file) != _MAGIC):
-                raise ConfigError(f"{str(path)!r} is damaged or no parquet file")
+                raise ConfigError(path, problem="is damaged or no parquet file")
         return read_plain(path)
     except OSError as error:
-        raise ConfigError(f"{str(path)!r} cannot be read: {error.strerror}") from None
+        raise ConfigError(path, problem=f"cannot be read: {error.strerror}") from None
 
 
 def _ending(file: BinaryIO) -> bytes:
@@ -132,7 +131,7 @@ def _seal(path: Path, data: bytes) -> Any:
         return json.loads(pl.read_parquet_metadata(io.BytesIO(data)).get(_KEY, "null"))
     # Polars raises what its parser meets, on some damage a panic, which is no `Exception`.
     except (Exception, PanicException):  # noqa: BLE001 - whatever it was, the file is not one that drumrs wrote
-        raise ConfigError(f"{str(path)!r} is damaged or no parquet file") from None
+        raise ConfigError(path, problem="is damaged or no parquet file") from None
 
 
 def _claims(case: Case, content: str) -> dict[str, object]:

@@ -18,8 +18,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from drumrs.analysis import statistics
-from drumrs.config.messages import show
-from drumrs.errors import ConfigError
+from drumrs.errors import ConfigError, show
 from drumrs.files import NO_ROOM, read_object, write_whole
 from drumrs.folders import marker, require_own
 from drumrs.frames import Frames
@@ -63,9 +62,8 @@ class Store:
         except OSError as error:
             if error.errno in NO_ROOM:
                 raise
-            raise ConfigError(
-                f"folder is {str(self.folder)!r}, but must be a folder that can be written: {error.strerror}"
-            ) from None
+            limit = f"a folder that can be written: {error.strerror}"
+            raise ConfigError("folder", self.folder, limit) from None
         self._remove_leftovers()
 
     def check_format(self) -> None:
@@ -75,18 +73,16 @@ class Store:
             if not path.exists():
                 return
         except OSError as error:
-            raise ConfigError(
-                f"folder is {str(self.folder)!r}, but must be a folder that can be read: {error.strerror}"
-            ) from None
+            limit = f"a folder that can be read: {error.strerror}"
+            raise ConfigError("folder", self.folder, limit) from None
         mark = read_object(path)
         if mark is None or "format" not in mark:
-            raise ConfigError(f"{str(path)!r} is damaged, but must name the format of the folder, {FORMAT}")
+            raise ConfigError(path, problem=f"is damaged, but must name the format of the folder, {FORMAT}")
         found = mark["format"]
         if not isinstance(found, int) or found > FORMAT:
-            raise ConfigError(
-                f"folder is {str(self.folder)!r} of format {show(found)}, but must be of format {FORMAT} at most: "
-                "a newer drumrs made it"
-            )
+            limit = f"of format {FORMAT} at most: a newer drumrs made it"
+            problem = f"is of format {show(found)}, but must be {limit}"
+            raise ConfigError(self.folder, found, limit, problem=problem, bound=FORMAT)
 
     def ids(self) -> set[str]:
         """Return the ids of all finished cases in the folder, those of other sweeps included."""
@@ -111,7 +107,7 @@ class Store:
         for ending in _ENDINGS:
             path = self._path(case, ending)
             if path.is_dir() and not path.is_symlink():
-                raise ConfigError(f"{str(path)!r} is a folder, but must be a file of results, or not there")
+                raise ConfigError(path, problem="is a folder, but must be a file of results, or not there")
 
     def fault(self, case: Case) -> str | None:
         """Say what keeps the results of a case from being whole; `None` where the case is finished.
@@ -231,7 +227,7 @@ class Store:
 
         if pl.read_parquet_schema(self._read(case, "summary")) != schema():
             path = self._parquet(case, "summary")
-            raise ConfigError(f"{str(path)!r} has the columns of another version of drumrs")
+            raise ConfigError(path, problem="has the columns of another version of drumrs")
 
     def _parquet(self, case: Case, content: str) -> Path:
         return self._path(case, "parquet" if content == "summary" else f"{content}.parquet")

@@ -226,7 +226,7 @@ class Sweep:
     def _store(self, folder: str | Path | None) -> Store:
         chosen = self._folder if folder is None else Path(folder)
         if chosen is None:
-            raise ConfigError("folder is missing, but must be given where the sweep has not been run")
+            raise ConfigError("folder", None, "given where the sweep has not been run")
         store = Store(chosen)
         store.check_format()
         return store

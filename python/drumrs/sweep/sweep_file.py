@@ -5,8 +5,8 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from drumrs.config import Config, read_toml_file
-from drumrs.config.messages import dotted_keys, show
+from drumrs.config import Config, read_layer
+from drumrs.config.messages import dotted_keys
 from drumrs.errors import ConfigError
 from drumrs.sweep.sweep import Sweep
 
@@ -44,10 +44,10 @@ def read_sweep(path: str | Path, seeds: "Seeds" = None) -> Sweep:
     >>> len(read_sweep(path).cases)
     4
     """
-    content = read_toml_file(path)
+    content = read_layer(path)
     for key in content:
         if key not in _KEYS:
-            raise ConfigError(f"{key} is not a key of a sweep file; {_meant(key)}")
+            raise ConfigError(key, content[key], problem="is not a key of a sweep file", hint=_meant(key))
     axes = _table(content, "axes")
     return Sweep(
         _base(content, Path(path).parent),
@@ -65,7 +65,7 @@ def _base(content: Mapping[str, Any], folder: Path) -> Config:
     if file is None:
         return Config().replace(keys)
     if not isinstance(file, str):
-        raise ConfigError(f"base.file is {show(file)}, but must be the path of a case file")
+        raise ConfigError("base.file", file, "the path of a case file")
     return Config.read(folder / file).replace(keys)
 
 
@@ -73,7 +73,7 @@ def _table(content: Mapping[str, Any], key: str) -> Mapping[str, Any] | None:
     table = content.get(key)
     if table is not None and not isinstance(table, Mapping):
         choice = " or the path of a case file" if key == "base" else ""
-        raise ConfigError(f"{key} is {show(table)}, but must be a table{choice}")
+        raise ConfigError(key, table, f"a table{choice}")
     return table
 
 

@@ -28,7 +28,8 @@ def scan(cases: Sequence[Case], store: Store) -> "pl.LazyFrame":
     try:
         found = [path for case in cases if (path := store.summary_path(case)) is not None]
     except ConfigError as error:
-        raise ConfigError(f"{error}; run the sweep again to compute it anew") from None
+        error.hint = "run the sweep again to compute it anew"
+        raise
     if not found:
         return pl.LazyFrame(schema=schema())
     return pl.scan_parquet(found, glob=False).sort(sort_keys(), maintain_order=True)

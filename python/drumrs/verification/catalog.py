@@ -54,7 +54,7 @@ def chosen(only: Sequence[str] | None = None) -> tuple[Case, ...]:
     names = [case.name for case in cases]
     for name in only:
         if name not in names:
-            raise ConfigError(f"only is {name!r}, but must be one of {', '.join(names)}")
+            raise ConfigError("only", name, f"one of {', '.join(names)}")
     if not only:
-        raise ConfigError("only is empty, but must name at least one case")
+        raise ConfigError("only", only, "a list of at least one name")
     return tuple(case for case in cases if case.name in only)

@@ -11,12 +11,15 @@ from drumrs.verification.advance import advance
 
 Array = NDArray[np.float64]
 
-TIME_STEP = 3.7e-6
-GRAVITY = 9.81
-RADIUS = 0.023_75 / 2.0
-DRUM_RADIUS = 0.475 / 2.0
-MASS = 1000.0 * np.pi * RADIUS**2
-PAIR_STIFFNESS, WALL_STIFFNESS = 9.25e7, 9.70e7
+_TABLE_1 = baseline()
+TIME_STEP = _TABLE_1.derived.time_step
+GRAVITY = -_TABLE_1.gravity[1]
+RADIUS = _TABLE_1.load.diameter / 2.0
+DRUM_RADIUS = _TABLE_1.drum.diameter / 2.0
+MASS = _TABLE_1.derived.bundle_mass
+PAIR_STIFFNESS, WALL_STIFFNESS = (
+    table.normal_stiffness for table in (_TABLE_1.contact.bundle, _TABLE_1.contact.drum)
+)
 # ω₀ of a bundle against the drum and of two equal bundles [1/s].
 WALL_FREQUENCY = float(np.sqrt(WALL_STIFFNESS / MASS))
 PAIR_FREQUENCY = float(np.sqrt(2.0 * PAIR_STIFFNESS / MASS))

@@ -51,10 +51,10 @@ def find(path: Path, wanted: Sequence[str] = ()) -> Path:
         started = sorted(path.parent.glob(f"{glob.escape(path.name)}*.{FRAMES}"))
         if started:
             return _one_of(path, started, wanted)
-    raise ConfigError(
-        f"{str(path)!r} is not there, but must be the frames.parquet of a run, its folder, or the folder of a sweep "
-        "with the beginning of a case's id"
+    limit = (
+        "the frames.parquet of a run, its folder, or the folder of a sweep with the beginning of a case's id"
     )
+    raise ConfigError(path, limit=limit, problem=f"is not there, but must be {limit}")
 
 
 def config_of(frames: Path) -> Config | None:
@@ -92,11 +92,11 @@ def _one_of(path: Path, found: Sequence[Path], wanted: Sequence[str]) -> Path:
         return found[0]
     which = f" with {' and '.join(wanted)}" if wanted else ""
     if not found:
-        raise ConfigError(f"{str(path)!r} has nothing to view{which}: {_why_nothing(path)}")
+        raise ConfigError(path, problem=f"has nothing to view{which}: {_why_nothing(path)}")
     lines = list(_lines(found))
     more = [f"  … and {len(lines) - _MOST_LINES} more"] if len(lines) > _MOST_LINES else []
     listed = "\n".join([*lines[:_MOST_LINES], *more])
-    raise ConfigError(f"{str(path)!r} has {len(found)} runs to view{which}; choose one:\n{listed}")
+    raise ConfigError(path, problem=f"has {len(found)} runs to view{which}", hint=f"choose one:\n{listed}")
 
 
 def _why_nothing(path: Path) -> str:

@@ -84,9 +84,10 @@ class Player:
         window: tuple[float, float] | None = None,
     ) -> None:
         if not len(frames) or not frames.count:
-            raise ConfigError(
-                f"the run has {len(frames)} frames of {frames.count} bundles, but must have at least one to be shown"
+            problem = (
+                f"has {len(frames)} frames of {frames.count} bundles, but must have at least one to be shown"
             )
+            raise ConfigError("the run", problem=problem)
         self._frames = frames
         self._series = series
         self.title = title

@@ -60,7 +60,9 @@ def _read_frames(path: Path) -> Frames:
     try:
         return Frames.load(path, MOST_PLACES)
     except (PolarsError, PanicException, KeyError, ValueError, TypeError, OSError):
-        raise ConfigError(f"{str(path)!r} holds no frames, but must be a file that drumrs wrote") from None
+        raise ConfigError(
+            Path(path), problem="holds no frames, but must be a file that drumrs wrote"
+        ) from None
 
 
 def _read_series(path: Path) -> "pl.DataFrame | None":
@@ -71,7 +73,9 @@ def _read_series(path: Path) -> "pl.DataFrame | None":
     try:
         return read_series(path)
     except (PolarsError, PanicException, OSError):
-        raise ConfigError(f"{str(path)!r} is damaged, but must be the series that drumrs wrote") from None
+        raise ConfigError(
+            Path(path), problem="is damaged, but must be the series that drumrs wrote"
+        ) from None
 
 
 def _how_it_ended(path: Path) -> str:

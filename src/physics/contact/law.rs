@@ -32,6 +32,11 @@ impl BodyPair {
         }
     }
 
+    /// Two equal discs of this mass and radius.
+    pub fn of_equals((mass, radius): (f64, f64)) -> Self {
+        Self { effective_mass: 0.5 * mass, effective_radius: 0.5 * radius, layer: 2.0 * radius }
+    }
+
     /// A disc of this mass and radius at a wall.
     pub fn at_wall((mass, radius): (f64, f64)) -> Self {
         Self { effective_mass: mass, effective_radius: radius, layer: 2.0 * radius }

@@ -131,6 +131,18 @@ pub fn damping_ratio(parameters: &ContactParameters, effective_mass: f64) -> f64
     damping(parameters, effective_mass) / (2.0 * (parameters.normal_stiffness * effective_mass).sqrt())
 }
 
+/// Restitution e of a head-on impact between bodies of the effective mass m* [kg/m].
+pub fn restitution(parameters: &ContactParameters, effective_mass: f64) -> f64 {
+    parameters.restitution.unwrap_or_else(|| {
+        let ratio = damping_ratio(parameters, effective_mass);
+        libm::exp(-match parameters.tension {
+            Tension::Allowed if ratio < 1.0 => PI * ratio / (1.0 - ratio * ratio).sqrt(),
+            Tension::Allowed => f64::INFINITY,
+            Tension::Clipped => clipped_decay(ratio),
+        })
+    })
+}
+
 /// How long a collision without damping lasts [s]: π / ω₀, ω₀ = √(kₙ / m*).
 pub fn undamped_collision_time(parameters: &ContactParameters, effective_mass: f64) -> f64 {
     PI / (parameters.normal_stiffness / effective_mass).sqrt()
@@ -190,7 +202,9 @@ fn bisect_clipped_ratio(decay: f64) -> f64 {
 
 /// −ln e of the clipped law at the damping ratio ζ.
 fn clipped_decay(ratio: f64) -> f64 {
-    if ratio < 1.0 {
+    if ratio == 0.0 {
+        0.0
+    } else if ratio < 1.0 {
         let phase = libm::acos(ratio);
         2.0 * phase / libm::tan(phase)
     } else if ratio == 1.0 {

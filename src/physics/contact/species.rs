@@ -80,16 +80,17 @@ impl SpeciesTable {
     /// drum).
     pub fn collision_times(&self, (mass, radius): (f64, f64)) -> (f64, f64) {
         let shortest = |tables: &[ContactParameters], bodies: BodyPair| {
-            tables
-                .iter()
-                .map(|table| match table.base {
-                    Base::Linear => linear::collision_time(table, bodies.effective_mass),
-                    Base::Hertz => hertz::collision_time(table, bodies),
-                })
-                .fold(f64::INFINITY, f64::min)
+            tables.iter().map(|table| collision_time(table, bodies)).fold(f64::INFINITY, f64::min)
         };
-        let wall = BodyPair::at_wall((mass, radius));
-        let pair = BodyPair { effective_mass: 0.5 * mass, effective_radius: 0.5 * radius, ..wall };
-        (shortest(&self.pairs, pair), shortest(&self.walls, wall))
+        let body = (mass, radius);
+        (shortest(&self.pairs, BodyPair::of_equals(body)), shortest(&self.walls, BodyPair::at_wall(body)))
+    }
+}
+
+/// How long a collision lasts that a step has to resolve [s].
+pub fn collision_time(parameters: &ContactParameters, bodies: BodyPair) -> f64 {
+    match parameters.base {
+        Base::Linear => linear::collision_time(parameters, bodies.effective_mass),
+        Base::Hertz => hertz::collision_time(parameters, bodies),
     }
 }

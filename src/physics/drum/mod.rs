@@ -25,6 +25,7 @@ use outline::Outline;
 pub use parameters::DrumParameters;
 use polygon::length;
 use segment::Segment;
+pub use validate::MOST_BAFFLES;
 
 /// A smooth part of the boundary that can carry one contact: the rim, an edge or a vertex. The rim is 0; the
 /// outlines follow, baffles first, each in boundary order: vertex, edge, vertex, edge, …

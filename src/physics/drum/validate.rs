@@ -7,7 +7,7 @@ use crate::error::{Error, require, require_finite, require_non_negative, require
 use crate::physics::vector::Vec2;
 
 /// The most baffles a drum may have; each has columns of its own in the recorded series.
-const MOST: usize = 1000;
+pub const MOST_BAFFLES: usize = 1000;
 
 impl BaffleParameters {
     /// Checks the numbers, and that the shapes stand free of the axis and of each other inside a rim of this
@@ -20,7 +20,12 @@ impl BaffleParameters {
         if self.count == 0 {
             return Ok(());
         }
-        require(self.count <= MOST, "drum.baffles.count", self.count, format!("at most {MOST}"))?;
+        require(
+            self.count <= MOST_BAFFLES,
+            "drum.baffles.count",
+            self.count,
+            format!("at most {MOST_BAFFLES}"),
+        )?;
         match self.shape {
             BaffleShape::Triangle => self.validate_base(radius)?,
             BaffleShape::Trapezoid => self.validate_base(radius).and_then(|()| self.validate_tip(radius))?,

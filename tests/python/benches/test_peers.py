@@ -13,13 +13,12 @@ import compare
 import drumrs
 from codes import beds
 from codes.balance import Measured, Trace, agree
-from codes.case import Case, Law
+from codes.case import Case, laws
 from codes.lammps import Lammps, read_rows, read_timing
 from codes.ours import trace_of
 from codes.program import PeerError
 from codes.yade import Yade
 from drumrs.analysis import Estimate
-from drumrs.config import LinearContact
 
 PRINTED = """Step Atoms
     100 BEGAN:1700000000.250000000
@@ -55,9 +54,10 @@ def test_the_laws_are_table_1s(case):
 
 def test_a_law_that_no_deck_has_is_refused():
     with pytest.raises(ValueError, match=r"stiffness_ratio is 0\.5"):
-        Law.of(LinearContact(normal_stiffness=1e7, restitution=0.1, stiffness_ratio=0.5), 1.0)
-    with pytest.raises(ValueError, match="normal_damping must be given"):
-        Law.of(LinearContact(normal_stiffness=1e7, restitution=0.1, tension="clipped"), 1.0)
+        laws(drumrs.baseline().replace({"contact.bundle.stiffness_ratio": 0.5}))
+    hertz = {"contact.base": "hertz", "contact.bundle.young_modulus": 1e8, "contact.drum.young_modulus": 1e8}
+    with pytest.raises(ValueError, match="must be 'linear' in every deck"):
+        laws(drumrs.baseline().replace(hertz))
 
 
 def test_the_data_file_holds_the_state(tmp_path):

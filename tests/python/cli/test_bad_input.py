@@ -36,7 +36,19 @@ SETTINGS = [
     ("load.count=500", "load.count is 500, but must be at most"),
     ("load.count=0", "from 1"),
     ("load.count=10.5", "load.count is 10.5, but must be a whole number"),
-    ("load.fill=0,25", "0,25 is no number; write 0.25"),
+    (
+        "load.fill=0,25",
+        "load.fill is '0,25', but must be a positive finite number; write 0.25",
+    ),
+    ("load.count=1,000", "from 1 to 10000000; write 1000"),
+    ("load.diameter=23.75mm", "write a number alone, without 'mm', in "),
+    ("rotation.rpm=54 rpm", "write a number alone, without 'rpm', in "),
+    ("run.window=5,15", "run.window is '5,15', but must be a pair [start, end] of times; write [5, 15]"),
+    ("rotation.program=[[0, 0], [2, 0], [2, 54]]", "cannot jump from 0.0 to 54.0 rpm; to change it within a"),
+    (
+        "run.time_step=1e-4",
+        'at most 1.906e-5, a tenth of the shortest collision time; or set run.time_step = "auto"',
+    ),
     ("drum.baffles=3", "drum.baffles is 3, but must be a table of keys: count, shape"),
     ("load.diameter=0.47", "one bundle of diameter 0.47 fills 0.9791 of a drum of diameter 0.475"),
     ("load.diameter=0.5", "load.diameter"),
@@ -111,7 +123,15 @@ def test_bad_baffle(drum, tmp_path, settings, names):
         (["--threads", "0"], "threads is 0"),
         (["--threads", "-2"], "threads is -2"),
         (["--threads", "many"], "--threads"),
-        (["nowhere.toml"], "nowhere.toml"),
+        (["nowhere.toml"], "'nowhere.toml' cannot be read as a file of configuration keys: No such file"),
+        (["."], "'.' cannot be read as a file of configuration keys: Is a directory; drumrs config"),
+        (
+            ["--set", "load.fill", "0.2"],
+            "--set is 'load.fill', but must be KEY=VALUE; such as --set load.fill=0.2",
+        ),
+        (["a.toml", "b.toml"], "'b.toml' is more than the command takes"),
+        (["--softer", "many"], "many is not a number"),
+        (["--until", "200%"], "--until is 2.0, but must be between 0 and 1"),
         (["--set", "drum.rim=false", "--set", "drum.baffles.count=3"], "drum.baffles.count"),
     ],
 )
@@ -126,12 +146,60 @@ def test_bad_words(drum, tmp_path, words, names):
         ("[load]\nfil = 0.3", "did you mean load.fill?"),
         ("[load]\nfill = 0.3\ncount = 3", "both given"),
         ("load = 3", "load is 3"),
+        ("[load]\nfill = .5", "write fill = 0.5"),
+        ("[load]\nfill = 0,5", "write fill = 0.5"),
+        ("[load]\nfill = 25%  # a quarter", "write fill = 0.25"),
+        ("[drum]\nrim = True", "write rim = true"),
+        ("[drum.baffles]\nshape = triangle", 'write shape = "triangle"'),
+        ("load:\n  fill: 0.2", "line 1 is 'load:', but must be KEY = VALUE or [TABLE]"),
+        ('{"load": {"fill": 0.2}}', "a file of JSON has a name that ends with .json"),
+        ('[load]\ndiameter = "23 mm"', "without 'mm'"),
     ],
 )
 def test_bad_file(drum, tmp_path, text, names):
     case = tmp_path / "case.toml"
     case.write_text(text)
     refused(drum, tmp_path, case, names=names)
+
+
+@pytest.mark.parametrize(
+    "text", ["[load]\nfill = 0.1\n", "[load]\r\nfill = 0.1\r\n", '{"load": {"fill": 0.1}}']
+)
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16"])
+def test_files_as_editors_write_them(tmp_path, text, encoding):
+    path = tmp_path / ("case.json" if text.startswith("{") else "case.toml")
+    path.write_bytes(text.encode(encoding))
+    assert drumrs.Config.read(path).load.fill == 0.1
+
+
+@pytest.mark.parametrize(
+    ("action", "names"),
+    [
+        (
+            lambda: drumrs.baseline().replace("load.fill=0.3"),
+            "changes is 'load.fill=0.3', but must be a dict",
+        ),
+        (lambda: drumrs.baseline().softer("100"), "softer is '100'"),
+        (
+            lambda: drumrs.Simulation("case.toml"),
+            r"but must be a Config; drumrs.Config.read\(path\) reads a file",
+        ),
+        (lambda: drumrs.run({"load.fill": 0.1}), "but must be a Config"),
+        (lambda: drumrs.Simulation(drumrs.baseline(), state=[[0, 0]]), "but must be a drumrs.State"),
+        (lambda: drumrs.Simulation(drumrs.baseline(0.1)).run("1 s"), "duration is '1 s'"),
+        (
+            lambda: drumrs.Simulation(drumrs.baseline(0.1)).summary("all"),
+            r"window is 'all', but must be a pair",
+        ),
+        (
+            lambda: drumrs.Simulation(drumrs.baseline(0.1)).result(),
+            r"within the 0 s simulated so far; run\(\) without arguments simulates all of run.duration",
+        ),
+    ],
+)
+def test_arguments_of_another_type_are_refused_with_the_way_out(action, names):
+    with pytest.raises(ConfigError, match=names):
+        action()
 
 
 def test_folder_that_cannot_be_written(drum, tmp_path):

@@ -103,7 +103,7 @@ def test_a_load_without_power_ends_at_the_limit():
         (["--until", "nan"], "--until is nan"),
         (["--until", "1"], "--until is 1.0"),
         (["--until", "soon"], "--until"),
-        (["--limit", "50"], "--limit is 50.0, but must not be given without --until"),
+        (["--limit", "50"], "--limit is 50.0, but must be left out where --until is not given"),
         (["--until", "0.01", "--limit", "20"], "--limit is 20.0, but must be at least run.duration = 30.0"),
         (["--until", "0.01", "--limit", "inf"], "--limit is inf"),
     ],

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 import drumrs
 from drumrs.config import Config
 from drumrs.config.messages import dotted_keys
-from drumrs.config.toml_writer import literal
+from drumrs.config.toml_writer import toml_item
 from drumrs.errors import ConfigError, UnstableError
 
 KEYS = sorted(dotted_keys(Config))
@@ -133,7 +133,7 @@ def toml_value(value: Any) -> str:
         raise TypeError
     if isinstance(value, list):
         return f"[{', '.join(toml_value(inner) for inner in value)}]"
-    return repr(value) if isinstance(value, float) else literal(value)
+    return repr(value) if isinstance(value, float) else toml_item(value).as_string()
 
 
 def outcome(text: str, read: Any, steps: int = 20) -> str:

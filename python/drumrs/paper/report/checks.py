@@ -72,9 +72,8 @@ def _run(row: "Mapping[str, Any]", config: "Config") -> Run:
 
 def _parameters(config: "Config") -> tuple[str, ...]:
     contact = config.contact.bundle
-    fill = config.bundle_count * (config.load.diameter / config.drum.diameter) ** 2
     return (
-        f"{100.0 * fill:.3g} %",
+        f"{100.0 * config.fill:.3g} %",
         str(config.drum.baffles.count),
         f"{config.drum.diameter / config.load.diameter:.3g}",
         f"{contact.friction:g}",

@@ -113,7 +113,7 @@ def _model() -> dict[str, Any]:
         "scanned_stiffness": table1.SCANNED_STIFFNESS,
         "scanned_damping": table1.SCANNED_DAMPING,
         "scientific": table1.scientific,
-        "mass": table1.bundle_mass(config),
+        "mass": config.derived.bundle_mass,
         "restitution": config.contact.bundle.restitution,
         "step": config.run.time_step,
         "diameter": config.load.diameter,

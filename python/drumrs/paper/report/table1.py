@@ -1,9 +1,8 @@
 """The paper's Table 1, repaired: what the scan prints, what it must have been, and how that is known."""
 
-import math
 from dataclasses import dataclass
 
-from drumrs.config import Config, LinearContact, baseline
+from drumrs.config import Config, baseline
 
 # Scanned off the paper, units as here: stiffness [N/m] and damping [N s/m] between bundles and with the drum, and the
 # time step [s].
@@ -33,80 +32,49 @@ class Contact:
     ----------
     name
         ``"bundle"`` or ``"drum"``: what the bundle touches.
-    effective_mass
-        Mass m* of the collision per meter of depth [kg/m].
     stiffness, damping
         k_N [N/m] and ν_N [N s/m] of the baseline; the latter follows from the restitution.
     collision_time
-        How long a collision lasts [s].
+        Duration of a collision [s].
+    scanned_restitution
+        Restitution that the scanned stiffness and damping would give.
+    repaired_restitution
+        Restitution that the repaired stiffness and the scanned damping give.
+    scanned_steps
+        Time steps that a collision would last by the scan.
     """
 
     name: str
-    effective_mass: float
     stiffness: float
     damping: float
     collision_time: float
-
-    @property
-    def scanned_restitution(self) -> float:
-        """Restitution that the scanned stiffness and damping would give."""
-        return restitution(SCANNED_STIFFNESS[self.name], SCANNED_DAMPING[self.name], self.effective_mass)
-
-    @property
-    def repaired_restitution(self) -> float:
-        """Restitution that the repaired stiffness and the scanned damping give."""
-        return restitution(self.stiffness, SCANNED_DAMPING[self.name], self.effective_mass)
-
-    @property
-    def scanned_steps(self) -> float:
-        """Time steps that a collision would last by the scan."""
-        name = self.name
-        return (
-            collision_time(SCANNED_STIFFNESS[name], SCANNED_DAMPING[name], self.effective_mass) / SCANNED_STEP
-        )
-
-
-def damping(law: LinearContact, mass: float) -> float:
-    """Return the damping [N s/m] that gives the law's restitution, ν = −2 ln e √(m* k) / √(π² + ln² e).
-
-    Examples
-    --------
-    >>> from drumrs.config import LinearContact
-    >>> law = LinearContact(normal_stiffness=9.25e7, restitution=0.1)
-    >>> f"{damping(law, 0.2215):.3g}"
-    '5.35e+03'
-    """
-    if law.restitution is None:
-        return law.normal_damping or 0.0
-    loss = -math.log(law.restitution)
-    return 2.0 * loss * math.sqrt(mass * law.normal_stiffness) / math.hypot(math.pi, loss)
-
-
-def restitution(stiffness: float, damping: float, mass: float) -> float:
-    """Return the restitution of a linear spring and dashpot, e = exp(−π ζ / √(1 − ζ²)) with ζ = ν / 2√(m* k)."""
-    share = damping / (2.0 * math.sqrt(mass * stiffness))
-    return math.exp(-math.pi * share / math.sqrt(1.0 - share**2))
-
-
-def collision_time(stiffness: float, damping: float, mass: float) -> float:
-    """Return how long a collision lasts [s], t = π / √(k/m* − (ν/2m*)²)."""
-    return math.pi / math.sqrt(stiffness / mass - (damping / (2.0 * mass)) ** 2)
-
-
-def bundle_mass(config: Config) -> float:
-    """Return the mass of a bundle per meter of depth [kg/m]."""
-    return config.load.density * math.pi * config.load.diameter**2 / 4.0
+    scanned_restitution: float
+    repaired_restitution: float
+    scanned_steps: float
 
 
 def contacts(config: Config) -> tuple[Contact, Contact]:
-    """Return the contacts of a bundle with another one, and with the drum, whose mass counts as infinite."""
-    mass = bundle_mass(config)
-    kinds = (("bundle", config.contact.bundle, mass / 2.0), ("drum", config.contact.drum, mass))
-    found = []
-    for name, law, effective in kinds:
-        lost = damping(law, effective)
-        lasts = collision_time(law.normal_stiffness, lost, effective)
-        found.append(Contact(name, effective, law.normal_stiffness, lost, lasts))
+    """Return the contacts of a bundle with another one, and with the drum."""
+    names = ("bundle", "drum")
+    # The scanned springs are too stiff for the paper's time step.
+    damped = {f"contact.{name}.normal_damping": SCANNED_DAMPING[name] for name in names}
+    stiff = {f"contact.{name}.normal_stiffness": SCANNED_STIFFNESS[name] for name in names}
+    used, repaired, scanned = (
+        config.replace({"run.time_step": "auto", **changes}).derived
+        for changes in ({}, damped, {**damped, **stiff})
+    )
+    found = [
+        Contact(
+            name=name,
+            stiffness=getattr(config.contact, name).normal_stiffness,
+            damping=getattr(used, name).normal_damping,
+            collision_time=getattr(used, name).collision_time,
+            scanned_restitution=getattr(scanned, name).restitution,
+            repaired_restitution=getattr(repaired, name).restitution,
+            scanned_steps=getattr(scanned, name).collision_time / SCANNED_STEP,
+        )
+        for name in names
+    ]
     return found[0], found[1]
 
 
@@ -122,7 +90,11 @@ def rows() -> list[Row]:
         Row("drum diameter D", "47.5 cm", f"{config.drum.diameter:g} m"),
         Row("drum speed", "54 rpm", f"{config.rotation.rpm:g} rpm, {_speed(config)}"),
         Row("bundle diameter d", "2.375 cm", f"{load.diameter:g} m (D/d = {ratio:g})"),
-        Row("bundle density ρ", "1000 kg/m³", f"{load.density:g} kg/m³, {bundle_mass(config):.4f} kg per m"),
+        Row(
+            "bundle density ρ",
+            "1000 kg/m³",
+            f"{load.density:g} kg/m³, {config.derived.bundle_mass:.4f} kg per m",
+        ),
         Row("number of bundles N", "100 (25 %)", f"{config.bundle_count} at fill N d²/D² = {load.fill:.0%}"),
         Row("friction μ, both", "0.5 (symbol lost)", f"{law.friction:g}", "the other of the two rows"),
         Row(
@@ -154,9 +126,8 @@ def _stiffness_rows(contact: Contact, name: str) -> tuple[Row, Row]:
 
 
 def _speed(config: Config) -> str:
-    speed = (config.rotation.rpm or 0.0) * math.tau / 60.0
-    froude = speed**2 * config.drum.diameter / 2.0 / math.hypot(*config.gravity)
-    return f"Ω = {speed:.4f} rad/s (Ω²R/g = {froude:.3f})"
+    derived = config.derived
+    return f"Ω = {derived.angular_velocity:.4f} rad/s (Ω²R/g = {derived.froude_number:.3f})"
 
 
 def _baffles(config: Config) -> str:

@@ -1,0 +1,100 @@
+"""What follows from a configuration is what its simulation has, and what formulas written down here say."""
+
+import math
+
+import pytest
+
+import drumrs
+from drumrs.config import derived as module
+
+BASE = drumrs.baseline()
+MASS = 1000.0 * math.pi * 0.02375**2 / 4.0
+
+
+@pytest.mark.parametrize(
+    "changes", [{}, {"contact.bundle.tension": "clipped", "run.time_step": "auto"}, {"load.count": 7}]
+)
+def test_it_is_what_the_simulation_has(changes):
+    config = BASE.replace(changes)
+    simulation = drumrs.Simulation(config)
+    assert config.derived.bundle_mass == simulation.masses[0]
+    assert config.derived.load_mass == pytest.approx(simulation.masses.sum(), rel=1e-14)
+    assert config.derived.time_step == simulation.time_step
+    assert config.derived.angular_velocity == simulation.drum_angular_velocity
+    for side, duration in simulation.collision_times.items():
+        assert getattr(config.derived, side).collision_time == duration
+
+
+def test_masses_and_damping_follow_the_formulas():
+    derived = BASE.derived
+    assert derived.bundle_mass == pytest.approx(MASS)
+    assert derived.load_mass == pytest.approx(100 * MASS)
+    for contact, law, mass in (
+        (derived.bundle, BASE.contact.bundle, MASS / 2.0),
+        (derived.drum, BASE.contact.drum, MASS),
+    ):
+        loss = -math.log(0.1)
+        ratio = loss / math.hypot(math.pi, loss)
+        assert contact.effective_mass == pytest.approx(mass)
+        assert contact.damping_ratio == pytest.approx(ratio)
+        assert contact.normal_damping == pytest.approx(2.0 * ratio * math.sqrt(law.normal_stiffness * mass))
+        frequency = math.sqrt(law.normal_stiffness / mass)
+        assert contact.collision_time == pytest.approx(math.pi / (frequency * math.sqrt(1.0 - ratio**2)))
+
+
+@pytest.mark.parametrize("tension", ["allowed", "clipped"])
+@pytest.mark.parametrize("restitution", [0.05, 0.1, 0.9, 1.0])
+def test_restitution_and_damping_turn_into_each_other(tension, restitution):
+    law = {"contact.bundle.tension": tension, "run.time_step": "auto"}
+    damping = BASE.replace({**law, "contact.bundle.restitution": restitution}).derived.bundle.normal_damping
+    back = BASE.replace({**law, "contact.bundle.normal_damping": damping}).derived.bundle
+    assert back.restitution == pytest.approx(restitution, rel=1e-12)
+
+
+def test_an_overdamped_contact_does_not_bounce():
+    heavy = BASE.replace({"contact.bundle.normal_damping": 1e5, "run.time_step": "auto"})
+    assert heavy.derived.bundle.damping_ratio > 1.0
+    assert heavy.derived.bundle.restitution == 0.0
+
+
+def test_speeds():
+    derived = BASE.derived
+    omega = 54.0 * 2.0 * math.pi / 60.0
+    assert derived.angular_velocity == pytest.approx(omega)
+    assert derived.froude_number == pytest.approx(omega**2 * 0.2375 / 9.81)
+    assert derived.critical_angular_velocity == pytest.approx(math.sqrt(9.81 / 0.2375))
+
+
+def test_what_there_is_not_is_none():
+    program = BASE.replace({"rotation.program": [[0.0, 0.0], [1.0, 54.0]]}).derived
+    assert program.angular_velocity is program.froude_number is None
+    assert BASE.replace({"gravity": (0.0, 0.0)}).derived.froude_number is None
+    assert BASE.replace({"drum.rim": False}).derived.critical_angular_velocity is None
+    hertz = {"contact.base": "hertz", "contact.bundle.young_modulus": 1e8, "contact.drum.young_modulus": 1e8}
+    derived = BASE.replace({**hertz, "run.time_step": "auto"}).derived
+    assert derived.bundle.normal_damping is derived.bundle.damping_ratio is None
+    assert derived.bundle.restitution == 0.1
+    assert derived.bundle.collision_time > 0.0
+
+
+def test_what_no_simulation_can_have_is_refused():
+    with pytest.raises(drumrs.ConfigError, match=r"run.time_step is 0\.001, but must be at most"):
+        _ = BASE.replace({"run.time_step": 1e-3}).derived
+    with pytest.raises(
+        drumrs.ConfigError, match=r"contact.bundle.young_modulus is missing, but must be given"
+    ):
+        _ = BASE.replace({"contact.base": "hertz"}).derived
+
+
+@pytest.mark.parametrize(
+    ("key", "greatest"),
+    [
+        ("load.count", module.GREATEST_COUNT),
+        ("contact.species", module.GREATEST_SPECIES),
+        ("drum.baffles.count", module.GREATEST_BAFFLES),
+    ],
+)
+def test_the_greatest_counts_are_those_of_the_core(key, greatest):
+    assert BASE.replace({key: greatest}) is not None
+    with pytest.raises(drumrs.ConfigError, match=f"to {greatest}$"):
+        BASE.replace({key: greatest + 1})
