@@ -44,7 +44,7 @@ def test_a_config_of_the_users_is_never_overwritten(drum, tmp_path, monkeypatch)
     for words in ((), ("--force",)):
         status, _, told = drum("run", "config.toml", *SHORT, "--out", ".", *words)
         assert status == 2
-        assert "must not be the folder of 'config.toml', which would be overwritten" in told
+        assert "must be another folder than that of 'config.toml', which would be overwritten" in told
     status, _, told = drum("run", *SHORT, "--out", ".", "--force")
     assert status == 2
     assert "has a config.toml that is not overwritten, for drumrs did not write it" in told
