@@ -61,10 +61,10 @@ def test_what_is_soon_over_says_nothing(capsys, short, monkeypatch):
 
 @pytest.mark.usefixtures("soon")
 def test_a_run_tells_its_size_and_an_estimate_first(capsys, short):
-    drumrs.run(short)
+    drumrs.run(short.replace({"run.duration": 0.5}))
     first = capsys.readouterr().err.splitlines()[0]
-    assert first.startswith("40 bundles, 16.2 k steps: ")
-    assert " of 0.06 s" in first
+    assert first.startswith("40 bundles, 135.1 k steps: ")
+    assert " of 0.50 s" in first
     assert first.endswith((" left", "time left not known yet", " taken"))
 
 

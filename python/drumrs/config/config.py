@@ -82,7 +82,7 @@ class Config(Tables):
         >>> f"{derived.bundle_mass:.4g} kg/m, damping {derived.bundle.normal_damping:.3g} N s/m"
         '0.443 kg/m, damping 5.35e+03 N s/m'
         >>> f"{derived.bundle.collision_time:.3g} s, Froude number {derived.froude_number:.3g}"
-        '0.00019 s, Froude number 0.774'
+        '0.000191 s, Froude number 0.774'
         """
         return derive(self.to_core_json())
 

@@ -146,7 +146,7 @@ def test_ctrl_c_stops_the_processes_of_a_sweep(tmp_path, seen, count, most):
     end = time.monotonic() + 60.0
     while not list(tmp_path.glob(f"out/{seen}")) and time.monotonic() < end:
         time.sleep(0.05)
-    time.sleep(0.25)
+    time.sleep(0.5)  # a case's row comes after its facts, and the sweep has to hear of it
     asked = time.monotonic()
     os.killpg(child.pid, signal.SIGINT)
     printed, complaint = child.communicate(timeout=60)

@@ -153,7 +153,7 @@ def test_shards_share_a_folder(tmp_path):
 
 @pytest.mark.parametrize("shard", [(0, 2), (3, 2), (1, 0)])
 def test_bad_shard(tmp_path, shard):
-    with pytest.raises(ConfigError, match=f"shard is {shard[0]}/{shard[1]}, but must be k/n"):
+    with pytest.raises(ConfigError, match=f"shard is '{shard[0]}/{shard[1]}', but must be k/n"):
         drumrs.Sweep(BASE).run(tmp_path / "out", shard=shard)
     assert not (tmp_path / "out").exists()
 
@@ -185,7 +185,7 @@ def test_processes_that_fork_are_refused(tmp_path):
 def test_an_executor_shut_down_is_refused(tmp_path):
     pool = ThreadPoolExecutor(1)
     pool.shutdown()
-    with pytest.raises(ConfigError, match="executor is one that takes no work, but must be open"):
+    with pytest.raises(ConfigError, match="executor takes no work, but must be open"):
         drumrs.Sweep(BASE).run(tmp_path, pool, progress=False)
 
 
