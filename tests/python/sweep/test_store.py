@@ -274,5 +274,7 @@ def test_a_folder_has_to_be_one(tmp_path, finished):
     for folder in (tmp_path / "file", tmp_path / "file" / "below", "/proc/drumrs"):
         with pytest.raises(ConfigError, match="but must be a folder that can be written"):
             sweep.run(folder, progress=False)
-    with pytest.raises(ConfigError, match="folder is None, but must be given where the sweep has not been run"):
+    with pytest.raises(
+        ConfigError, match="folder is None, but must be given where the sweep has not been run"
+    ):
         drumrs.Sweep(BASE).table()
