@@ -33,6 +33,7 @@ SETTINGS = [
     ("contact.bundle.friction=-0.1", "at least 0"),
     ("contact.drum.tension=perhaps", "'allowed' or 'clipped'"),
     ("load.fill=1.2", "load.fill is 1.2 (480 bundles), but must be at most 0.825 (330 bundles)"),
+    ("load.fill=25", "no more of them fit into this drum; a fill of 25 % is 0.25"),
     ("load.count=500", "load.count is 500, but must be at most"),
     ("load.count=0", "from 1"),
     ("load.count=10.5", "load.count is 10.5, but must be a whole number"),
