@@ -125,5 +125,6 @@ def in_terms_of_fill(config: Config, error: ConfigError) -> ConfigError:
     fill, most = config.load.fill, int(error.bound)
     limit = f"at most {config.fill_of(most):.4g} ({most} bundles): no more of them fit into this drum"
     problem = f"is {fill} ({config.bundle_count} bundles), but must be {limit}"
-    hint = f"a fill of {fill:g} % is {fill / 100.0:g}" if 1.0 < fill <= 100.0 else ""
+    of_percent = fill / 100.0
+    hint = f"a fill of {fill:g} % is {of_percent:g}" if of_percent <= 1.0 < fill else ""
     return ConfigError("load.fill", fill, limit, problem=problem, hint=hint, bound=config.fill_of(most))

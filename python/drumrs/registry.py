@@ -154,7 +154,7 @@ def declared() -> Mapping[str, Quantity]:
 
 @cache
 def _declared() -> Mapping[str, Quantity]:
-    rows = (*recorded(1, 1), *(Quantity(*row) for row in _ROWS))
+    rows = (*recorded(1, 1), *_ROWS)
     return MappingProxyType({row.name: row for row in rows})
 
 
@@ -204,95 +204,130 @@ def _error_of(mean: Quantity) -> Quantity:
     return replace(mean, name=f"{mean.name}_error", symbol=f"s({mean.symbol})", **changes)
 
 
-# What is made of the series: name, symbol, unit, reading, formula, meaning.
+def _made(
+    name: str, unit: str, reading: str, meaning: str, *, symbol: str = "", formula: str = ""
+) -> Quantity:
+    return Quantity(name, symbol, unit, reading, formula, meaning)
+
+
+# What is made of the series.
 _ROWS = (
     # Summary of a run.
-    ("bundle_count", "N", "1", "run", "", "number of bundles"),
-    ("fill", "φ", "1", "run", "Σ d² / D²", "cross-section of the bundles over that of the drum"),
-    ("steps", "", "1", "run", "", "time steps since t = 0"),
-    ("time_step", "h", "s", "run", "", "time step"),
-    ("window_start", "t₁", "s", "run", "", "start of the window of the averages, at a sample"),
-    ("window_end", "t₂", "s", "run", "", "end of the window of the averages, at a sample"),
-    (
-        *("energy_balance_power", "P_E", "W/m", "mean", "(ΔE + Σ ΔD + ΔD_numerical)/Δt"),
+    _made("bundle_count", "1", "run", "number of bundles", symbol="N"),
+    _made(
+        "fill",
+        "1",
+        "run",
+        "cross-section of the bundles over that of the drum",
+        symbol="φ",
+        formula="Σ d² / D²",
+    ),
+    _made("steps", "1", "run", "time steps since t = 0"),
+    _made("time_step", "s", "run", "time step", symbol="h"),
+    _made("window_start", "s", "run", "start of the window of the averages, at a sample", symbol="t₁"),
+    _made("window_end", "s", "run", "end of the window of the averages, at a sample", symbol="t₂"),
+    _made(
+        "energy_balance_power",
+        "W/m",
+        "mean",
         "power of the drum from the energy ledger: what is stored and what is taken, per time",
+        symbol="P_E",
+        formula="(ΔE + Σ ΔD + ΔD_numerical)/Δt",
     ),
-    (
-        *(
-            "power_disagreement",
-            "",
-            "1",
-            "run",
-            "greatest difference of P, P_E, ΔW_L/Δt / max(|P|, |P_E|, |ΔW_L/Δt|, E/Δt)",
-        ),
+    _made(
+        "power_disagreement",
+        "1",
+        "run",
         "greatest difference of drum_power, energy_balance_power and moment_balance_power, relative",
+        formula="greatest difference of P, P_E, ΔW_L/Δt / max(|P|, |P_E|, |ΔW_L/Δt|, E/Δt)",
     ),
-    (
-        *("dissipation_ratio", "(N/T)_D", "1", "ratio", "ΔD_normal/ΔD_sliding"),
+    _made(
+        "dissipation_ratio",
+        "1",
+        "ratio",
         "N/T by dissipation: what normal damping takes over what sliding takes",
+        symbol="(N/T)_D",
+        formula="ΔD_normal/ΔD_sliding",
     ),
-    (
-        *("work_ratio", "(N/T)_W", "1", "ratio", "ΔN/ΔT"),
+    _made(
+        "work_ratio",
+        "1",
+        "ratio",
         "N/T by net work: normal_power over tangential_power, which count what springs store as well",
+        symbol="(N/T)_W",
+        formula="ΔN/ΔT",
     ),
-    ("kinetic_energy", "K", "J/m", "mean", "K_t + K_r", "kinetic energy of the load"),
-    ("drum_force_x", "F_x", "N/m", "mean", "", "horizontal force of the load on the drum"),
-    ("drum_force_y", "F_y", "N/m", "mean", "", "vertical force of the load on the drum"),
-    ("correlation_time", "t_c", "s", "run", "", "integrated correlation time of drum_power"),
-    ("wall_time", "", "s", "run", "", "time of the wall clock spent stepping in this process"),
-    ("particle_steps_per_second", "", "1/s", "run", "", "bundles times steps, per second of wall_time"),
+    _made("kinetic_energy", "J/m", "mean", "kinetic energy of the load", symbol="K", formula="K_t + K_r"),
+    _made("drum_force_x", "N/m", "mean", "horizontal force of the load on the drum", symbol="F_x"),
+    _made("drum_force_y", "N/m", "mean", "vertical force of the load on the drum", symbol="F_y"),
+    _made("correlation_time", "s", "run", "integrated correlation time of drum_power", symbol="t_c"),
+    _made("wall_time", "s", "run", "time of the wall clock spent stepping in this process"),
+    _made("particle_steps_per_second", "1/s", "run", "bundles times steps, per second of wall_time"),
     # Table of a sweep, beyond the summaries.
-    (
-        *("specific_angular_momentum", "L/M", "m²/s", "mean", ""),
+    _made(
+        "specific_angular_momentum",
+        "m²/s",
+        "mean",
         "angular momentum over the mass of the load: 0 for a load that stays where it is, however it rocks",
+        symbol="L/M",
     ),
-    ("drift", "", "1", "test", "", "change of drum_power within the window, over its mean"),
-    (
-        *("share_drift", "", "1", "test", ""),
-        "change of the share of normal damping in all dissipation within the window",
-    ),
-    (
-        *("state_switching", "", "1", "test", ""),
-        "difference of that share between stretches of time, greatest less least",
-    ),
-    *(
-        (f"{test}_significance", "p", "1", "test", "", f"probability of so large a {test} in a steady run")
-        for test in ("drift", "share_drift", "state_switching")
-    ),
-    (
-        "drifting",
-        "",
+    _made("drift", "1", "test", "change of drum_power within the window, over its mean"),
+    _made(
+        "share_drift",
         "1",
         "test",
-        "",
-        "whether one of the three tests finds a change beyond chance and above 1 %",
+        "change of the share of normal damping in all dissipation within the window",
+    ),
+    _made(
+        "state_switching",
+        "1",
+        "test",
+        "difference of that share between stretches of time, greatest less least",
+    ),
+    _made("drift_significance", "1", "test", "probability of so large a drift in a steady run", symbol="p"),
+    _made(
+        "share_drift_significance",
+        "1",
+        "test",
+        "probability of so large a share_drift in a steady run",
+        symbol="p",
+    ),
+    _made(
+        "state_switching_significance",
+        "1",
+        "test",
+        "probability of so large a state_switching in a steady run",
+        symbol="p",
+    ),
+    _made(
+        "drifting", "1", "test", "whether one of the three tests finds a change beyond chance and above 1 %"
     ),
     # Table of the paper's study, beyond that of a sweep.
-    ("size_ratio", "D/d", "1", "run", "", "diameter of the drum over that of a bundle"),
-    ("along_the_rim", "", "1", "mean", "", "share of the time that a bundle spends along the rim"),
-    ("carried_round", "", "1", "mean", "", "share of the load that the drum carries over the top in a turn"),
-    ("mixed_in_a_turn", "", "1", "mean", "", "index of mixing after a turn of the drum"),
-    *(
-        (
-            f"{depth}_speed",
-            "",
-            "1",
-            "mean",
-            "",
-            f"speed relative to the turning drum {where}, over that of the rim",
-        )
-        for depth, where in (
-            ("surface", "at the free surface of the load"),
-            ("middle", "below the free surface"),
-            ("deep", "deep in the load"),
-        )
+    _made("size_ratio", "1", "run", "diameter of the drum over that of a bundle", symbol="D/d"),
+    _made("along_the_rim", "1", "mean", "share of the time that a bundle spends along the rim"),
+    _made("carried_round", "1", "mean", "share of the load that the drum carries over the top in a turn"),
+    _made("mixed_in_a_turn", "1", "mean", "index of mixing after a turn of the drum"),
+    _made(
+        "surface_speed",
+        "1",
+        "mean",
+        "speed relative to the turning drum at the free surface of the load, over that of the rim",
+    ),
+    _made(
+        "middle_speed",
+        "1",
+        "mean",
+        "speed relative to the turning drum below the free surface, over that of the rim",
+    ),
+    _made(
+        "deep_speed", "1", "mean", "speed relative to the turning drum deep in the load, over that of the rim"
     ),
     # Frames, one row for each bundle.
-    ("frame", "", "1", "sample", "", "number of the frame"),
-    ("bundle", "", "1", "sample", "", "number of the bundle"),
-    ("x", "x", "m", "sample", "", "horizontal position of a bundle's center from the axis"),
-    ("y", "y", "m", "sample", "", "vertical position of a bundle's center from the axis"),
-    ("angle", "", "rad", "sample", "", "angle by which a bundle has turned, within ±π"),
-    ("speed", "v", "m/s", "sample", "", "speed of a bundle"),
-    ("radius", "r", "m", "sample", "", "radius of a bundle"),
+    _made("frame", "1", "sample", "number of the frame"),
+    _made("bundle", "1", "sample", "number of the bundle"),
+    _made("x", "m", "sample", "horizontal position of a bundle's center from the axis", symbol="x"),
+    _made("y", "m", "sample", "vertical position of a bundle's center from the axis", symbol="y"),
+    _made("angle", "rad", "sample", "angle by which a bundle has turned, within ±π"),
+    _made("speed", "m/s", "sample", "speed of a bundle", symbol="v"),
+    _made("radius", "m", "sample", "radius of a bundle", symbol="r"),
 )
