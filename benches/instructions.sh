@@ -24,7 +24,8 @@ if [ "${1:-}" != --keep ] && [ "$(head -1 "$kept")" != "$compiler" ]; then
     exit 0
 fi
 
-program=$(cargo bench --quiet --bench baseline --no-run --message-format json |
+# In a folder of its own: built beside the Python module, it would take that one's place, which would be built anew.
+program=$(cargo bench --quiet --target-dir target/instructions --bench baseline --no-run --message-format json |
     sed -n 's/.*"executable":"\([^"]*baseline[^"]*\)".*/\1/p')
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

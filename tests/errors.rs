@@ -208,5 +208,8 @@ fn a_step_that_cannot_resolve_a_contact_is_refused() {
     config.run.time_step = Some(1e-4);
     let message = Simulation::new(config, 1, 1).unwrap_err().to_string();
     assert!(message.starts_with("run.time_step is 0.0001, but must be at most 1.9"), "{message}");
-    assert!(message.ends_with("a tenth of the shortest collision time"), "{message}");
+    assert!(
+        message.ends_with("a tenth of the shortest collision time; or set run.time_step = \"auto\""),
+        "{message}"
+    );
 }

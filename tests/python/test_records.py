@@ -71,6 +71,7 @@ def peak(code: str, **limits: int) -> int:
     return int(done.stdout.split()[-1])
 
 
+@pytest.mark.slow
 def test_a_run_with_a_folder_needs_no_memory_for_its_frames(tmp_path):
     """300 MB of frames, ten times those of the other run."""
     words = ["run", "--softer", "100", "--set", "run.duration=6.9", "--force", "--out", str(tmp_path / "out")]
@@ -85,6 +86,7 @@ def test_a_run_with_a_folder_needs_no_memory_for_its_frames(tmp_path):
     assert not (tmp_path / "out" / "records").exists()
 
 
+@pytest.mark.slow
 def test_the_series_of_a_run_with_a_folder_needs_what_the_rule_counts(tmp_path):
     """540 000 samples, twice: in the simulation, and where it is drawn and written."""
     words = [
@@ -105,6 +107,7 @@ def test_the_series_of_a_run_with_a_folder_needs_what_the_rule_counts(tmp_path):
     assert many < few + PART + 1.5 * 2 * 272 * 540_000
 
 
+@pytest.mark.slow
 def test_a_run_in_memory_needs_what_the_rule_counts(tmp_path):
     config = drumrs.baseline().softer(100.0).replace({"run.duration": 3.0, "run.frame_every": 3.7e-5})
     made = f"config = drumrs.Config.model_validate_json({config.model_dump_json()!r})"
@@ -185,7 +188,7 @@ def ended(child: subprocess.Popen) -> tuple[int, str]:
     )
 
 
-@pytest.mark.parametrize("blow", [signal.SIGKILL, signal.SIGINT])
+@pytest.mark.parametrize("blow", [signal.SIGKILL, pytest.param(signal.SIGINT, marks=pytest.mark.slow)])
 def test_blows_at_random_moments_change_no_byte(tmp_path, blow):
     case = [*DENSE, "--set", "run.duration=8", "--set", "run.checkpoint_every=0.1", "--out"]
     whole, broken = tmp_path / "whole", tmp_path / "broken"
