@@ -106,8 +106,8 @@ pub enum Value {
     Number(f64),
     /// A whole number.
     Count(usize),
-    /// Words, where it is no single number.
-    Words(String),
+    /// Text, where it is no single number.
+    Text(String),
 }
 
 impl fmt::Display for Value {
@@ -119,7 +119,7 @@ impl fmt::Display for Value {
             }
             Self::Number(number) => write!(formatter, "{number}"),
             Self::Count(count) => write!(formatter, "{count}"),
-            Self::Words(words) => formatter.write_str(words),
+            Self::Text(text) => formatter.write_str(text),
         }
     }
 }
@@ -143,14 +143,14 @@ impl From<u16> for Value {
 }
 
 impl From<&str> for Value {
-    fn from(words: &str) -> Self {
-        Self::Words(words.into())
+    fn from(text: &str) -> Self {
+        Self::Text(text.into())
     }
 }
 
 impl From<String> for Value {
-    fn from(words: String) -> Self {
-        Self::Words(words)
+    fn from(text: String) -> Self {
+        Self::Text(text)
     }
 }
 

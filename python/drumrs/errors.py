@@ -82,7 +82,7 @@ class ConfigError(DrumrsError, ValueError):
         self.value = value
         self.limit = limit
         self.hint = hint
-        self.problem = problem or f"is {show(value)}, but must be {limit}"
+        self.problem = problem or f"is {format_value(value)}, but must be {limit}"
         self.bound = bound
         self._is_path = isinstance(key, Path)
 
@@ -178,7 +178,7 @@ class PictureWarning(DrumrsWarning):
     """A picture, a player or a plot of a page that could not be made; names it, and why. The numbers are complete."""
 
 
-def show(value: object) -> str:
+def format_value(value: object) -> str:
     """Show a value on one line, shortened where it is long, but for paths."""
     if isinstance(value, Path):
         return repr(str(value))

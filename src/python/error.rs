@@ -23,7 +23,7 @@ fn exception(py: Python<'_>, error: &Error) -> PyResult<PyErr> {
             match value {
                 Value::Number(number) => fields.set_item("value", number)?,
                 Value::Count(count) => fields.set_item("value", count)?,
-                Value::Words(words) => fields.set_item("value", words)?,
+                Value::Text(text) => fields.set_item("value", text)?,
             }
             fields.set_item("bound", bound)?;
             "ConfigError"

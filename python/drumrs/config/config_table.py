@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self
 from pydantic import BaseModel, ConfigDict, ValidationError, model_validator
 
 from drumrs.config.messages import both_given, conflict, refusal
-from drumrs.errors import ConfigError, show
+from drumrs.errors import ConfigError, format_value
 
 if TYPE_CHECKING:
     from pydantic._internal._model_construction import ModelMetaclass
@@ -41,8 +41,8 @@ class ConfigTable(BaseModel, metaclass=_RaisesConfigError):
         raise ConfigError(
             key,
             value,
-            problem=f"cannot be set to {show(value)}: a configuration does not change",
-            hint=f'config.replace({{"…{key}": {show(value)}}}) returns a copy with its dotted key changed',
+            problem=f"cannot be set to {format_value(value)}: a configuration does not change",
+            hint=f'config.replace({{"…{key}": {format_value(value)}}}) returns a copy with its dotted key changed',
         )
 
     @model_validator(mode="after")

@@ -10,7 +10,7 @@ from typing import Any, ClassVar, Protocol, cast
 from pydantic import BaseModel
 
 from drumrs.config.messages import both_given, table_type
-from drumrs.errors import ConfigError, show
+from drumrs.errors import ConfigError, format_value
 
 
 class _Paired(Protocol):
@@ -113,7 +113,7 @@ def _corrected(text: str) -> str:
         line = text.splitlines()[error.line - 1].strip() if text.strip() else ""
         key, equals, typed = (part.strip() for part in line.partition("="))
         if not equals:
-            return f"line {error.line} is {show(line)}, but must be KEY = VALUE or [TABLE]"
+            return f"line {error.line} is {format_value(line)}, but must be KEY = VALUE or [TABLE]"
         typed = typed.partition("#")[0].strip()
         value = _typed(typed.replace(",", ".") if _DECIMAL_COMMA.fullmatch(typed) else typed)
         if not isinstance(value, str) or value.isidentifier():

@@ -9,7 +9,7 @@ from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails, PydanticCustomError
 
 from drumrs.config.types import Limit
-from drumrs.errors import ConfigError, show
+from drumrs.errors import ConfigError, format_value
 
 _LONGEST_KEY = 60
 _TABLE = "a table of keys"
@@ -48,7 +48,7 @@ def conflict(
 def both_given(table: str, pair: Sequence[str], values: Mapping[str, Any]) -> dict[str, Any]:
     """Return the fields of the error that both keys of an either–or pair are given in one layer."""
     first, second = (f"{table}{key}" for key in pair)
-    one, other = (show(values[key]) for key in pair)
+    one, other = (format_value(values[key]) for key in pair)
     return {
         "key": first,
         "value": values[pair[0]],
@@ -87,7 +87,7 @@ def _unknown_key(model: type[BaseModel], path: Sequence[str | int], value: Any) 
     key = f"{table}{path[-1]}"
     siblings = [f"{table}{name}" for name in annotation.model_fields] if _is_table(annotation) else []
     meant = _closest(key[:_LONGEST_KEY], siblings, list(dotted_keys(model)))
-    shown = key if key.isprintable() and 0 < len(key) <= _LONGEST_KEY else show(key)
+    shown = key if key.isprintable() and 0 < len(key) <= _LONGEST_KEY else format_value(key)
     hint = f"did you mean {meant}?" if meant else f"the keys there are {', '.join(siblings)}"
     return ConfigError(shown, value, hint=hint, problem="is not a key")
 

@@ -6,7 +6,7 @@ from typing import Any, cast
 
 from drumrs.config import Config
 from drumrs.config.messages import dotted_keys
-from drumrs.errors import ConfigError, show
+from drumrs.errors import ConfigError, format_value
 from drumrs.sweep.case import Case
 
 Axes = Mapping[str, Iterable[Any]]
@@ -121,7 +121,7 @@ def _distinct(base: Config, changes: Sequence[Mapping[str, Any]]) -> tuple[Case,
     for change in changes:
         case = Case(base.replace(change))
         if case.id in cases:
-            settings = ", ".join(f"{key} = {show(value)}" for key, value in change.items())
+            settings = ", ".join(f"{key} = {format_value(value)}" for key, value in change.items())
             raise ConfigError(f"the case {settings}", problem="is there twice, but must be there once")
         cases[case.id] = case
     return tuple(cases.values())

@@ -18,7 +18,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from drumrs.analysis import statistics
-from drumrs.errors import ConfigError, show
+from drumrs.errors import ConfigError, format_value
 from drumrs.files import NO_ROOM, read_object, write_whole
 from drumrs.folders import marker, require_own
 from drumrs.frames import Frames
@@ -81,7 +81,7 @@ class Store:
         found = mark["format"]
         if not isinstance(found, int) or found > FORMAT:
             limit = f"of format {FORMAT} at most: a newer drumrs made it"
-            problem = f"is of format {show(found)}, but must be {limit}"
+            problem = f"is of format {format_value(found)}, but must be {limit}"
             raise ConfigError(self.folder, found, limit, problem=problem, bound=FORMAT)
 
     def ids(self) -> set[str]:

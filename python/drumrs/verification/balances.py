@@ -143,9 +143,9 @@ def bounds() -> Evidence:
             means = run.summary((0.5, run.time))
             power = means.drum_specific_power / (GRAVITY * DRUM_RADIUS * run.drum_angular_velocity)
             overlap = float(run.series["max_overlap_ratio"].to_numpy()[100:].mean())
-            place = f"{label}, {100 * fill:.0f} % fill"
-            found.append(Check(f"P/(M g R Ω), {place}", "1", 0.5, power, 0.5))
-            found.append(Check(f"overlap/r, {place}", "1", 0.0, overlap, 0.01))
+            case_name = f"{label}, {100 * fill:.0f} % fill"
+            found.append(Check(f"P/(M g R Ω), {case_name}", "1", 0.5, power, 0.5))
+            found.append(Check(f"overlap/r, {case_name}", "1", 0.0, overlap, 0.01))
             powers.append(power)
         traces.append(Trace(label, places, powers))
     frame = Trace("bounds", (), (), ([0.1, 0.75, 0.75, 0.1, 0.1], [0.0, 0.0, 1.0, 1.0, 0.0]))

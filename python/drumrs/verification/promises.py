@@ -39,12 +39,12 @@ def _differing(one: Array, other: Array) -> float:
     return float(np.count_nonzero(one.view(np.int64) != other.view(np.int64)))
 
 
-def _diagonal(runs: Mapping[str, Array], reference: Array, words: str) -> Panel:
+def _diagonal(runs: Mapping[str, Array], reference: Array, of_what: str) -> Panel:
     """Draw coordinates of one run against those of others by label, thinned out."""
     pick = slice(None, None, max(1, reference.size // _MOST_DRAWN))
     ends = [float(reference.min()), float(reference.max())]
     traces = [Trace(label, reference.ravel()[pick], run.ravel()[pick]) for label, run in runs.items()]
-    return Panel("coordinates [m]", f"coordinates {words} [m]", (shared_curve(ends, ends), *traces))
+    return Panel("coordinates [m]", f"coordinates {of_what} [m]", (shared_curve(ends, ends), *traces))
 
 
 def _small(baffles: bool, changes: dict[str, Any] | None = None) -> Config:
@@ -216,8 +216,8 @@ def skins() -> Evidence:
         for skin in (0.0, 1e-5, 0.1 * RADIUS, 2.0 * RADIUS):
             other = _ran(config.replace({"run.skin": skin}), 12_000)
             differing = _differing(_numbers(reference), _numbers(other))
-            place = f"skin {skin / RADIUS:.2g} r, {'3 baffles' if baffles else 'no baffles'}"
-            found.append(Check(f"numbers that differ, {place}", "1", 0.0, differing, 0.0))
+            case_name = f"skin {skin / RADIUS:.2g} r, {'3 baffles' if baffles else 'no baffles'}"
+            found.append(Check(f"numbers that differ, {case_name}", "1", 0.0, differing, 0.0))
             if baffles:
                 runs[f"{skin / RADIUS:.2g} r"] = other.positions
     return Evidence(tuple(found), _diagonal(runs, reference.positions, "with another skin"))
