@@ -117,6 +117,7 @@ def test_the_kept_study_has_the_names_of_today():
         "dissipated_rolling_power",
         # Not recorded when it was made.
         "gross_work_ratio",
+        "gross_work_ratio_error",
     }
 
 
