@@ -51,7 +51,9 @@ def reproduce(
     if quick and full:
         raise ConfigError("--quick", problem="and --full are both given, but only one of them may be")
     if baffle and (quick or full or retry):
-        raise ConfigError("--baffle", problem="is given with --quick, --full or --retry, but has one scale of its own")
+        raise ConfigError(
+            "--baffle", problem="is given with --quick, --full or --retry, but has one scale of its own"
+        )
     check_folder(out)
     if baffle:
         return _infer_baffle(out, jobs)
@@ -70,7 +72,9 @@ def _infer_baffle(out: Path, jobs: int | None) -> int:
     height, base, tip = (f"{100.0 * length:.3g}" for length in found.best.lengths)
     sys.stdout.write(f"inferred baffle: height {height} cm, base {base} cm, tip {tip} cm\n")
     for failure in found.failures:
-        sys.stderr.write(f"drumrs: case {failure.case.id} ({failure.case.config.title}) failed: {failure.message}\n")
+        sys.stderr.write(
+            f"drumrs: case {failure.case.id} ({failure.case.config.title}) failed: {failure.message}\n"
+        )
     print_paths([out / "baffle.parquet", out / "figures", out / "baffle.md"])
     return _FAILED if found.failures else 0
 

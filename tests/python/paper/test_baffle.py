@@ -5,10 +5,12 @@ import polars as pl
 import pytest
 
 from drumrs import ConfigError, baseline, paper
-from drumrs.paper.baffle import evidence, inference, observations
+from drumrs.paper.baffle import inference, observations, sentences
 from drumrs.paper.baffle.design import Plan
 from drumrs.paper.baffle.emulator import Emulator
-from drumrs.paper.baffle.evidence import (
+from drumrs.paper.baffle.evidence import Known, Observable
+from drumrs.paper.baffle.posterior import measured_correction, posterior, round_shapes, spread_over
+from drumrs.paper.baffle.sentences import (
     ALONG,
     CARRIED,
     CIRCULATION,
@@ -17,9 +19,7 @@ from drumrs.paper.baffle.evidence import (
     RATIO,
     SENTENCES,
     UNWEIGHTED,
-    Observable,
 )
-from drumrs.paper.baffle.posterior import measured_correction, posterior, round_shapes, spread_over
 from drumrs.paper.baffle.shape import PADDLE, ROOM, TRIANGLE, Shape, shapes_in_region
 
 TRUTH = Shape(0.045, 0.07, 0.04)
@@ -68,10 +68,10 @@ def value(one: Observable, lengths: np.ndarray) -> float:
     return BARE_MOTION[one.quantity] * (1.0 if one.quantity == CIRCULATION else 1.0 + 1.5 * tip)
 
 
-def known_at(shapes: np.ndarray, error: float = 0.01) -> evidence.Known:
+def known_at(shapes: np.ndarray, error: float = 0.01) -> Known:
     shapes = np.atleast_2d(shapes)
     found = {}
-    for one in evidence.OBSERVABLES:
+    for one in sentences.OBSERVABLES:
         means = np.array([value(one, row) for row in shapes])
         found[one] = (means, error * np.abs(means))
     return found
@@ -84,7 +84,7 @@ def made_up(points, _folder) -> pl.DataFrame:
         lengths = point.shape.lengths if point.shape else (None, None, None)
         for quantity in observations.QUANTITIES:
             one = point.observable(quantity)
-            if quantity not in {POWER, RATIO} and one.fill not in evidence.WATCHED_FILLS:
+            if quantity not in {POWER, RATIO} and one.fill not in sentences.WATCHED_FILLS:
                 continue
             mean = value(one, lengths) * (1.08 if quantity == RATIO and point.softer > 1.0 else 1.0)
             noise = np.random.default_rng(abs(hash((point, quantity))) % 2**32).normal()
@@ -264,7 +264,7 @@ def test_observations_are_means_of_runs(tmp_path):
     ((key, known),) = observations.known_by_shape(table).items()
     assert key == (PADDLE, 400.0)
     row = paper_sweep.table().collect().row(0, named=True)
-    assert known[Observable(POWER, 0.25)][0] == row["drum_specific_power"]
+    assert known[Observable(POWER, 0.25)][0] == pytest.approx(row["drum_specific_power"])
     # The error of one seed, doubled.
     assert known[Observable(POWER, 0.25)][1] == pytest.approx(2.0 * row["drum_specific_power_error"])
 
@@ -320,6 +320,14 @@ def test_the_command_says_what_was_inferred(drum, tmp_path, monkeypatch):
     assert status == 0
     assert "inferred baffle: height " in printed
     assert printed.endswith(f"wrote {tmp_path / 'baffle.md'}\n")
+
+
+@pytest.mark.parametrize("other", ["--quick", "--full", "--retry"])
+def test_the_command_has_one_scale(other, drum, tmp_path):
+    status, _, told = drum("reproduce", "--baffle", other, "--out", tmp_path / "new")
+    assert status == 2
+    assert told.startswith("drumrs: --baffle is given with --quick, --full or --retry")
+    assert not (tmp_path / "new").exists()
 
 
 def test_a_missing_library_is_named_before_anything_runs(monkeypatch, tmp_path):

@@ -5,14 +5,8 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from drumrs.config import Config, baseline
-from drumrs.paper.baffle.evidence import (
-    FILLS,
-    SIZE_FILL,
-    SIZES,
-    TABLE_1,
-    WATCHED_FILLS,
-    Observable,
-)
+from drumrs.paper.baffle.evidence import TABLE_1, Observable
+from drumrs.paper.baffle.sentences import FILLS, SIZE_FILL, SIZES, WATCHED_FILLS
 from drumrs.paper.baffle.shape import MARKED, Shape, shapes_in_region
 
 _BASELINE = baseline()

@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drumrs.errors import ConfigError
-from drumrs.paper.baffle.evidence import OBSERVABLES, Known, Observable
+from drumrs.paper.baffle.evidence import Known, Observable
+from drumrs.paper.baffle.sentences import OBSERVABLES
 from drumrs.paper.baffle.shape import BASES, HEIGHTS, Shape
 
 Array = NDArray[np.float64]

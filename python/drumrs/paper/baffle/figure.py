@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from drumrs.paper.baffle.inference import Inference
+    from drumrs.paper.baffle.findings import Inference
 
 _NAMES = ("height [cm]", "base [cm]", "tip [cm]")
 _RANGES = (HEIGHTS, BASES, (0.0, BASES[1]))

@@ -1,7 +1,6 @@
 """The inference in one go: scan with softer springs, emulate, weigh, confirm at full stiffness, weigh again, write."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -11,13 +10,13 @@ from drumrs.config import Config
 from drumrs.errors import ConfigError
 from drumrs.folders import claim, require_own
 from drumrs.jobs import job_count
+from drumrs.paper.baffle import page
 from drumrs.paper.baffle.design import Plan, Point
-from drumrs.paper.baffle.emulator import Emulator, emulate, require_library
-from drumrs.paper.baffle.evidence import Known, Observable, log_likelihood
+from drumrs.paper.baffle.emulator import emulate, require_library
+from drumrs.paper.baffle.evidence import Known
+from drumrs.paper.baffle.findings import Inference
 from drumrs.paper.baffle.observations import Key, known_by_shape, observe
 from drumrs.paper.baffle.posterior import (
-    Correction,
-    Posterior,
     foretell,
     measured_correction,
     posterior,
@@ -25,6 +24,7 @@ from drumrs.paper.baffle.posterior import (
     round_shapes,
     spread_over,
 )
+from drumrs.paper.baffle.sentences import log_likelihood
 from drumrs.paper.baffle.shape import TRIANGLE, Shape, shapes_in_region
 from drumrs.progress import Task
 from drumrs.sweep import Failure, Sweep
@@ -38,67 +38,6 @@ FILES = ("baffle.md", "baffle.parquet", "figures", "runs")
 _DENSE = 20_000
 # Factors of the tolerances.
 FACTORS = (0.5, 1.0, 2.0)
-
-
-@dataclass(frozen=True, eq=False)
-class Inference:
-    """What is known of the paper's baffle.
-
-    Attributes
-    ----------
-    plan
-        What was run.
-    table
-        Means of all runs, one row a case and quantity.
-    emulators
-        An emulator of every observable with softer springs.
-    bare
-        The bare drum at full stiffness.
-    correction
-        Full stiffness over softer springs.
-    posteriors
-        Posterior by factor of the tolerances.
-    known
-        What is foretold at the posterior's shapes.
-    confirmed
-        What is known at full stiffness of each shape that was run so, the likeliest first.
-    failures
-        Cases without results; their shapes are left out.
-    """
-
-    plan: Plan
-    table: "pl.DataFrame"
-    emulators: Mapping[Observable, Emulator]
-    bare: Known
-    correction: Correction
-    posteriors: Mapping[float, Posterior]
-    known: Known
-    confirmed: Mapping[Shape, Known]
-    failures: tuple[Failure, ...] = ()
-
-    @property
-    def best(self) -> Shape:
-        """The confirmed shape that fits the sentences best: the inferred one."""
-        return next(iter(self.confirmed))
-
-    @property
-    def scanned(self) -> list[Shape]:
-        """The shapes that were run with softer springs."""
-        rows = self.table.filter(self.table["softer"] > 1.0).drop_nulls("height")
-        return [
-            Shape(*row) for row in rows.select("height", "base", "tip").unique(maintain_order=True).rows()
-        ]
-
-    def foretold_at(self, shapes: "np.ndarray") -> Known:
-        """Return what the emulators foretell at full stiffness, for rows of height, base and tip [m]."""
-        return foretell(self.emulators, shapes, self.bare, self.correction)
-
-    def stiffness_difference(self, one: Observable) -> tuple[float, float]:
-        """Return full stiffness less softer springs, mean and scatter over the confirmed shapes."""
-        shapes = list(self.confirmed)
-        soft, _ = self.emulators[one].predict(_rows(shapes))
-        stiff = np.array([self.confirmed[shape][one][0] for shape in shapes])
-        return float((stiff - soft).mean()), float((stiff - soft).std())
 
 
 def infer_baffle(
@@ -136,8 +75,6 @@ def infer_baffle(
     >>> from drumrs.paper import infer_baffle
     >>> infer_baffle("out/baffle").best  # doctest: +SKIP
     """
-    from drumrs.paper.baffle import page
-
     require_library()
     folder, plan, jobs = Path(folder), plan or Plan(), job_count(jobs)
     require_own(folder, "baffle", FILES)

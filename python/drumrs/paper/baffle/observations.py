@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from drumrs.analysis import estimate
-from drumrs.paper.baffle.evidence import ALONG, CARRIED, CIRCULATION, MIXED, POWER, RATIO, Known, Observable
+from drumrs.paper.baffle.evidence import Known, Observable
+from drumrs.paper.baffle.sentences import ALONG, CARRIED, CIRCULATION, MIXED, POWER, RATIO
 from drumrs.paper.baffle.shape import Shape
 from drumrs.paper.measure import measure
 from drumrs.sweep import Case, Sweep

@@ -9,7 +9,9 @@ import numpy as np
 
 from drumrs.files import write_whole
 from drumrs.pages import provenance
-from drumrs.paper.baffle.evidence import (
+from drumrs.paper.baffle.evidence import Known, Observable, Part, Sentence
+from drumrs.paper.baffle.posterior import Array, Posterior, posterior, weigh
+from drumrs.paper.baffle.sentences import (
     ALONG,
     CARRIED,
     CIRCULATION,
@@ -18,18 +20,13 @@ from drumrs.paper.baffle.evidence import (
     RATIO,
     SENTENCES,
     UNWEIGHTED,
-    Known,
-    Observable,
-    Part,
-    Sentence,
     log_likelihood,
 )
-from drumrs.paper.baffle.posterior import Array, Posterior, posterior, weigh
 from drumrs.paper.baffle.shape import BASES, HEIGHTS, MARKED, ROOM, TRIANGLE, Shape, shares_of_drum
 from drumrs.pictures import attempt
 
 if TYPE_CHECKING:
-    from drumrs.paper.baffle.inference import Inference
+    from drumrs.paper.baffle.findings import Inference
 
 _CM = 100.0
 # Confirmed shapes whose residuals are shown sentence by sentence.

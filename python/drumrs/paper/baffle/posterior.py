@@ -7,7 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drumrs.paper.baffle.emulator import Emulator
-from drumrs.paper.baffle.evidence import POWER, RATIO, Known, Observable, Sentence, log_likelihood
+from drumrs.paper.baffle.evidence import Known, Observable, Sentence
+from drumrs.paper.baffle.sentences import POWER, RATIO, log_likelihood
 from drumrs.paper.baffle.shape import BASES, HEIGHTS, ROOM, Shape, shares_of_drum
 
 Array = NDArray[np.float64]
