@@ -66,8 +66,15 @@ def reproduce(
 
 
 def _infer_baffle(out: Path, jobs: int | None) -> int:
+    from drumrs.jobs import job_count
     from drumrs.paper import infer_baffle
+    from drumrs.paper.baffle import Plan
+    from drumrs.paper.reproduction import measure_speed
+    from drumrs.progress import format_duration
 
+    jobs, cost = job_count(jobs), Plan().cost
+    spent = format_duration(cost / measure_speed(jobs))
+    sys.stderr.write(f"inference of the baffle: {cost:.2g} particle-steps in all, about {spent} at most\n")
     found = infer_baffle(out, jobs=jobs)
     height, base, tip = (f"{100.0 * length:.3g}" for length in found.best.lengths)
     sys.stdout.write(f"inferred baffle: height {height} cm, base {base} cm, tip {tip} cm\n")

@@ -9,7 +9,7 @@ from drumrs.paper.baffle import inference, observations, sentences
 from drumrs.paper.baffle.design import Plan
 from drumrs.paper.baffle.emulator import Emulator
 from drumrs.paper.baffle.evidence import Known, Observable
-from drumrs.paper.baffle.posterior import measured_correction, posterior, round_shapes, spread_over
+from drumrs.paper.baffle.posterior import measured_corrections, posterior, round_shapes, spread_over
 from drumrs.paper.baffle.sentences import (
     ALONG,
     CARRIED,
@@ -235,13 +235,19 @@ def test_the_posterior_finds_the_truth():
     assert posterior(dense, known_at(dense), without=SENTENCES[4]).bits < found.bits
 
 
-def test_full_stiffness_over_soft_is_measured_with_its_scatter():
-    one, other = Observable(RATIO, 0.25), Observable(ALONG, 0.25)
-    soft = {one: (np.array([2.0, 2.0, 2.0]), np.full(3, 0.001)), other: (np.ones(3), np.ones(3))}
-    stiff = {one: (np.array([1.8, 1.9, 1.7]), np.full(3, 0.001)), other: (np.ones(3), np.ones(3))}
-    found = measured_correction(soft, stiff)
-    assert set(found) == {one}
-    assert found[one] == (pytest.approx(0.9), pytest.approx(0.05, rel=0.01))
+def test_what_full_stiffness_changes_is_measured_with_its_scatter():
+    ratio, share = Observable(RATIO, 0.25), Observable(ALONG, 0.25)
+    soft = {one: (np.array([2.0, 2.0, 2.0]), np.full(3, 0.001)) for one in (ratio, share)}
+    stiff = {one: (np.array([1.8, 1.9, 1.7]), np.full(3, 0.001)) for one in (ratio, share)}
+    found = measured_corrections(soft, stiff)
+    assert found[ratio][:2] == (pytest.approx(0.9), pytest.approx(0.05, rel=0.01))
+    assert found[share][:2] == (pytest.approx(-0.2), pytest.approx(0.1, rel=0.01))
+    known = np.array([3.0]), np.array([0.2])
+    assert np.ravel(found[ratio].apply(*known)) == pytest.approx([2.7, np.hypot(0.18, 0.15)], rel=0.01)
+    assert np.ravel(found[share].apply(*known)) == pytest.approx([2.8, np.hypot(0.2, 0.1)], rel=0.01)
+    # Where noise explains it all, the error is that of the mean.
+    noisy = {one: (means, np.full(3, 0.2)) for one, (means, _) in stiff.items()}
+    assert measured_corrections(soft, noisy)[share].error == pytest.approx(0.2 / np.sqrt(3.0), rel=0.01)
 
 
 def test_shapes_to_confirm_are_likely_and_apart():
@@ -291,7 +297,7 @@ def test_the_inference_finds_a_made_up_truth_and_writes_its_page(tmp_path):
     found = paper.infer_baffle(tmp_path, SMALL, jobs=1, progress=False)
     assert set(found.confirmed) >= {TRIANGLE}
     assert np.abs(np.subtract(found.best.lengths, TRUTH.lengths)).max() < 0.02
-    factor, error = found.correction[Observable(RATIO, 0.25)]
+    factor, error, _ = found.corrections[Observable(RATIO, 0.25)]
     assert factor == pytest.approx(1.0 / 1.08, abs=3.0 * error)
     assert error < 0.03
     for k, length in enumerate(TRUTH.lengths):

@@ -7,7 +7,8 @@ from typing import NamedTuple
 from drumrs.config import Config, baseline
 from drumrs.paper.baffle.evidence import TABLE_1, Observable
 from drumrs.paper.baffle.sentences import FILLS, SIZE_FILL, SIZES, WATCHED_FILLS
-from drumrs.paper.baffle.shape import MARKED, Shape, shapes_in_region
+from drumrs.paper.baffle.shape import MARKED, TRIANGLE, Shape, shapes_in_region
+from drumrs.paper.cases import cost
 
 _BASELINE = baseline()
 _SAMPLE_EVERY = 0.02
@@ -72,6 +73,13 @@ class Plan:
             **self._cases([None], self.softer, self.bare_seeds),
             **self._cases([None], 1.0, self.bare_seeds),
         }
+
+    @property
+    def cost(self) -> int:
+        """Particle-steps of it all."""
+        confirmed = {**self.soft([TRIANGLE]), **self.stiff([TRIANGLE])}
+        first = {**self.bare(), **self.soft(self.scan())}
+        return cost(first.values()) + (self.confirmed + 1) * cost(confirmed.values())
 
     def _cases(
         self, shapes: Iterable[Shape | None], softer: float, seeds: Sequence[int]

@@ -13,9 +13,6 @@ from drumrs.paper.baffle.evidence import Known, Observable, Part, Sentence
 from drumrs.paper.baffle.posterior import Array, Posterior, posterior, weigh
 from drumrs.paper.baffle.sentences import (
     ALONG,
-    CARRIED,
-    CIRCULATION,
-    MIXED,
     POWER,
     RATIO,
     SENTENCES,
@@ -285,9 +282,8 @@ def _method(inference: "Inference") -> Iterator[str]:
     yield ""
     yield (
         "**Emulator.** A Gaussian process for each observable with softer springs, whose noise is the error of each "
-        "run; its lengths are fitted. Power and N/T are multiplied by full stiffness over softer springs, as measured "
-        "at the confirmed shapes, fill by fill, the scatter between shapes being a further error. N/T is that of the "
-        "gross work."
+        "run; its lengths are fitted. What full stiffness changes is measured at the confirmed shapes, observable by "
+        "observable, and applied, the scatter between shapes being a further error. N/T is that of the gross work."
     )
     yield ""
     yield (
@@ -329,22 +325,21 @@ def _checks(inference: "Inference") -> Iterator[str]:
     header = ["observable", "fill", "D/d", "difference over error", "scatter over shapes", "typical error"]
     yield from _table(header, rows)
     yield (
-        "**Softer springs.** Full stiffness over softer springs, and its error with the scatter between shapes, for "
-        "what is corrected; for shares and indices of motion, which are not, full stiffness less softer springs."
+        "**Softer springs.** What full stiffness changes, as mean over the confirmed shapes, and its error with the "
+        "scatter between shapes: a factor of powers, N/T and angular momentum; so much added to shares and indices of motion."
     )
     yield ""
-    ratios = [
-        [one.quantity.replace("_", " "), f"{100.0 * one.fill:g} %", f"{factor:.3f} ± {error:.3f}"]
-        for one, (factor, error) in sorted(inference.correction.items())
+    changes = [
+        [
+            one.quantity.replace("_", " "),
+            f"{100.0 * one.fill:g} %",
+            f"× {change.value:.3f} ± {change.error:.3f}"
+            if change.in_proportion
+            else f"{change.value:+.3f} ± {change.error:.3f}",
+        ]
+        for one, change in sorted(inference.corrections.items())
     ]
-    yield from _table(["observable", "fill", "full over soft"], ratios)
-    differences = [
-        [one.quantity.replace("_", " "), f"{100.0 * one.fill:g} %", f"{mean:+.3f} ± {scatter:.3f}"]
-        for one in sorted(inference.emulators)
-        if one.quantity in {ALONG, CARRIED, MIXED, CIRCULATION}
-        for mean, scatter in [inference.stiffness_difference(one)]
-    ]
-    yield from _table(["observable", "fill", "full less soft, mean and scatter over shapes"], differences)
+    yield from _table(["observable", "fill", "full stiffness"], changes)
 
 
 def _table(header: list[str], rows: Iterable[list[str]]) -> Iterator[str]:
