@@ -326,7 +326,8 @@ def _checks(inference: "Inference") -> Iterator[str]:
     yield from _table(header, rows)
     yield (
         "**Softer springs.** What full stiffness changes, as mean over the confirmed shapes, and its error with the "
-        "scatter between shapes: a factor of powers, N/T and angular momentum; so much added to shares and indices of motion."
+        "scatter between shapes: a factor of powers, N/T and angular momentum; so much added to shares and "
+        "indices of motion."
     )
     yield ""
     changes = [
