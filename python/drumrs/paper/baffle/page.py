@@ -9,6 +9,7 @@ import numpy as np
 
 from drumrs.files import write_whole
 from drumrs.pages import provenance
+from drumrs.paper.baffle.design import QUICK
 from drumrs.paper.baffle.evidence import Known, Observable, Part, Sentence
 from drumrs.paper.baffle.posterior import Array, Posterior, posterior, weigh
 from drumrs.paper.baffle.sentences import (
@@ -71,7 +72,7 @@ def _opening(inference: "Inference") -> Iterator[str]:
     yield ""
     yield (
         "The drawing of the paper's baffles is lost; what its text says of them is not. Written by `drumrs reproduce "
-        f"--baffle`. drumrs {provenance.versions()['drumrs']}."
+        f"--baffle{' --quick' if inference.plan == QUICK else ''}`. drumrs {provenance.versions()['drumrs']}."
     )
     yield ""
     yield (
@@ -287,9 +288,11 @@ def _method(inference: "Inference") -> Iterator[str]:
     )
     yield ""
     yield (
-        "**Likelihood.** A number that should equal a target: Gaussian, with tolerance, emulator and noise added in "
-        "squares. One that should be at least a limit: the probability that it is, with the same scatter. The worst "
-        "part of a sentence counts; sentences are independent."
+        "**Likelihood.** A number that should equal a target is likely as in Student's distribution with 4 degrees of "
+        "freedom, its width from tolerance, emulator and noise in squares: tolerances are guesses themselves, and a "
+        "sentence that no shape fits should not decide among shapes. One that should be at least a limit: the "
+        "probability that it is, by the same distribution. The worst part of a sentence counts; sentences are "
+        "independent."
     )
     yield ""
     if inference.failures:
