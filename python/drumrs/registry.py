@@ -294,7 +294,7 @@ _ROWS = (
         "change of the share of normal damping in all dissipation within the window",
     ),
     _made(
-        "state_switching",
+        "share_switching",
         "1",
         "test",
         "difference of that share between stretches of time, greatest less least",
@@ -308,10 +308,10 @@ _ROWS = (
         symbol="p",
     ),
     _made(
-        "state_switching_significance",
+        "share_switching_significance",
         "1",
         "test",
-        "probability of so large a state_switching in a steady run",
+        "probability of so large a share_switching in a steady run",
         symbol="p",
     ),
     _made(
