@@ -84,7 +84,7 @@ def measures(config: Config, seen: "FrameWindow") -> "Mapping[str, Mean]":
 def _cases(scale: Scale) -> list[Config]:
     trend = [point(scale, speed, friction=friction) for speed in _SPEEDS for friction in _FRICTIONS]
     model = [point(scale, speed, filling) for speed in _MODEL_SPEEDS for filling in _FILLINGS]
-    return with_seeds([*trend, *model, point(scale).softer(2.0)], scale.seeds)
+    return with_seeds([*trend, *model, point(scale).softer(2.0)], scale.few)
 
 
 def _checks(results: Results) -> list[Check]:

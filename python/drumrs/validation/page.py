@@ -52,15 +52,15 @@ def _opening(checks: Mapping[str, Sequence[Check]], results: "Results") -> Itera
     yield ""
     yield (
         f"Written by `drumrs validate`: {len(facts)} runs, {cost:.2g} particle-steps, "
-        f"{format_duration(float(facts['wall_time'].sum()))} of computing time on cores that had other work as well. "
+        f"{format_duration(float(facts['wall_time'].sum()))} of running time. "
         f"drumrs {provenance.versions()['drumrs']}. [table.parquet](table.parquet) has one row a run."
     )
     yield ""
     yield (
-        "Drums of others, simulated anew. Values are means over "
-        f"{len(results.scale.seeds)} random starts with half their 95 % interval. A number *agrees* where that "
-        "lies within what the tolerance allows, *differs* where it lies outside, and is *undecided* across its "
-        "edge. Numbers without a tolerance are shown, not judged. Nothing was fitted."
+        "Drums of others, simulated anew. Values are means over two random starts or more, with half their 95 % "
+        "interval. A number *agrees* where that interval lies within what the tolerance allows, *differs* where it is "
+        "outside, and is *undecided* across its edge. Numbers without a tolerance are shown, not judged. Nothing was "
+        "fitted."
     )
     yield ""
     yield "| drum | agrees | differs | undecided |"

@@ -39,7 +39,7 @@ class Results:
     folder
         Where their results are.
     scale
-        Seeds of every point.
+        Seeds of the study; a drum may do with some of them.
     """
 
     table: "pl.DataFrame"
@@ -62,7 +62,9 @@ class Results:
 
     def seeds(self, point: "Config") -> list[Case]:
         """Return the cases of a point, seed by seed."""
-        return [Case(point.replace({"run.seed": seed})) for seed in self.scale.seeds]
+        cases = [Case(point.replace({"run.seed": seed})) for seed in self.scale.seeds]
+        ids = {case.id for case in self.sweep.cases}
+        return [case for case in cases if case.id in ids]
 
     def windows(self, point: "Config") -> "Iterator[FrameWindow]":
         """Give the frames of the averaging window of each seed."""

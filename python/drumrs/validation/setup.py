@@ -24,16 +24,21 @@ class Scale:
     Attributes
     ----------
     seeds
-        Seeds of the random starts, the same for every point.
+        Seeds of the random starts.
     fineness
         What every D/d of the study is multiplied with.
     duration
         What every duration is multiplied with.
     """
 
-    seeds: tuple[int, ...] = (1, 2)
+    seeds: tuple[int, ...] = (1, 2, 3, 4)
     fineness: float = 1.0
     duration: float = 1.0
+
+    @property
+    def few(self) -> tuple[int, ...]:
+        """Half of the seeds, for drums whose starts are soon forgotten."""
+        return self.seeds[: (len(self.seeds) + 1) // 2]
 
 
 def stiffness(density: float, depth: float, fall: float = 0.0) -> float:

@@ -78,7 +78,7 @@ class Validation:
     --------
     >>> from drumrs.validation import Validation
     >>> Validation("somewhere", ["tracer"])
-    <Validation of tracer: 6 cases, 6 to be run>
+    <Validation of tracer: 12 cases, 12 to be run>
     """
 
     def __init__(

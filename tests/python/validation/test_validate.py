@@ -14,7 +14,7 @@ from drumrs.validation import DRUMS, Scale, Validation, layer, mill, tracer
 from drumrs.validation.check import AGREES, DIFFERS, SHOWN, UNDECIDED, Check
 from drumrs.validation.setup import stiffness
 
-SMALL = Scale(seeds=(1,), fineness=0.25, duration=0.15)
+SMALL = Scale(seeds=(1,), fineness=0.25, duration=0.08)
 
 
 @pytest.fixture
