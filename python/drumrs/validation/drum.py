@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 from drumrs.analysis import Mean
 from drumrs.analysis.frame_window import FrameWindow
 from drumrs.config import Config
+from drumrs.validation.cases import Scale
 from drumrs.validation.check import Check
 from drumrs.validation.results import Results
-from drumrs.validation.setup import Scale
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -9,10 +9,7 @@ import numpy as np
 from drumrs.analysis import Estimate, combine
 from drumrs.config import Config, baseline
 from drumrs.registry import quantity
-from drumrs.validation.check import Check
-from drumrs.validation.drum import PublishedDrum
-from drumrs.validation.results import Results
-from drumrs.validation.setup import (
+from drumrs.validation.cases import (
     BED,
     GRAVITY,
     Scale,
@@ -23,6 +20,9 @@ from drumrs.validation.setup import (
     turning,
     with_seeds,
 )
+from drumrs.validation.check import Check
+from drumrs.validation.drum import PublishedDrum
+from drumrs.validation.results import Results
 from drumrs.validation.tracer import measures
 
 if TYPE_CHECKING:

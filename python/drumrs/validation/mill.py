@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING
 from drumrs.analysis import Estimate, mean_of
 from drumrs.config import Config, baseline
 from drumrs.validation import morrell
+from drumrs.validation.cases import BED, GRAVITY, Scale, contacts, stiffness, times, turning, with_seeds
 from drumrs.validation.check import Check
 from drumrs.validation.drum import PublishedDrum
 from drumrs.validation.results import Results, with_errors
-from drumrs.validation.setup import BED, GRAVITY, Scale, contacts, stiffness, times, turning, with_seeds
 from drumrs.validation.toe import ends
 
 if TYPE_CHECKING:

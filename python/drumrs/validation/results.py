@@ -11,7 +11,7 @@ import numpy as np
 from drumrs import analysis
 from drumrs.analysis.frame_window import FrameWindow
 from drumrs.sweep import Case
-from drumrs.validation.setup import Scale
+from drumrs.validation.cases import Scale
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping

@@ -15,10 +15,10 @@ from drumrs.sweep import Case, Failure, Sweep
 from drumrs.sweep.store import Store
 from drumrs.tables import write_table
 from drumrs.validation import layer, mill, page, tracer
+from drumrs.validation.cases import Scale
 from drumrs.validation.check import Check
 from drumrs.validation.drum import PublishedDrum
 from drumrs.validation.results import Results
-from drumrs.validation.setup import Scale
 from drumrs.validation.table import measure
 
 DRUMS: Mapping[str, PublishedDrum] = MappingProxyType(

@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING
 from drumrs.analysis import Estimate
 from drumrs.analysis.blocks import Array
 from drumrs.config import Config, baseline
+from drumrs.validation.cases import BED, Scale, contacts, stiffness, teeth, times, turning, with_seeds
 from drumrs.validation.check import Check
 from drumrs.validation.drum import PublishedDrum
 from drumrs.validation.profile import Profile, profile
 from drumrs.validation.results import Results, with_errors
-from drumrs.validation.setup import BED, Scale, contacts, stiffness, teeth, times, turning, with_seeds
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

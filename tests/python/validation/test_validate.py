@@ -11,8 +11,8 @@ from drumrs.analysis import Estimate
 from drumrs.registry import PUBLISHED_DRUMS
 from drumrs.sweep.columns import parameters
 from drumrs.validation import DRUMS, Scale, Validation, layer, mill, tracer
+from drumrs.validation.cases import stiffness
 from drumrs.validation.check import AGREES, DIFFERS, SHOWN, UNDECIDED, Check
-from drumrs.validation.setup import stiffness
 
 SMALL = Scale(seeds=(1,), fineness=0.25, duration=0.08)
 

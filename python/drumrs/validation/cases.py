@@ -59,7 +59,7 @@ def stiffness(density: float, depth: float, fall: float = 0.0) -> float:
 
     Examples
     --------
-    >>> from drumrs.validation.setup import stiffness
+    >>> from drumrs.validation.cases import stiffness
     >>> round(stiffness(2500.0, 0.09)), round(stiffness(4000.0, 2.0, fall=2.5) / 1e8, 2)
     (370818, 1.23)
     """
@@ -117,7 +117,7 @@ def times(estimate: Estimate, factor: float, less: float = 0.0) -> Estimate:
     Examples
     --------
     >>> from drumrs.analysis import Estimate
-    >>> from drumrs.validation.setup import times
+    >>> from drumrs.validation.cases import times
     >>> times(Estimate(0.4, 0.1, 8), 10.0, less=3.0)
     Estimate(mean=1.0, error=1.0, freedom=8)
     """
