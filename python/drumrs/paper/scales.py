@@ -23,6 +23,8 @@ class Scale:
         Fills N d²/D² of the bare drum.
     fills_with_baffles
         The same for the drum with baffles, which holds less.
+    fills_with_triangles, sizes_with_triangles
+        Fills and sizes with the baffles once assumed; these cases are those with baffles where the two are the same.
     sizes
         Drum over bundle diameter, D/d.
     frictions
@@ -42,7 +44,15 @@ class Scale:
     frictions: tuple[float, ...]
     speeds: tuple[float, ...]
     restitutions: tuple[float, ...]
+    fills_with_triangles: tuple[float, ...] = ()
+    sizes_with_triangles: tuple[float, ...] = ()
 
+
+_FILLS = (
+    *(0.10, 0.15, 0.20, 0.25, 0.30, 0.35, 0.40, 0.425, 0.45, 0.475),
+    *(0.50, 0.525, 0.55, 0.60, 0.65, 0.70, 0.75),
+)
+_SIZES = (10.0, 13.0, 16.0, 20.0, 24.0, 28.0, 32.0, 37.0)
 
 # The paper's protocol. Fills lie closest where the power peaks and where the paper lets it peak; frictions where
 # the load starts to circulate.
@@ -50,15 +60,11 @@ _DEFAULT = Scale(
     seeds=(1, 2, 3),
     duration=30.0,
     window=(20.0, 30.0),
-    fills=(
-        *(0.10, 0.15, 0.20, 0.25, 0.30, 0.35, 0.40, 0.425, 0.45, 0.475),
-        *(0.50, 0.525, 0.55, 0.60, 0.65, 0.70, 0.75, 0.80),
-    ),
-    fills_with_baffles=(
-        *(0.10, 0.15, 0.20, 0.25, 0.30, 0.35, 0.40, 0.425, 0.45, 0.475),
-        *(0.50, 0.525, 0.55, 0.60, 0.65, 0.70, 0.75),
-    ),
-    sizes=(10.0, 13.0, 16.0, 20.0, 24.0, 28.0, 32.0, 37.0),
+    fills=(*_FILLS, 0.80),
+    fills_with_baffles=_FILLS,
+    fills_with_triangles=_FILLS,
+    sizes=_SIZES,
+    sizes_with_triangles=_SIZES,
     frictions=(0.0, 0.025, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.4, 0.5, 0.75, 1.0),
     speeds=(20.0, 30.0, 40.0, 54.0, 60.0, 70.0, 80.0),
     restitutions=(0.05, 0.1, 0.2, 0.35, 0.5, 0.7, 0.9),

@@ -7,12 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from drumrs.paper.cases import THIRDS, percent
-from drumrs.paper.curves import Curve
+from drumrs.paper.curves import RATIOS, Curve
 from drumrs.paper.data import StudyData
 from drumrs.paper.verdict import FAILS, HOLDS, UNDECIDED, MissingError, Number
 from drumrs.registry import Quantity, quantity
-
-_DRUMS = ((False, "without baffles"), (True, "with baffles"))
 
 
 @dataclass(frozen=True)
@@ -44,7 +42,7 @@ def _told(data: StudyData, tell: tuple[Callable[[StudyData], Sentence], ...]) ->
 
 
 def _both(data: StudyData, axis: str, column: str) -> tuple[Curve, Curve]:
-    bare, baffled = (data.results.curve(axis, column, baffles=baffles) for baffles, _ in _DRUMS)
+    bare, baffled = (data.results.curve(axis, column, drum=drum) for drum in data.results.drums)
     return bare.between(), baffled.between()
 
 
@@ -63,9 +61,9 @@ def _power(data: StudyData) -> Sentence:
 
 def _peak(data: StudyData) -> Sentence:
     told = []
-    for curve, (_, drum) in zip(_both(data, "fill", "drum_power"), _DRUMS, strict=True):
+    for curve in _both(data, "fill", "drum_power"):
         x = _highest(curve)
-        told.append(f"{percent(x)} {drum} ({_value(curve, x, 'W/m')})")
+        told.append(f"{percent(x)} {curve.label} ({_value(curve, x, 'W/m')})")
     return Sentence(
         f"Of the fills that were run, drum power is greatest at {' and at '.join(told)}.",
         "F4",
@@ -78,30 +76,30 @@ def _highest(curve: Curve) -> float:
 
 def _fall(data: StudyData) -> Sentence:
     told = []
-    for curve, (_, drum) in zip(_both(data, "fill", "drum_specific_power"), _DRUMS, strict=True):
+    for curve in _both(data, "fill", "drum_specific_power"):
         first, last = curve.points[0].x, curve.points[-1].x
         told.append(
             f"from {_value(curve, first, 'W/kg')} at {percent(first)} fill to {_value(curve, last, 'W/kg')} "
-            f"at {percent(last)} {drum}"
+            f"at {percent(last)} {curve.label}"
         )
     return Sentence(f"Specific power goes {', and '.join(told)}.", "F5")
 
 
 def _ratio(data: StudyData) -> Sentence:
     told = []
-    for curve, (_, drum) in zip(_both(data, "fill", "dissipation_ratio"), _DRUMS, strict=True):
+    for curve in _both(data, "fill", RATIOS[0]):
         means = sorted((one.mean, point.x) for one, point in zip(curve.estimates, curve.points, strict=True))
         least, most = means[0], means[-1]
         told.append(
-            f"{least[0]:.2f} (at {percent(least[1])} fill) to {most[0]:.2f} ({percent(most[1])}) {drum}"
+            f"{least[0]:.2f} (at {percent(least[1])} fill) to {most[0]:.2f} ({percent(most[1])}) {curve.label}"
         )
     return Sentence(
         f"Damping in normal contacts takes N/T times what sliding takes: {', and '.join(told)}.", "F6"
     )
 
 
-def _variation(data: StudyData, axis: str, *, baffles: bool) -> str:
-    curve = data.results.curve(axis, "drum_specific_power", baffles=baffles).between(least=2)
+def _variation(data: StudyData, axis: str) -> str:
+    curve = data.results.curve(axis, "drum_specific_power").between(least=2)
     means = [one.mean for one in curve.estimates]
     return f"{100.0 * (max(means) - min(means)) / float(np.mean(means)):.0f} %"
 
@@ -109,7 +107,7 @@ def _variation(data: StudyData, axis: str, *, baffles: bool) -> str:
 def _variations(data: StudyData) -> Sentence:
     names = {"size": "the bundles’ size"}
     told = [
-        f"{_variation(data, axis, baffles=False)} with {names.get(axis, axis)}"
+        f"{_variation(data, axis)} with {names.get(axis, axis)}"
         for axis in ("fill", "speed", "friction", "size", "restitution")
     ]
     return Sentence(
@@ -139,8 +137,7 @@ class Line:
 _LINES = (
     "drum_specific_power",
     "drum_power",
-    "dissipation_ratio",
-    "work_ratio",
+    *RATIOS,
     "along_the_rim",
     "carried_round",
     "mixed_in_a_turn",
@@ -151,7 +148,7 @@ def table(data: StudyData) -> list[Line]:
     """Return the headline table: three fills, without and with baffles each; a dash where a case is missing."""
     lines = []
     for column in _LINES:
-        curves = [data.results.curve("fill", column, baffles=baffles) for baffles, _ in _DRUMS]
+        curves = [data.results.curve("fill", column, drum=drum) for drum in data.results.drums]
         values = tuple(_or_dash(curve, fill) for fill in THIRDS for curve in curves)
         lines.append(Line(quantity(column), values))
     return lines

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from drumrs.paper.cases import BASELINE_FILL
 from drumrs.paper.data import StudyData
+from drumrs.paper.drums import BAFFLED, BARE
 from drumrs.paper.figures import FIGURES, PaperFigure
 from drumrs.paper.verdict import MissingError
 from drumrs.pictures import attempt
@@ -71,9 +72,9 @@ def embedded(paths: Iterable[Path]) -> str:
 def players(data: StudyData) -> list[Player]:
     """Return a player of the first seed without and one with baffles at 25 % fill, as far as they are finished."""
     found = []
-    for baffles in (False, True):
+    for drum in (BARE, BAFFLED):
         try:
-            case = data.cases(BASELINE_FILL, baffles=baffles)[0]
+            case = data.cases(BASELINE_FILL, drum)[0]
         except MissingError:
             continue
         config = case.config
