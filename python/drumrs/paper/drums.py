@@ -1,5 +1,6 @@
 """The drums of the study: bare, with its baffles, and with the triangles that were first assumed."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -43,6 +44,17 @@ class Drum:
             return pl.col(f"{_BAFFLES}.count") == 0
         shaped = ("count", "shape", "height", "base", *(("tip",) if baffles.shape == "trapezoid" else ()))
         return pl.all_horizontal(pl.col(f"{_BAFFLES}.{key}") == getattr(baffles, key) for key in shaped)
+
+    @property
+    def baffles_share(self) -> float:
+        """Part of the drum's area that baffles take, what lies between a base, a chord, and the rim included."""
+        drum = self.config().drum
+        baffles, radius, half = drum.baffles, drum.diameter / 2.0, drum.baffles.base / 2.0
+        foot = math.sqrt(radius**2 - half**2)
+        segment = radius**2 * math.asin(half / radius) - half * foot
+        width = half + (baffles.tip / 2.0 if baffles.shape == "trapezoid" else 0.0)
+        one = segment + width * (foot - (radius - baffles.height))
+        return baffles.count * one / (math.pi * radius**2)
 
 
 BARE = Drum("without baffles")

@@ -100,6 +100,8 @@ class Finding:
         The parameter along which the part is judged, and its outcome piece by piece.
     bands
         Where it wants the curve.
+    deciding
+        Those of the numbers that decide first, where there are several kinds; else all.
     """
 
     outcome: str
@@ -109,6 +111,11 @@ class Finding:
     axis: str = ""
     pieces: tuple[Piece, ...] = ()
     bands: tuple[Band, ...] = field(default=(), repr=False)
+    deciding: tuple[Number, ...] = ()
+
+    def __post_init__(self) -> None:
+        """Let all numbers decide unless some are named."""
+        object.__setattr__(self, "deciding", self.deciding or self.numbers)
 
     @property
     def where(self) -> str:
@@ -161,6 +168,8 @@ class Verdict:
         What it comes to by other readings, shown beside.
     why
         Why it fails where it does, in words made of the data; empty where nothing is to be said.
+    is_evidence
+        Whether the shape of the baffles was inferred from it, so that agreeing is no confirmation.
     """
 
     claim: str
@@ -170,6 +179,7 @@ class Verdict:
     parts: tuple[Finding, ...]
     others: tuple[OtherReading, ...] = ()
     why: str = ""
+    is_evidence: bool = False
 
     @property
     def verdict(self) -> str:

@@ -1,6 +1,7 @@
 """The paper's claims by subject, each with the conditions that judge it, and a verdict on each."""
 
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -8,7 +9,7 @@ from drumrs.paper.claims import motion, power, ratio
 from drumrs.paper.claims.criteria import Claim, settle
 from drumrs.paper.curves import RATIOS, Results
 from drumrs.paper.drums import BAFFLED, TRIANGLES, Drum, baffles_are_inferred
-from drumrs.paper.verdict import UNDECIDED, Finding, OtherReading, Verdict
+from drumrs.paper.verdict import FAILS, IN_PART, UNDECIDED, Finding, MissingError, OtherReading, Verdict
 
 if TYPE_CHECKING:
     import polars as pl
@@ -50,7 +51,17 @@ def judge(table: "pl.DataFrame", drum: Drum = BAFFLED) -> list[Verdict]:
         C1 to C14.
     """
     results = Results(table, baffled=drum)
-    return [replace(_judge(claim, results), others=tuple(_others(claim, results))) for claim in CLAIMS]
+    return [_with_context(_judge(claim, results), claim, results) for claim in CLAIMS]
+
+
+def _with_context(verdict: Verdict, claim: Claim, results: Results) -> Verdict:
+    """Add what stands beside a verdict: other readings, why it fails where it does, whether it is evidence."""
+    why = ""
+    if claim.why and verdict.verdict in {FAILS, IN_PART}:
+        with suppress(MissingError, ZeroDivisionError):
+            why = claim.why(results)
+    evidence = claim.number in EVIDENCE and baffles_are_inferred() and results.baffled == BAFFLED
+    return replace(verdict, others=tuple(_others(claim, results)), why=why, is_evidence=evidence)
 
 
 def _others(claim: Claim, results: Results) -> Iterator[OtherReading]:

@@ -211,14 +211,16 @@ def all_of(
     bands: tuple[Band, ...] = (),
 ) -> Finding:
     """Return what several findings come to as one part of a claim; `bands` add to their own."""
+    outcome = joined(one.outcome for one in findings)
     return Finding(
-        joined(one.outcome for one in findings),
+        outcome,
         " ".join(one.sentence for one in findings),
         tuple(number for one in findings for number in one.numbers),
         "",
         axis,
         pieces,
         (*bands, *(one for finding in findings for one in finding.bands)),
+        next(one.numbers for one in findings if one.outcome == outcome),
     )
 
 

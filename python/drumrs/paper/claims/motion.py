@@ -5,6 +5,7 @@ from functools import partial
 
 from drumrs.analysis import Interval
 from drumrs.paper.cases import BASELINE_FILL, THIRDS
+from drumrs.paper.claims import why
 from drumrs.paper.claims.criteria import (
     ABRUPT,
     ANSWERS,
@@ -154,6 +155,7 @@ CLAIMS = (
         "F9",
         ("friction", CIRCULATION),
         rocks_then_circulates,
+        why.sliding_is_compared_with_little,
     ),
     Claim(
         "C11",
@@ -182,5 +184,6 @@ CLAIMS = (
         "F4",
         ("fill", "drum_power"),
         baffles_matter_little_above_half,
+        why.baffles_fill_the_drum,
     ),
 )

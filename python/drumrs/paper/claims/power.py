@@ -7,6 +7,7 @@ import numpy as np
 
 from drumrs.analysis import Estimate, combine, mean_of
 from drumrs.paper.cases import THIRDS, percent
+from drumrs.paper.claims import why
 from drumrs.paper.claims.criteria import (
     FALLS,
     ZERO,
@@ -191,6 +192,7 @@ CLAIMS = (
         "F4",
         ("fill", "drum_power"),
         baffles_draw_less_below_half,
+        why.baffles_fill_the_drum,
     ),
     Claim(
         "C3",
@@ -208,6 +210,7 @@ CLAIMS = (
         "F7",
         ("size", POWER),
         weak_in_size,
+        why.baffles_keep_their_size,
     ),
     Claim(
         "C8",

@@ -11,6 +11,7 @@ from functools import partial
 
 from drumrs.analysis import mean_of
 from drumrs.paper.cases import THIRDS, percent
+from drumrs.paper.claims import why
 from drumrs.paper.claims.criteria import (
     CIRCULATING,
     FALLS,
@@ -145,5 +146,6 @@ CLAIMS = (
         "F9",
         ("friction", "N/T"),
         friction_turns_the_ratio,
+        why.ratio_turns_at_the_last_step,
     ),
 )
