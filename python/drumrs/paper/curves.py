@@ -75,12 +75,15 @@ class Curve:
         Its points.
     axis, column
         The parameter, a key of `AXES`, and the quantity.
+    softer
+        By how much springs were softer than Table 1's.
     """
 
     label: str
     points: tuple[Point, ...]
     axis: str = "fill"
     column: str = ""
+    softer: float = 1.0
 
     def __len__(self) -> int:
         """Return the number of points."""
@@ -170,8 +173,8 @@ class Results:
     def curve(self, axis: str, column: str, *, drum: Drum = BARE, fill: float | None = None) -> Curve:
         """Return a quantity against a parameter.
 
-        N/T depends on the stiffness of contacts, and is taken from runs with Table 1's alone. A point of another
-        quantity is of one stiffness, too: that of most runs, of as many the stiffest.
+        A curve is of one stiffness: that with most points, of as many the stiffest. N/T depends on it, and is taken
+        from runs with Table 1's alone; without friction there is no T.
 
         Parameters
         ----------
@@ -192,16 +195,20 @@ class Results:
         label = drum.name if fill is None else f"{percent(fill)} fill"
         if column not in self.table.columns:
             return Curve(label, (), axis, column)
+        own = baseline().contact.bundle.normal_stiffness
+        at: dict[float, dict[float, list[dict[str, Any]]]] = {}
         rows = self._rows(axis, drum=drum, fill=fill).drop_nulls(column)
         if column in RATIOS:
-            rows = rows.filter(rows[_STIFFNESS] == baseline().contact.bundle.normal_stiffness)
-        if self.steady_only:
-            rows = rows.filter(~rows["drifting"])
-        at: dict[float, list[dict[str, Any]]] = {}
+            rows = rows.filter(rows[AXES["friction"][0]] > 0.0)
         for row in rows.iter_rows(named=True):
-            at.setdefault(round(float(row[AXES[axis][0]]), 9), []).append(row)
-        points = [_point(x, _of_one_stiffness(at[x]), column) for x in sorted(at)]
-        return Curve(label, tuple(points), axis, column)
+            alike = at.setdefault(row[_STIFFNESS] / own, {})
+            alike.setdefault(round(float(row[AXES[axis][0]]), 9), []).append(row)
+        stiffness = 1.0 if column in RATIOS else max(at, key=lambda one: (len(at[one]), one), default=1.0)
+        points = []
+        for x, seeds in sorted(at.get(stiffness, {}).items()):
+            steady = [row for row in seeds if not (self.steady_only and row["drifting"])]
+            points += [_point(x, steady, column)] if steady else []
+        return Curve(label, tuple(points), axis, column, 1.0 / stiffness)
 
     def shown(self, axis: str, column: str) -> list[Curve]:
         """Return the curves that the paper's figure of a quantity against a parameter shows."""
@@ -242,13 +249,6 @@ class Results:
             fixed["fill"] = fill if fill is not None else SIZE_FILL if axis == "size" else BASELINE_FILL
         same = [(pl.col(AXES[name][0]) - value).abs() < _SAME for name, value in fixed.items()]
         return self.table.filter(drum.rows, *same).sort("seed", maintain_order=True)
-
-
-def _of_one_stiffness(rows: list[dict[str, Any]]) -> list[dict[str, Any]]:
-    alike: dict[float, list[dict[str, Any]]] = {}
-    for row in rows:
-        alike.setdefault(row[_STIFFNESS], []).append(row)
-    return max(alike.items(), key=lambda found: (len(found[1]), found[0]))[1]
 
 
 def _point(x: float, rows: Sequence[Mapping[str, Any]], column: str) -> Point:

@@ -105,7 +105,19 @@ def _draw_speed(data: StudyData) -> "Figure":
     from drumrs.paper import plots
 
     centrifuging = (baseline().derived.critical_angular_velocity or 0.0) * 30.0 / math.pi
-    return plots.specific_power_against_speed(points(data.results.shown("speed", _POWER)), centrifuging)
+    shown = data.results.shown("speed", _POWER)
+    figure = plots.specific_power_against_speed(points(shown), centrifuging)
+    _say_softer(figure, shown)
+    return figure
+
+
+def _say_softer(figure: "Figure", curves: "list[Curve]") -> None:
+    """Say above a figure by how much springs are softer than Table 1's, where they are."""
+    from drumrs.figures.curves import say_above
+
+    softer = max(curve.softer for curve in curves)
+    if softer > 1.0:
+        say_above(figure.axes[0], f"springs softer by {softer:g}")
 
 
 def _curve(number: str, axis: str, *columns: str) -> "Callable[[StudyData], Figure]":
@@ -114,7 +126,9 @@ def _curve(number: str, axis: str, *columns: str) -> "Callable[[StudyData], Figu
     def draw(data: StudyData) -> "Figure":
         from drumrs.paper import plots
 
-        return plots.CURVES[number](*(points(data.results.shown(axis, column)) for column in columns))
+        figure = plots.CURVES[number](*(points(data.results.shown(axis, column)) for column in columns))
+        _say_softer(figure, data.results.shown(axis, columns[0]))
+        return figure
 
     return draw
 

@@ -69,12 +69,13 @@ class Band:
 
     Attributes
     ----------
-    column, label
-        Quantity and name of the curve.
+    axis, column, label
+        Parameter, quantity and name of the curve.
     x, low, high
         Values of the parameter, and the limits there.
     """
 
+    axis: str
     column: str
     label: str
     x: tuple[float, ...]
@@ -134,6 +135,13 @@ class Finding:
             return self.name
         return f"{self.name}, {self.where}".removeprefix(", ") if self.where else ""
 
+    @property
+    def heading(self) -> str:
+        """What it says and, where it is not so as a whole, the range over which it surely is."""
+        surely = "surely " if self.outcome == UNDECIDED else ""
+        told = f"{self.name}, {surely}{self.where}" if self.where else self.name
+        return told[:1].upper() + told[1:]
+
     def named(self, name: str) -> "Finding":
         """Return it under a name."""
         return replace(self, name=name)
@@ -146,6 +154,11 @@ class OtherReading:
     name: str
     verdict: str
     where: str = ""
+
+    def __str__(self) -> str:
+        """Return name and verdict, and where it holds if in part."""
+        told = f"is {self.verdict}" if self.verdict == UNDECIDED else self.verdict
+        return f"{self.name} it {told}{f' ({self.where})' if self.verdict == IN_PART else ''}"
 
 
 @dataclass(frozen=True)

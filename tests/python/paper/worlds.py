@@ -46,7 +46,7 @@ def measures(at: dict[str, float], baffles: bool) -> dict[str, float | None]:
         "drum_specific_power": specific,
         "dissipated_normal_specific_power": specific * n_over_t / (1.0 + n_over_t),
         "dissipated_sliding_specific_power": specific / (1.0 + n_over_t),
-        "gross_work_ratio": n_over_t if friction else None,
+        "gross_work_ratio": n_over_t if friction else 400.0,
         "dissipation_ratio": 0.98 * n_over_t if friction else None,
         "work_ratio": 0.982 * n_over_t if friction else None,
         "specific_angular_momentum": (0.15 if circulates else 0.0) * (1.03 if baffles else 1.0),

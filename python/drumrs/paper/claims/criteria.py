@@ -263,7 +263,9 @@ def stays_within(curve: Curve, name: str, low: float, high: float, largest: floa
 def band(curve: Curve, low: float, high: float) -> Band:
     """Return the band between two limits along a curve."""
     count = len(curve)
-    return Band(curve.column, curve.label, tuple(curve.x.tolist()), (low,) * count, (high,) * count)
+    return Band(
+        curve.axis, curve.column, curve.label, tuple(curve.x.tolist()), (low,) * count, (high,) * count
+    )
 
 
 def is_constant(curve: Curve, name: str, largest: float) -> Finding:
@@ -281,7 +283,7 @@ def is_similar(curve: Curve, other: Curve, name: str, largest: float) -> Finding
     x, slack = tuple(x for x, _ in pairs), READING * largest
     level = [other.at(one).mean for one in x]
     low, high = (tuple(one + way * slack for one in level) for way in (-1.0, 1.0))
-    found = replace(found, bands=(Band(curve.column, curve.label, x, low, high),))
+    found = replace(found, bands=(Band(curve.axis, curve.column, curve.label, x, low, high),))
     return _with_relative(found, [curve.at(at).mean / one - 1.0 for at, one in zip(x, level, strict=True)])
 
 
@@ -363,4 +365,4 @@ def _turns_nowhere(curve: Curve, name: str, way: int, largest: float) -> Finding
     found = each_within(title, steps, low=0.0, axis=curve.axis, largest=largest)
     none, x = (way * math.inf,) * len(limits), tuple(point.x for point in curve.points[1:])
     low, high = (tuple(limits), none) if way == RISES else (none, tuple(limits))
-    return replace(found, bands=(Band(curve.column, curve.label, x, low, high),))
+    return replace(found, bands=(Band(curve.axis, curve.column, curve.label, x, low, high),))

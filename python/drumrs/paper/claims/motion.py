@@ -37,8 +37,8 @@ Parts = Iterator[tuple[str, Condition]]
 def rocks_then_circulates(results: Results) -> Parts:
     """Judge C9 at each fill of F9: at the smallest friction, and by the load's angular momentum over friction.
 
-    Powers are those dissipated: "relative bundle movement results in … power dissipation", says the text of what
-    is missing here. What springs of a rocking load give and take is not zero, however rigid it moves.
+    Powers, not their ratio, and those dissipated: "relative bundle movement results in both normal and tangential power
+    dissipation", says the text of what is missing at small friction.
     """
     kinds = {
         "normal power zero": ("normal", (-ZERO, ZERO)),
@@ -81,7 +81,12 @@ def _sets_in(results: Results, fill: float) -> Finding:
     told = f"{name}: between {least:.3g} and {most:.3g} ({claimed(high=ABRUPT)}: {ANSWERS[outcome]})."
     numbers = (Number(f"{name}, at least", least, 0.0), Number(f"{name}, at most", most, 0.0))
     passed = Band(
-        curve.column, curve.label, (begins[0], ends[1]), (STILL * usual,) * 2, (CIRCULATING * usual,) * 2
+        curve.axis,
+        curve.column,
+        curve.label,
+        (begins[0], ends[1]),
+        (STILL * usual,) * 2,
+        (CIRCULATING * usual,) * 2,
     )
     return Finding(outcome, told, numbers, bands=(passed,))
 

@@ -51,7 +51,7 @@ def _peak(power: Curve) -> Finding:
     if found.bend.interval().high >= 0.0:
         number = Number.of(name, found.place)
         return Finding(UNDECIDED, f"{name}: the curve is too flat or too noisy to tell.", (number,))
-    everywhere = Band(power.column, power.label, _PEAK, (-np.inf,) * 2, (np.inf,) * 2)
+    everywhere = Band(power.axis, power.column, power.label, _PEAK, (-np.inf,) * 2, (np.inf,) * 2)
     return all_of([within(name, found.place, *_PEAK)], bands=(everywhere,))
 
 
@@ -72,7 +72,14 @@ def _is_less(baffled: Curve, bare: Curve) -> Finding:
     points = [(x, x, one) for x, one in ratios]
     each = none_outside(each_within("Power with over without baffles, fill by fill", points, high=1.0))
     level = tuple(bare.at(x).mean for x, _ in ratios)
-    under = Band(baffled.column, baffled.label, tuple(x for x, _ in ratios), (-np.inf,) * len(ratios), level)
+    under = Band(
+        baffled.axis,
+        baffled.column,
+        baffled.label,
+        tuple(x for x, _ in ratios),
+        (-np.inf,) * len(ratios),
+        level,
+    )
     return all_of([average, each], each.pieces, "fill", bands=(under,))
 
 

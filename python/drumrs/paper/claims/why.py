@@ -2,7 +2,6 @@
 
 import numpy as np
 
-from drumrs.analysis import Estimate
 from drumrs.paper.cases import SIZE_FILL, THIRDS, percent
 from drumrs.paper.curves import Curve, Results
 from drumrs.paper.verdict import MissingError
@@ -29,7 +28,8 @@ def baffles_fill_the_drum(results: Results) -> str:
     same_room = float(np.interp(as_full, bare.x, [one.mean for one in bare.estimates]))
     return (
         f"Baffles take {100.0 * share:.1f} % of the drum’s area. At {percent(at)} fill, which counts the bare drum, "
-        f"{100.0 * as_full:.0f} % of what they leave free is full. The drum with baffles then draws {power:.0f} W/m, the "
+        f"{100.0 * as_full:.0f} % of what they leave free is full. The drum with baffles then draws {power:.0f} "
+        f"W/m, the "
         f"bare one with as many bundles {same_count:.0f} W/m, and the bare one as full, at {100.0 * as_full:.0f} %, "
         f"{same_room:.0f} W/m: to compare at equal room changes the difference from {power - same_count:+.0f} to "
         f"{power - same_room:+.0f} W/m."
@@ -49,8 +49,10 @@ def baffles_keep_their_size(results: Results) -> str:
     first, last = (float(x) for x in curve.x[[0, -1]])
     heights = [drum.baffles.height / (drum.diameter / ratio) for ratio in (first, last)]
     return (
-        f"The baffles keep their size: {heights[0]:.1f} bundle diameters high at D/d = {first:g}, and {heights[1]:.1f} at "
-        f"{last:g}. So with baffles it is not the bundles alone that change against the drum: at {percent(SIZE_FILL)} fill "
+        f"The baffles keep their size: {heights[0]:.1f} bundle diameters high at D/d = {first:g}, and "
+        f"{heights[1]:.1f} at "
+        f"{last:g}. So with baffles it is not the bundles alone that change against the drum: at "
+        f"{percent(SIZE_FILL)} fill "
         f"specific power goes from {curve.at(first).mean:.2f} to {curve.at(last).mean:.2f} W/kg."
     )
 
@@ -106,5 +108,4 @@ def ratio_turns_at_the_last_step(results: Results) -> str:
 
 
 def _change(curve: Curve, before: float, after: float) -> float:
-    a: Estimate = curve.at(before)
-    return curve.at(after).mean / a.mean - 1.0
+    return curve.at(after).mean / curve.at(before).mean - 1.0
