@@ -254,8 +254,8 @@ def points_of(curve: Curve) -> list[At]:
 
 
 def stays_within(curve: Curve, name: str, low: float, high: float, largest: float) -> Finding:
-    """Ask whether a curve lies between limits that the text reads by eye."""
-    curve = curve.between()
+    """Ask whether a curve, two points at least, lies between limits that the text reads by eye."""
+    curve = curve.between(least=2)
     found = each_within(name, points_of(curve), low, high, axis=curve.axis, largest=largest)
     return replace(found, bands=(band(curve, low - READING * largest, high + READING * largest),))
 
