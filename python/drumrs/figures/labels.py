@@ -12,6 +12,7 @@ POWERS = f"Power of the drum and losses, means over {{:.2g}} s [{quantity('drum_
 FILL = "fill N d²/D² [%]"
 DRUM_POWER = quantity("drum_power").label
 DRUM_SPECIFIC_POWER = quantity("drum_specific_power").label
+GROSS_WORK_RATIO = f"{quantity('gross_work_ratio').label} N/T"
 DISSIPATION_RATIO = f"{quantity('dissipation_ratio').label} N/T"
 WORK_RATIO = f"{quantity('work_ratio').label} N/T"
 FRICTION = "coefficient of friction μ"

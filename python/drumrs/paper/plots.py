@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+# Marks of N/T by other readings than the line's.
+_MARKS = {"x": "by dissipation", "+": "by net work"}
 # Running means over that long [s]: some two turns of the drum.
 _LONG = 2.0
 
@@ -53,17 +55,17 @@ def specific_power_against_fill(points: "pl.DataFrame") -> "Figure":
     return curves(points, Labels(labels.FILL, labels.DRUM_SPECIFIC_POWER, x_scale=100.0))
 
 
-def ratio_against_fill(points: "pl.DataFrame", other: "pl.DataFrame") -> "Figure":
+def ratio_against_fill(points: "pl.DataFrame", *others: "pl.DataFrame") -> "Figure":
     """Draw F6: N/T against fill, without and with baffles.
 
     Parameters
     ----------
     points
-        N/T by dissipation.
-    other
-        N/T by net work: crosses.
+        N/T by gross work.
+    *others
+        N/T by dissipation and by net work: marks.
     """
-    return _two_readings(points, other, Labels(labels.FILL, labels.DISSIPATION_RATIO, x_scale=100.0))
+    return _readings(points, others, Labels(labels.FILL, labels.GROSS_WORK_RATIO, x_scale=100.0))
 
 
 def specific_power_against_size(points: "pl.DataFrame") -> "Figure":
@@ -76,9 +78,9 @@ def specific_power_against_friction(points: "pl.DataFrame") -> "Figure":
     return curves(points, Labels(labels.FRICTION, labels.DRUM_SPECIFIC_POWER))
 
 
-def ratio_against_friction(points: "pl.DataFrame", other: "pl.DataFrame") -> "Figure":
-    """Draw F9: N/T against friction without baffles, at three fills; `other` as in `ratio_against_fill`."""
-    return _two_readings(points, other, Labels(labels.FRICTION, labels.DISSIPATION_RATIO))
+def ratio_against_friction(points: "pl.DataFrame", *others: "pl.DataFrame") -> "Figure":
+    """Draw F9: N/T against friction without baffles, at three fills; `others` as in `ratio_against_fill`."""
+    return _readings(points, others, Labels(labels.FRICTION, labels.GROSS_WORK_RATIO))
 
 
 def specific_power_against_speed(points: "pl.DataFrame", centrifuging: float) -> "Figure":
@@ -130,12 +132,13 @@ def _say_below(axes: "Axes", x: float, text: str, beside: float = 0.0) -> None:
     )
 
 
-def _two_readings(points: "pl.DataFrame", other: "pl.DataFrame", axis_labels: Labels) -> "Figure":
+def _readings(points: "pl.DataFrame", others: "Sequence[pl.DataFrame]", axis_labels: Labels) -> "Figure":
     figure = curves(points, axis_labels)
     axes = figure.axes[0]
-    x, y = axis_labels.x_scale * other["x"].to_numpy(), other["mean"].to_numpy()
-    axes.plot(x, y, "x", color="black", markersize=6.5, markeredgewidth=0.6, zorder=4)
-    say_above(axes, f"×: {labels.WORK_RATIO}")
+    for other, (mark, name) in zip(others, _MARKS.items(), strict=True):
+        x, y = axis_labels.x_scale * other["x"].to_numpy(), other["mean"].to_numpy()
+        axes.plot(x, y, mark, color="black", markersize=6.5, markeredgewidth=0.6, zorder=4)
+        say_above(axes, f"{mark.replace('x', '×')}: {name}")
     return figure
 
 

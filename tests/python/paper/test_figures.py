@@ -116,9 +116,9 @@ def test_drifting_points_are_open_and_seeds_that_disagree_are_shown(table):
     at_half = (pl.col("load.fill") == 0.5) & (pl.col("contact.bundle.friction") == 0.5)
     moved = table.with_columns(
         drifting=at_half & (pl.col("seed") == 1),
-        dissipation_ratio=pl.when(at_half & (pl.col("seed") == 1))
+        gross_work_ratio=pl.when(at_half & (pl.col("seed") == 1))
         .then(1.2)
-        .otherwise(pl.col("dissipation_ratio")),
+        .otherwise(pl.col("gross_work_ratio")),
     )
     axes = drawn("F6", moved).axes[0]
     assert marked(axes, "white") == 2
@@ -132,6 +132,20 @@ def test_unknown_errors_have_no_bar():
     assert set(frame["half_width"]) == {math.inf}
     bars = plots.specific_power_against_fill(frame).axes[0].collections[0].get_segments()
     assert all(bar[0, 1] == bar[1, 1] for bar in bars)
+
+
+@pytest.mark.parametrize("number", ["F6", "F9"])
+def test_three_readings_of_the_ratio_are_shown(number, table):
+    axes = drawn(number, table).axes[0]
+    marks = {
+        line.get_marker(): np.asarray(line.get_ydata())
+        for line in axes.get_lines()
+        if line.get_marker() in "x+"
+    }
+    assert {mark: len(y) for mark, y in marks.items()} == dict.fromkeys("x+", len(marks["x"]))
+    assert (marks["+"] >= marks["x"]).all()
+    assert axes.get_title(loc="left") == "×: by dissipation; +: by net work"
+    assert axes.get_ylabel() == "gross work ratio N/T"
 
 
 def test_snapshots_are_of_the_first_seed_in_the_papers_order():
