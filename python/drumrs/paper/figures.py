@@ -34,7 +34,7 @@ class PaperFigure:
     Attributes
     ----------
     number
-        ``"F2"`` to ``"F9"``, ``"speed"``, ``"restitution"``, ``"drift"``.
+        ``"F2"`` to ``"F9"``, ``"speed"``, ``"restitution"``, ``"drift"``, ``"states"``.
     title, caption
         What it shows, and how to read it.
     draw
@@ -99,6 +99,12 @@ def _draw_drift(data: StudyData) -> "Figure":
         config = found[0].config
         mass[name] = config.derived.load_mass
     return plots.drift_over_time(runs, mass, config.run.averaging_window)
+
+
+def _draw_states(data: StudyData) -> "Figure":
+    from drumrs.paper import plots
+
+    return plots.states_over_time(data.two_states)
 
 
 def _draw_speed(data: StudyData) -> "Figure":
@@ -202,6 +208,14 @@ _ALL = (
         "Running means over 2 s, one line a seed; shaded is the window of the averages. Where a load passes between "
         "states, lines bend and part for longer than a few seconds.",
         _draw_drift,
+    ),
+    PaperFigure(
+        "states",
+        "Two states about half full",
+        "Without baffles. Above: angular momentum of the load, means over a turn, of the first five seeds, colored by "
+        "state. Below: the share of the time that the load is a ring carried round, and what the drum does in each "
+        "state. Bars are 95 % intervals over the runs.",
+        _draw_states,
     ),
 )
 

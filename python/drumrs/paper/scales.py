@@ -28,6 +28,9 @@ class Scale:
     softer
         By how much springs are softer, and time steps longer by its root, for the points of ``"size"``, ``"speed"`` or
         ``"restitution"``. Power is lower by some 3 % at 100 (docs/accuracy.md); N/T is taken from no such run.
+    half_full_seeds, half_full_duration
+        Seeds and simulated time [s] of the bare drum about half full, where the load passes between two states; means
+        are from the window's start to the end. Without seeds these fills are run as the others.
     sizes
         Drum over bundle diameter, D/d.
     frictions
@@ -47,6 +50,8 @@ class Scale:
     frictions: tuple[float, ...]
     speeds: tuple[float, ...]
     restitutions: tuple[float, ...]
+    half_full_seeds: tuple[int, ...] = ()
+    half_full_duration: float = 120.0
     fills_with_triangles: tuple[float, ...] = ()
     sizes_with_triangles: tuple[float, ...] = ()
     softer: Mapping[str, float] = field(default_factory=lambda: MappingProxyType({}))
@@ -64,6 +69,7 @@ _DEFAULT = Scale(
     seeds=(1, 2, 3),
     duration=30.0,
     window=(20.0, 30.0),
+    half_full_seeds=tuple(range(1, 11)),
     fills=(*_FILLS, 0.80),
     fills_with_baffles=_FILLS,
     fills_with_triangles=_FILLS,
