@@ -16,8 +16,6 @@ from drumrs.sweep import Case, Failure, Sweep
 if TYPE_CHECKING:
     import polars as pl
 
-    from drumrs.paper.states import TwoStates
-
 
 @dataclass(frozen=True, eq=False)
 class StudyData:
@@ -60,19 +58,6 @@ class StudyData:
     def configs(self) -> dict[str, Config]:
         """Configuration of every case by its name."""
         return {case.id: case.config for case in self.sweep.cases}
-
-    @cached_property
-    def two_states(self) -> "list[TwoStates]":
-        """What the load does about half full.
-
-        Raises
-        ------
-        MissingError
-            Where the long runs that tell are missing.
-        """
-        from drumrs.paper.states import two_states
-
-        return two_states(self)
 
     def cases(self, fill: float, drum: Drum = BARE) -> list[Case]:
         """Return the finished cases of a fill in a drum, all else as in Table 1, by seed.

@@ -12,6 +12,7 @@ from drumrs.paper.cases import THIRDS, percent
 from drumrs.paper.curves import RATIOS
 from drumrs.paper.data import StudyData
 from drumrs.paper.drums import BAFFLED, BARE, Drum
+from drumrs.paper.states import two_states
 from drumrs.paper.verdict import MissingError
 
 if TYPE_CHECKING:
@@ -104,7 +105,7 @@ def _draw_drift(data: StudyData) -> "Figure":
 def _draw_states(data: StudyData) -> "Figure":
     from drumrs.paper import plots
 
-    return plots.states_over_time(data.two_states)
+    return plots.states_over_time(two_states(data))
 
 
 def _draw_speed(data: StudyData) -> "Figure":

@@ -7,6 +7,7 @@ which rides round as a ring about the axis. Near half full a load passes from on
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -14,13 +15,13 @@ from numpy.typing import NDArray
 
 from drumrs.analysis import Estimate
 from drumrs.paper.cases import HALF_FULL, percent
+from drumrs.paper.data import StudyData
 from drumrs.paper.verdict import MissingError
 
 if TYPE_CHECKING:
     import polars as pl
 
     from drumrs.config import Config
-    from drumrs.paper.data import StudyData
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -176,7 +177,8 @@ class TwoStates:
         return float(np.concatenate(self.rings).mean())
 
 
-def two_states(data: "StudyData") -> list[TwoStates]:
+@lru_cache(maxsize=1)
+def two_states(data: StudyData) -> list[TwoStates]:
     """Return what the bare drum's load does at the fills about 50 %.
 
     The levels of the two states are the means at the least and at the greatest of these fills.

@@ -9,6 +9,7 @@ import numpy as np
 from drumrs.paper.cases import BASELINE_FILL, HALF_FULL, THIRDS, percent
 from drumrs.paper.curves import RATIOS, Curve
 from drumrs.paper.data import StudyData
+from drumrs.paper.states import two_states
 from drumrs.paper.verdict import (
     FAILS,
     HOLDS,
@@ -192,7 +193,7 @@ def _fall(data: StudyData) -> Sentence:
 
 
 def _states(data: StudyData) -> Sentence:
-    half = next(one for one in data.two_states if one.fill == HALF_FULL[1])
+    half = next(one for one in two_states(data) if one.fill == HALF_FULL[1])
     told = []
     for name, state in (
         ("a ring that the drum carries round", half.ring),
