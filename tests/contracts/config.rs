@@ -1,9 +1,7 @@
 //! The configuration at the border: every key is there, is required, survives the round trip in every bit, and has its
 //! limits.
 
-mod common;
-
-use common::*;
+use crate::common::*;
 use drumrs::io::config::SimulationConfig;
 use drumrs::physics::drum::baffle::BaffleShape;
 use serde_json::Value;

@@ -1,14 +1,14 @@
 //! The ledger on its own: charging a step, and the sums over the load that a sample asks for.
 
-mod scenes;
-
 use std::hint::black_box;
 
-use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use criterion::{Criterion, Throughput};
 use drumrs::physics::energy::{EnergyLedger, MomentBalance, StoredEnergy, SurfaceLoad};
 use drumrs::physics::vector::Vec2;
 
-fn accounts(criterion: &mut Criterion) {
+use crate::scenes;
+
+pub fn accounts(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("ledger");
     scenes::keep_short(&mut group);
     // Rim and three baffles.
@@ -32,6 +32,3 @@ fn accounts(criterion: &mut Criterion) {
     });
     group.finish();
 }
-
-criterion_group!(benches, accounts);
-criterion_main!(benches);
