@@ -20,7 +20,7 @@ use super::fork_guard::Entered;
 use crate::error::Error;
 use crate::io::config::SimulationConfig;
 use crate::observe::frames::Frames;
-use crate::observe::recorder::columns;
+use crate::observe::recorder::{Recording, columns};
 use crate::observe::summary::summarize;
 use crate::physics::particles::Particles;
 use crate::simulation::Simulation as Core;
@@ -291,12 +291,9 @@ impl Simulation {
 
     fn series<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let table = self.with(py, |core| {
-            let names = columns(core.drum().baffle_count(), core.drum().wall_count());
-            let values = (0..names.len()).map(|index| core.series().try_column(index));
-            names
-                .into_iter()
-                .zip(values)
-                .map(|(column, values)| Ok((column.name, values?)))
+            let columns = core.series().columns().iter().enumerate();
+            columns
+                .map(|(index, column)| Ok((column.name.clone(), core.series().try_column(index)?)))
                 .collect::<Result<Vec<_>, Error>>()
         });
         let series = PyDict::new(py);
@@ -384,8 +381,9 @@ impl Simulation {
 
     /// The columns of the series: name, symbol, unit, reading, formula, meaning.
     #[staticmethod]
-    fn columns(baffles: usize, walls: usize) -> Vec<[String; 6]> {
-        let told = columns(baffles, walls).into_iter();
+    fn columns(baffles: usize, walls: usize, record_gross_work: bool) -> Vec<[String; 6]> {
+        let record = record_gross_work.then_some(Recording::GrossWork);
+        let told = columns(baffles, walls, record.as_slice()).into_iter();
         told.map(|c| {
             [c.name, c.symbol, c.unit.into(), c.reading.name().into(), c.formula, c.meaning]
                 .map(Cow::into_owned)

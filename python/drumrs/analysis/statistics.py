@@ -15,6 +15,7 @@ _MEANS = (
     "dissipated_sliding_specific_power",
     "dissipation_ratio",
     "work_ratio",
+    "gross_work_ratio",
     "specific_angular_momentum",
 )
 _TESTS = (
@@ -32,6 +33,7 @@ STATISTICS = (*(f"{name}{ending}" for name in _MEANS for ending in ("", "_error"
 # Changes below this do not matter, however sure.
 _MATTERS = 0.01
 _LOSSES = ("dissipated_normal", "dissipated_sliding")
+_GROSS_WORK = ("gross_work_normal", "gross_work_tangential")
 
 
 def statistics(
@@ -55,6 +57,7 @@ def statistics(
         drum puts in, and what normal damping and sliding take [W/kg].
         ``dissipation_ratio``: the latter two over each other.
         ``work_ratio``: the same with what springs store counted as well.
+        ``gross_work_ratio``: the same with loading and unloading both counted, where that was recorded.
         ``specific_angular_momentum`` [m²/s], 0 for a load that stays where it is, however it rocks.
         All with ``…_error``; `None` where not defined.
         ``drift``: change of the drum's specific power within the window over its mean, ``share_drift``: that of the
@@ -68,6 +71,8 @@ def statistics(
     }
     means["dissipation_ratio"] = ratio_with_error(series, *_LOSSES, window)
     means["work_ratio"] = ratio_with_error(series, "normal_work", "tangential_work", window)
+    is_recorded = set(_GROSS_WORK) <= set(series.columns)
+    means["gross_work_ratio"] = ratio_with_error(series, *_GROSS_WORK, window) if is_recorded else None
     means["specific_angular_momentum"] = _scaled(_sampled(series, "angular_momentum", window), mass)
     columns: dict[str, float | bool | None] = {}
     for name, mean in means.items():

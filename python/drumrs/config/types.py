@@ -2,7 +2,7 @@
 
 import numbers
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field
 
@@ -107,6 +107,8 @@ Seed = Annotated[
     Field(ge=0, le=GREATEST_SEED),
     Limit(f"a whole number from 0 to {GREATEST_SEED}"),
 ]
+
+Recordings = Annotated[tuple[Literal["gross_work"], ...], Limit("a list of 'gross_work'")]
 
 Vector = Annotated[tuple[Real, Real], BeforeValidator(_plain), Limit("a pair [x, y] of finite numbers")]
 Interval = Annotated[
