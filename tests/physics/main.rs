@@ -9,6 +9,7 @@ mod damping;
 mod drum;
 mod energy;
 mod friction;
+mod gross_work;
 mod hertz;
 mod impacts;
 mod packing;
