@@ -53,6 +53,7 @@ const KEYS: &[&str] = &[
     "rotation.knots",
     "run.frame_every",
     "run.overlap_limit",
+    "run.record",
     "run.sample_every",
     "run.skin",
     "run.time_step",
