@@ -10,7 +10,7 @@ use drumrs::physics::contact::linear::{Linear, LinearHistory, LinearLaw};
 use drumrs::physics::contact::{ContactState, Kinematics, RelativeMotion};
 use drumrs::physics::scalar::Scalar;
 
-use crate::scenes;
+use crate::keep_short;
 use crate::scenes::common::{TIME_STEP, law, linear_law};
 
 /// Numbers within ±1.
@@ -47,7 +47,7 @@ pub fn responses(criterion: &mut Criterion) {
     let law = LinearLaw::map(&linear_law(&law(9.25e7)), F64x4::splat);
     let time = [F64x4::splat(TIME_STEP), F64x4::splat(1.0 / TIME_STEP)];
     let mut group = criterion.benchmark_group("law");
-    scenes::keep_short(&mut group);
+    keep_short(&mut group);
     group.throughput(Throughput::Elements((contacts.len() * LANES) as u64));
     group.bench_function("linear", |bencher| {
         bencher.iter(|| {

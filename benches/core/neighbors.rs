@@ -6,11 +6,11 @@ use drumrs::engine::pair_list::PairList;
 use drumrs::engine::parallel::Threads;
 use drumrs::physics::vector::Rotation;
 
-use crate::scenes;
+use crate::{keep_short, scenes};
 
 pub fn rebuilds(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("rebuild");
-    scenes::keep_short(&mut group);
+    keep_short(&mut group);
     let threads = Threads::new(1).expect("one thread");
     for count in [1_000, 10_000, 100_000] {
         group.throughput(Throughput::Elements(count as u64));

@@ -4,11 +4,11 @@ use criterion::{BenchmarkId, Criterion, Throughput};
 use drumrs::physics::drum::Drum;
 use drumrs::physics::load::packing::pack;
 
-use crate::scenes;
+use crate::{keep_short, scenes};
 
 pub fn beds(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("packing");
-    scenes::keep_short(&mut group);
+    keep_short(&mut group);
     group.sample_size(10);
     for count in [100, 300, 10_000] {
         let drum = Drum::new(&scenes::drum_for(count, 0).drum).expect("a valid drum");

@@ -2,11 +2,11 @@
 
 use criterion::{BenchmarkId, Criterion, Throughput};
 
-use crate::scenes;
+use crate::{keep_short, scenes};
 
 pub fn steps(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("step");
-    scenes::keep_short(&mut group);
+    keep_short(&mut group);
     for (name, baffle_count) in [("bare", 0), ("baffles", 3)] {
         for count in [100, 200, 300, 1_000, 10_000, 100_000] {
             let batch = (100_000 / count).max(2) as u64;
