@@ -11,7 +11,14 @@ from drumrs.errors import ConfigError
 from drumrs.files import read_object, write_whole
 
 # What a folder may be of, and how it is called.
-KINDS = {"run": "a run", "baseline": "a comparison", "sweep": "a sweep", "reproduction": "a reproduction"}
+KINDS = {
+    "run": "a run",
+    "baseline": "a comparison",
+    "sweep": "a sweep",
+    "reproduction": "a reproduction",
+    "validation": "a validation",
+    "baffle": "an inference of the baffle",
+}
 # What a run's folder holds.
 RUN_FILES = (
     "config.toml",

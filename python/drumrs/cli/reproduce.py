@@ -23,6 +23,7 @@ def reproduce(
     *,
     quick: Flag = False,
     full: Flag = False,
+    baffle: Flag = False,
     out: Path = Path("out"),
     jobs: Jobs = None,
     retry: Flag = False,
@@ -37,8 +38,11 @@ def reproduce(
         Two seeds, short windows, few points: minutes. What that cannot decide stays undecided.
     full
         Ten seeds instead of three.
+    baffle
+        Instead of the study, infer the shape of the paper's baffle, whose drawing is lost, from what the text says.
     out
-        Folder for report.html, summary.md, table.parquet, figures/ and runs/.
+        Folder for report.html, summary.md, table.parquet, figures/ and runs/; with --baffle for baffle.md,
+        baffle.parquet, figures/ and runs/.
     retry
         Run cases again that failed before.
     """
@@ -46,13 +50,33 @@ def reproduce(
 
     if quick and full:
         raise ConfigError("--quick", problem="and --full are both given, but only one of them may be")
+    if baffle and (quick or full or retry):
+        raise ConfigError(
+            "--baffle", problem="is given with --quick, --full or --retry, but has one scale of its own"
+        )
     check_folder(out)
+    if baffle:
+        return _infer_baffle(out, jobs)
     reproduction = Reproduction("quick" if quick else "full" if full else "default", out, jobs)
     _announce(reproduction)
     done = reproduction.run(retry=retry)
     _print_verdicts(done)
     print_paths([*sorted({done.table, done.summary, out / "figures"}), done.report])
     return _tell_failures(done)
+
+
+def _infer_baffle(out: Path, jobs: int | None) -> int:
+    from drumrs.paper import infer_baffle
+
+    found = infer_baffle(out, jobs=jobs)
+    height, base, tip = (f"{100.0 * length:.3g}" for length in found.best.lengths)
+    sys.stdout.write(f"inferred baffle: height {height} cm, base {base} cm, tip {tip} cm\n")
+    for failure in found.failures:
+        sys.stderr.write(
+            f"drumrs: case {failure.case.id} ({failure.case.config.title}) failed: {failure.message}\n"
+        )
+    print_paths([out / "baffle.parquet", out / "figures", out / "baffle.md"])
+    return _FAILED if found.failures else 0
 
 
 def _announce(reproduction: "Reproduction") -> None:

@@ -54,7 +54,7 @@ def test_the_time_step_follows_the_contact_time():
     for ratio in (10.0, 37.0):
         config = next(c for c in paper.cases("default") if math.isclose(c.load.diameter, 0.475 / ratio))
         simulation = drumrs.Simulation(config)
-        assert simulation.collision_times["bundle"] / simulation.time_step == pytest.approx(51.5, abs=0.1)
+        assert simulation.collision_time["bundle"] / simulation.time_step == pytest.approx(51.5, abs=0.1)
 
 
 @pytest.mark.parametrize("scale", ["quick", "default"])

@@ -234,8 +234,8 @@ def test_drifting_runs_are_named(data):
         drift_significance=pl.lit(1e-6),
         share_drift_significance=pl.lit(0.5),
         share_drift=pl.lit(0.01),
-        state_switching=pl.lit(None, pl.Float64),
-        state_switching_significance=pl.lit(None, pl.Float64),
+        share_switching=pl.lit(None, pl.Float64),
+        share_switching_significance=pl.lit(None, pl.Float64),
     )
     some = replace(data, table=drifting)
     runs = [run for run in checks.runs(some) if run.drifting]

@@ -19,8 +19,8 @@ __all__ = ["CLAIMS", "EVIDENCE", "Claim", "judge"]
 # C1 to C14.
 CLAIMS = tuple(sorted(power.CLAIMS + ratio.CLAIMS + motion.CLAIMS, key=lambda claim: int(claim.number[1:])))
 
-# Claims that speak of baffles, and from which the shape of the lost baffle was inferred: agreeing with them is no
-# confirmation.
+# Claims that say what sentences say from which the shape of the lost baffle was inferred (`paper.baffle.sentences`):
+# agreeing with them is no confirmation.
 EVIDENCE = frozenset({"C1", "C2", "C3", "C4", "C5", "C7", "C11", "C13"})
 
 _OF_RATIO = frozenset(claim.number for claim in ratio.CLAIMS)

@@ -94,7 +94,7 @@ def _value(value: float | None, error: float | None) -> str:
 _TESTS = (
     ("drift", "power changes by {:+.0%}"),
     ("share_drift", "N’s share changes by {:+.2f}"),
-    ("state_switching", "N’s share differs by {:.2f} between parts of the run"),
+    ("share_switching", "N’s share differs by {:.2f} between parts of the run"),
 )
 
 

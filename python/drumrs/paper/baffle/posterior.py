@@ -1,0 +1,183 @@
+"""Which shapes the paper's sentences leave: weights over shapes, from what an emulator foretells of each."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drumrs.paper.baffle.emulator import Emulator
+from drumrs.paper.baffle.evidence import Known, Observable, Sentence
+from drumrs.paper.baffle.sentences import POWER, RATIO, log_likelihood
+from drumrs.paper.baffle.shape import BASES, HEIGHTS, ROOM, Shape, shares_of_drum
+
+Array = NDArray[np.float64]
+Correction = Mapping[Observable, tuple[float, float]]
+"""Full stiffness over softer springs, and its error, for the observables that depend on it."""
+
+# What depends on stiffness enough to be corrected.
+_CORRECTED = (POWER, RATIO)
+# How much that may differ between the bare drum and one with baffles, as long as only the bare one is known.
+_UNKNOWN_SPREAD = 0.05
+# Shapes that are worth a run at full stiffness, so many m apart in height, base and tip.
+_GRID = 0.005
+
+
+@dataclass(frozen=True, eq=False)
+class Posterior:
+    """Weights over shapes that were spread evenly.
+
+    Attributes
+    ----------
+    shapes
+        Rows of height, base and tip [m].
+    weights
+        Their weights, which sum to 1.
+    """
+
+    shapes: Array
+    weights: Array
+
+    @property
+    def effective(self) -> float:
+        """How many shapes of equal weight would tell as much."""
+        return float(1.0 / np.sum(self.weights**2))
+
+    def quantiles(self, values: Array, levels: tuple[float, ...] = (0.16, 0.5, 0.84)) -> list[float]:
+        """Return quantiles of a quantity that has a value for each shape."""
+        order = np.argsort(values)
+        below = np.cumsum(self.weights[order]) - 0.5 * self.weights[order]
+        return [float(x) for x in np.interp(levels, below, values[order])]
+
+    def narrowing(self, values: Array) -> float:
+        """Return the scatter of a quantity over what it was before anything was known."""
+        mean = self.weights @ values
+        return float(np.sqrt(self.weights @ (values - mean) ** 2) / values.std())
+
+    def correlation(self, first: Array, second: Array) -> float:
+        """Return the correlation of two quantities."""
+        a, b = first - self.weights @ first, second - self.weights @ second
+        return float(self.weights @ (a * b) / np.sqrt((self.weights @ a**2) * (self.weights @ b**2)))
+
+    @property
+    def bits(self) -> float:
+        """Return how much was learned: the divergence from equal weights, in bits."""
+        some = self.weights[self.weights > 0.0]
+        return float(np.sum(some * np.log2(some * len(self.weights))))
+
+
+def posterior(shapes: Array, known: Known, factor: float = 1.0, without: Sentence | None = None) -> Posterior:
+    """Weigh shapes by the likelihood of the sentences; before, all shapes of the region are equally likely.
+
+    Parameters
+    ----------
+    shapes
+        Rows of height, base and tip [m], spread evenly over the region.
+    known
+        Means and errors of all observables at these shapes.
+    factor
+        Multiplies all tolerances.
+    without
+        A sentence that is left out.
+    """
+    return weigh(shapes, log_likelihood(known, factor, without))
+
+
+def weigh(shapes: Array, logarithms: Array) -> Posterior:
+    """Return the posterior of a logarithm of the likelihood."""
+    weights = np.exp(logarithms - logarithms.max())
+    return Posterior(shapes, weights / weights.sum())
+
+
+def foretell(
+    emulators: Mapping[Observable, Emulator], shapes: Array, bare: Known, correction: Correction
+) -> Known:
+    """Return means and errors of all observables at full stiffness, those of the bare drum included.
+
+    Parameters
+    ----------
+    emulators
+        Emulators of the observables with softer springs.
+    shapes
+        Rows of height, base and tip [m].
+    bare
+        What is known of the bare drum at full stiffness.
+    correction
+        Full stiffness over softer springs.
+    """
+    found = dict(bare)
+    for one, emulator in emulators.items():
+        mean, error = emulator.predict(shapes)
+        factor, spread = correction.get(one, (1.0, 0.0))
+        found[one] = (factor * mean, np.hypot(factor * error, spread * mean))
+    return found
+
+
+def provisional_correction(soft: Known, stiff: Known) -> dict[Observable, tuple[float, float]]:
+    """Return full stiffness over softer springs as the bare drum has it, with what baffles may change about it."""
+    return {
+        one._replace(baffles=True): (
+            float(stiff[one][0] / soft[one][0]),
+            float(np.hypot(_relative(soft[one], stiff[one]), _UNKNOWN_SPREAD)),
+        )
+        for one in stiff
+        if one.quantity in _CORRECTED and one in soft
+    }
+
+
+def measured_correction(soft: Known, stiff: Known) -> dict[Observable, tuple[float, float]]:
+    """Return full stiffness over softer springs as mean over shapes, observable by observable.
+
+    Parameters
+    ----------
+    soft, stiff
+        Means and errors at the same shapes, arrays of shape (n,).
+
+    Returns
+    -------
+    dict
+        Mean ratio and its error: that of the mean, and the scatter between shapes beyond what noise explains.
+    """
+    found = {}
+    for one in stiff:
+        if one.quantity in _CORRECTED and one in soft:
+            ratios = stiff[one][0] / soft[one][0]
+            noise = ratios * _relative(soft[one], stiff[one])
+            mean, scatter = float(ratios.mean()), float(ratios.var(ddof=1)) if len(ratios) > 1 else np.inf
+            beyond = (
+                max(0.0, scatter - float(np.mean(noise**2))) if np.isfinite(scatter) else _UNKNOWN_SPREAD**2
+            )
+            error = float(np.sqrt(beyond + np.mean(noise**2) / len(ratios)))
+            found[one] = (mean, error)
+    return found
+
+
+def _relative(first: tuple[Array, Array], second: tuple[Array, Array]) -> Array:
+    error: Array = np.hypot(first[1] / first[0], second[1] / second[0])
+    return error
+
+
+def round_shapes() -> list[Shape]:
+    """Return the shapes of the region whose lengths are whole multiples of 5 mm."""
+    heights, bases = (np.arange(low, high + 0.5 * _GRID, _GRID) for low, high in (HEIGHTS, BASES))
+    tips = np.arange(0.0, BASES[1] + 0.5 * _GRID, _GRID)
+    grid = np.stack(np.meshgrid(heights, bases, tips, indexing="ij"), axis=-1).reshape(-1, 3)
+    inside = (grid[:, 2] <= grid[:, 1] + 1e-9) & (shares_of_drum(grid) <= ROOM)
+    # Multiples of 5 mm as one writes them.
+    return [Shape(*(round(x, 4) for x in row)) for row in grid[inside].tolist()]
+
+
+def spread_over(shapes: list[Shape], logarithms: Array, count: int) -> list[Shape]:
+    """Choose likely shapes that are not neighbors.
+
+    The likeliest comes first; each further one has the greatest product of likelihood and squared distance to those
+    chosen before it, so that fewer are always the first of more.
+    """
+    places = np.array([shape.lengths for shape in shapes])
+    likelihood = np.exp(logarithms - logarithms.max())
+    chosen = [int(np.argmax(likelihood))]
+    distance = np.full(len(shapes), np.inf)
+    while len(chosen) < min(count, len(shapes)):
+        distance = np.minimum(distance, ((places - places[chosen[-1]]) ** 2).sum(axis=1))
+        chosen.append(int(np.argmax(likelihood * distance)))
+    return [shapes[k] for k in chosen]
