@@ -1,6 +1,5 @@
 """The drums of the study: bare, with its baffles, and with the triangles that were first assumed."""
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -8,6 +7,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from drumrs.config import Config, baseline
+from drumrs.paper.baffle.shape import TRIANGLE, Shape
 
 if TYPE_CHECKING:
     import polars as pl
@@ -47,30 +47,17 @@ class Drum:
 
     @property
     def baffles_share(self) -> float:
-        """Part of the drum's area that baffles take, what lies between a base, a chord, and the rim included."""
-        drum = self.config().drum
-        baffles, radius, half = drum.baffles, drum.diameter / 2.0, drum.baffles.base / 2.0
-        foot = math.sqrt(radius**2 - half**2)
-        segment = radius**2 * math.asin(half / radius) - half * foot
-        width = half + (baffles.tip / 2.0 if baffles.shape == "trapezoid" else 0.0)
-        one = segment + width * (foot - (radius - baffles.height))
-        return baffles.count * one / (math.pi * radius**2)
+        """Part of the drum's area that its three baffles take."""
+        baffles = self.config().drum.baffles
+        return Shape(
+            baffles.height, baffles.base, baffles.tip if baffles.shape == "trapezoid" else 0.0
+        ).share_of_drum
 
 
 BARE = Drum("without baffles")
 # The paper gives no dimensions: those of the configuration's defaults.
 BAFFLED = Drum("with baffles", MappingProxyType({f"{_BAFFLES}.count": 3}))
-TRIANGLES = Drum(
-    "with triangles",
-    MappingProxyType(
-        {
-            f"{_BAFFLES}.count": 3,
-            f"{_BAFFLES}.shape": "triangle",
-            f"{_BAFFLES}.height": 0.05,
-            f"{_BAFFLES}.base": 0.06,
-        }
-    ),
-)
+TRIANGLES = Drum("with triangles", MappingProxyType(TRIANGLE.keys))
 
 
 def baffles_are_inferred() -> bool:

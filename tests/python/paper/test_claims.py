@@ -32,9 +32,8 @@ fill, friction = pl.col("load.fill"), pl.col("contact.bundle.friction")
 baffles = pl.col("drum.baffles.count") > 0
 small = friction < 0.12
 
-USUAL = measures(
-    {"fill": 0.25, "size": 20.0, "friction": 0.5, "speed": 54.0, "restitution": 0.1}, baffles=False
-)["drum_specific_power"]
+BASE = {"fill": 0.25, "size": 20.0, "friction": 0.5, "speed": 54.0, "restitution": 0.1}
+USUAL = measures(BASE, baffles=False)["drum_specific_power"]
 
 NOWHERE = ""
 # What breaks a claim, one change each: where it still holds, in words. Where it holds nowhere, it does not hold.
@@ -339,6 +338,18 @@ def test_similar_is_judged_on_the_figures_scale_and_told_relatively():
     assert similar.sentence.endswith("Relative difference: -13 % to -3 %.")
     closer = verdict("C2", changed("drum_power", pl.col("drum_power") * 0.97, baffles, fill == 0.75))
     assert closer.parts[1].outcome == HOLDS
+
+
+def test_reasons_are_given_where_something_fails_and_nowhere_else(ideal):
+    assert {one.why for one in ideal} == {""}
+    assert {one.why for one in paper.judge(world(noise=2.0))} == {""}
+    table = changed("dissipated_sliding_specific_power", 3.0, small, fill == 0.75)
+    why = {one.claim: one.why for one in paper.judge(table)}
+    assert [claim for claim, told in why.items() if told] == ["C9"]
+    # Numbers are those of the table.
+    usual = [measures({**BASE, "fill": x}, baffles=False)["drum_specific_power"] for x in (0.25, 0.5, 0.75)]
+    assert "{:.2f}, {:.2f} and {:.2f} W/kg: a drum nearly full".format(*usual) in why["C9"]
+    assert "3.00 W/kg at 25 %, 50 % and 75 % fill" in why["C9"]
 
 
 def test_the_ratio_is_read_in_three_ways():

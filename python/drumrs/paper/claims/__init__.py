@@ -9,7 +9,7 @@ from drumrs.paper.claims import motion, power, ratio
 from drumrs.paper.claims.criteria import Claim, settle
 from drumrs.paper.curves import RATIOS, Results
 from drumrs.paper.drums import BAFFLED, TRIANGLES, Drum, baffles_are_inferred
-from drumrs.paper.verdict import FAILS, IN_PART, UNDECIDED, Finding, MissingError, OtherReading, Verdict
+from drumrs.paper.verdict import UNDECIDED, Finding, MissingError, OtherReading, Verdict
 
 if TYPE_CHECKING:
     import polars as pl
@@ -19,8 +19,8 @@ __all__ = ["CLAIMS", "EVIDENCE", "Claim", "judge"]
 # C1 to C14.
 CLAIMS = tuple(sorted(power.CLAIMS + ratio.CLAIMS + motion.CLAIMS, key=lambda claim: int(claim.number[1:])))
 
-# Claims that speak of baffles, and from which the shape of the lost baffle was inferred: agreeing with them is no
-# confirmation.
+# Claims that say what sentences say from which the shape of the lost baffle was inferred (`paper.baffle.sentences`):
+# agreeing with them is no confirmation.
 EVIDENCE = frozenset({"C1", "C2", "C3", "C4", "C5", "C7", "C11", "C13"})
 
 _OF_RATIO = frozenset(claim.number for claim in ratio.CLAIMS)
@@ -57,7 +57,7 @@ def judge(table: "pl.DataFrame", drum: Drum = BAFFLED) -> list[Verdict]:
 def _with_context(verdict: Verdict, claim: Claim, results: Results) -> Verdict:
     """Add what stands beside a verdict: other readings, why it fails where it does, whether it is evidence."""
     why = ""
-    if claim.why and verdict.verdict in {FAILS, IN_PART}:
+    if claim.why and any(part.strays for part in verdict.parts):
         with suppress(MissingError, ZeroDivisionError):
             why = claim.why(results)
     evidence = claim.number in EVIDENCE and baffles_are_inferred() and results.baffled == BAFFLED

@@ -108,10 +108,9 @@ def within(
         Largest value of the figure off which the text reads this by eye; 0 where it does not.
     """
     number = Number.of(name, estimate, unit)
-    outcome, _, told = _read([(0.0, 0.0, estimate)], low, high, largest)
-    return Finding(
-        outcome, f"{name}: {number.text} ({claimed(low, high, unit, largest)}: {told}).", (number,)
-    )
+    read = _read([(0.0, 0.0, estimate)], low, high, largest)
+    told = f"{name}: {number.text} ({claimed(low, high, unit, largest)}: {read.told})."
+    return Finding(read.outcome, told, (number,), strays=read.strays)
 
 
 def each_within(
@@ -146,21 +145,31 @@ def each_within(
     """
     if not points:
         raise MissingError(name)
-    outcome, pieces, told = _read(points, low, high, largest)
+    read = _read(points, low, high, largest)
     least, most = min(points, key=lambda p: p[2].mean), max(points, key=lambda p: p[2].mean)
     ends = {place(axis, a, b): one for a, b, one in (least, most)}
     numbers = tuple(Number.of(f"{name} at {at}", one) for at, one in ends.items())
     values = " to ".join(f"{number.text} at {at}" for number, at in zip(numbers, ends, strict=True))
-    outside = [place(axis, piece.low, piece.high) for piece in pieces if piece.outcome == FAILS]
+    outside = [place(axis, piece.low, piece.high) for piece in read.pieces if piece.outcome == FAILS]
     where = f" Not so at {', '.join(outside)}." if outside else ""
-    sentence = f"{name}: {'from ' if len(ends) > 1 else ''}{values} (each {claimed(low, high, '', largest)}: {told})."
-    return Finding(outcome, sentence + where, numbers, "", axis, pieces)
+    sentence = (
+        f"{name}: {'from ' if len(ends) > 1 else ''}{values} "
+        f"(each {claimed(low, high, '', largest)}: {read.told}).{where}"
+    )
+    return Finding(read.outcome, sentence, numbers, "", axis, read.pieces, strays=read.strays)
 
 
-def _read(
-    points: Sequence[At], low: float, high: float, largest: float
-) -> tuple[str, tuple[Piece, ...], str]:
-    """Judge means by each reading of the limits; return what that comes to, piece by piece, and in words."""
+@dataclass(frozen=True)
+class _Read:
+    """What means come to by three readings of their limits: as a whole, piece by piece, and in words."""
+
+    outcome: str
+    pieces: tuple[Piece, ...]
+    told: str
+    strays: bool
+
+
+def _read(points: Sequence[At], low: float, high: float, largest: float) -> _Read:
     read = {part: _judge(points, low - part * largest, high + part * largest) for part in READINGS}
     outcome = _agreed({part: found for part, (found, _) in read.items()})
     pieces = tuple(
@@ -175,7 +184,7 @@ def _read(
         told = "read to " + ", ".join(f"{100.0 * part:.0f} % {answer}" for part, answer in answers.items())
     if outcome != read[READING][0]:
         told += "; undecided by reading"
-    return outcome, pieces, told
+    return _Read(outcome, pieces, told, FAILS in {found for found, _ in read.values()})
 
 
 def _judge(points: Sequence[At], low: float, high: float) -> tuple[str, list[str]]:
@@ -221,6 +230,7 @@ def all_of(
         pieces,
         (*bands, *(one for finding in findings for one in finding.bands)),
         next(one.numbers for one in findings if one.outcome == outcome),
+        any(one.strays for one in findings),
     )
 
 

@@ -87,8 +87,8 @@ def _claims(data: StudyData, thumbnails: Container[str]) -> Iterator[str]:
 def _claim(verdict: Verdict, thumbnails: Container[str]) -> Iterator[str]:
     yield f"## {verdict.claim}"
     yield ""
-    where = f": {verdict.where}" if verdict.where and verdict.verdict == IN_PART else ""
-    yield f"{verdict.statement} **{verdict.verdict.capitalize()}{where}.**{_evidence(verdict)}"
+    where = f" Surely holds: {verdict.where}." if verdict.where else ""
+    yield f"{verdict.statement} **{verdict.verdict.capitalize()}.**{where}{_evidence(verdict)}"
     yield ""
     for part in verdict.parts:
         yield f"- {_MARKS[part.verdict]} {part.heading}. {part.sentence}"
