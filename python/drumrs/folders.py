@@ -16,6 +16,7 @@ KINDS = {
     "baseline": "a comparison",
     "sweep": "a sweep",
     "reproduction": "a reproduction",
+    "validation": "a validation",
     "baffle": "an inference of the baffle",
 }
 # What a run's folder holds.

@@ -19,6 +19,7 @@ _PLACES = {
     "summary": "`result.summary`, `summary.json`, and the table of a sweep: averages over the window",
     "table": "the table of a sweep, `table.parquet`, beyond the summaries: one row for each run",
     "study": "the table of `drumrs reproduce` beyond that of a sweep; all but the first with `…_error`",
+    "drums": "the table of `drumrs validate` beyond that of a sweep; all but the first with `…_error`",
     "frames": "`frames.parquet`: one row for each frame and bundle",
 }
 
@@ -83,7 +84,8 @@ def quantities() -> QuantityTable:
     """Return everything that drumrs measures: a row for each quantity, in the order of the tables that hold it.
 
     Columns are ``name``, ``unit``, ``reading``, ``symbol``, ``formula``, ``meaning``, as `drumrs.quantity` has them,
-    and ``found_in``: series, summary, table (of a sweep), study (of the paper), frames. Baffles and walls are numbered
+    and ``found_in``: series, summary, table (of a sweep), study (of the paper), drums (that were
+    published), frames. Baffles and walls are numbered
     from 1; only the first of each is listed.
 
     Examples
@@ -108,9 +110,11 @@ def _places() -> Mapping[str, Sequence[str]]:
     series = [column.name for column in registry.recorded(1, 1, registry.RECORDINGS)]
     summary = [field.name for field in fields(Summary)]
     table = [one.name for one in registry.known(schema()) if one.name not in summary]
-    placed = {*series, *summary, *table, *COLUMNS}
+    drums = registry.PUBLISHED_DRUMS
+    placed = {*series, *summary, *table, *drums, *COLUMNS}
     study = [name for name in registry.declared() if name not in placed]
-    return {"series": series, "summary": summary, "table": table, "study": study, "frames": COLUMNS}
+    places = {"series": series, "summary": summary, "table": table, "study": study}
+    return {**places, "drums": drums, "frames": COLUMNS}
 
 
 def page() -> str:

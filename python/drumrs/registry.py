@@ -160,7 +160,7 @@ def declared() -> Mapping[str, Quantity]:
 
 @cache
 def _declared() -> Mapping[str, Quantity]:
-    rows = (*recorded(1, 1, RECORDINGS), *_ROWS)
+    rows = (*recorded(1, 1, RECORDINGS), *_ROWS, *_PUBLISHED_DRUMS)
     return MappingProxyType({row.name: row for row in rows})
 
 
@@ -294,7 +294,7 @@ _ROWS = (
         "change of the share of normal damping in all dissipation within the window",
     ),
     _made(
-        "state_switching",
+        "share_switching",
         "1",
         "test",
         "difference of that share between stretches of time, greatest less least",
@@ -308,10 +308,10 @@ _ROWS = (
         symbol="p",
     ),
     _made(
-        "state_switching_significance",
+        "share_switching_significance",
         "1",
         "test",
-        "probability of so large a state_switching in a steady run",
+        "probability of so large a share_switching in a steady run",
         symbol="p",
     ),
     _made(
@@ -346,3 +346,41 @@ _ROWS = (
     _made("speed", "m/s", "sample", "speed of a bundle", symbol="v"),
     _made("radius", "m", "sample", "radius of a bundle", symbol="r"),
 )
+
+# Table of the published drums, beyond that of a sweep.
+_PUBLISHED_DRUMS = (
+    _made(
+        "mean_overlap_ratio",
+        "1",
+        "mean",
+        "overlap over the radius, root mean square over contacts and time",
+        symbol="δ/r",
+        formula="√(2 ΣE_normal / (k n)) / r",
+    ),
+    _made("surface_slope", "rad", "mean", "angle of the bed's surface to the horizontal"),
+    _made("bed_depth", "m", "mean", "depth of the bed, from its surface to the rim, under the axis"),
+    _made(
+        "surface_velocity_ratio", "1", "mean", "velocity down the slope at the bed's surface, over the rim's"
+    ),
+    _made(
+        "layer_thickness",
+        "m",
+        "mean",
+        "thickness of the flowing layer, from the surface to where the velocity is zero",
+    ),
+    _made(
+        "layer_to_solid_rotation",
+        "m",
+        "mean",
+        "thickness of the flowing layer, down to where its straight profile meets solid rotation",
+    ),
+    _made(
+        "core_velocity_ratio",
+        "1",
+        "mean",
+        "angular velocity of the bed below the flowing layer, over the drum's",
+    ),
+    _made("toe_angle", "rad", "mean", "angle of the lower end of the charge at a mill's shell"),
+    _made("shoulder_angle", "rad", "mean", "angle of the upper end of the charge at a mill's shell"),
+)
+PUBLISHED_DRUMS = tuple(row.name for row in _PUBLISHED_DRUMS)

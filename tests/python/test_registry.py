@@ -52,7 +52,9 @@ def test_every_column_and_field_is_a_quantity(sweep):
         assert one.meaning
         assert one.reading in registry.READINGS
     # And the other way round: what is listed is somewhere, but for the frames' columns and other drums' parts.
+    # The table of the published drums has a test of its own.
     listed = {name for name in drumrs.quantities()["name"] if not name.startswith("wall_")}
+    listed -= set(registry.PUBLISHED_DRUMS)
     assert listed - names == {"frame", "bundle", "x", "y", "angle", "speed", "radius"}
 
 

@@ -23,8 +23,8 @@ _TESTS = (
     "drift_significance",
     "share_drift",
     "share_drift_significance",
-    "state_switching",
-    "state_switching_significance",
+    "share_switching",
+    "share_switching_significance",
     "drifting",
 )
 # Names of what `statistics` returns.
@@ -61,7 +61,7 @@ def statistics(
         ``specific_angular_momentum`` [m²/s], 0 for a load that stays where it is, however it rocks.
         All with ``…_error``; `None` where not defined.
         ``drift``: change of the drum's specific power within the window over its mean, ``share_drift``: that of the
-        normal damping's share in all dissipation, ``state_switching``: how much that share differs between parts of
+        normal damping's share in all dissipation, ``share_switching``: how much that share differs between parts of
         the run; each with the ``…_significance`` of `Drift` and `StateSwitching`.
         ``drifting``: whether one of the three is beyond chance (one in a thousand) and above a hundredth.
     """
@@ -93,7 +93,7 @@ def _steadiness(series: "pl.DataFrame", window: tuple[float, float]) -> dict[str
         "share_drift": (share_drift.change * mean.value, share_drift.significance)
         if share_drift and mean
         else None,
-        "state_switching": (switching.spread, switching.significance) if switching else None,
+        "share_switching": (switching.spread, switching.significance) if switching else None,
     }
     columns: dict[str, float | bool | None] = {}
     for name, found in changes.items():

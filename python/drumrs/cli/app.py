@@ -17,6 +17,7 @@ from drumrs.cli.quantities import quantities
 from drumrs.cli.reproduce import reproduce
 from drumrs.cli.run import run
 from drumrs.cli.sweep import sweep
+from drumrs.cli.validate import validate
 from drumrs.cli.verify import verify
 from drumrs.cli.view import view
 from drumrs.config import Config, dotted_keys
@@ -43,14 +44,15 @@ app = App(
         "- `drumrs view out/case` plays the run in the browser\n"
         "- `drumrs sweep sweep.toml --out out/sweep` runs many cases\n"
         "- `drumrs quantities ratio` says what is measured under a name with that word\n"
-        "- `drumrs verify` holds drumrs against formulas and its own promises"
+        "- `drumrs verify` holds drumrs against formulas and its own promises\n"
+        "- `drumrs validate tracer` simulates a drum that others measured, and compares"
     ),
     version=drumrs.__version__,
     suppress_keyboard_interrupt=False,
     result_action="return_value",
 )
 
-for _command in (run, baseline, reproduce, sweep, view, verify, config, quantities, info):
+for _command in (run, baseline, reproduce, sweep, view, verify, validate, config, quantities, info):
     app.command(_command, help_epilogue="")
 
 

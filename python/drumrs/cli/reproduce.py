@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from drumrs.paper import Reproduction, ReproductionResult
 
 _FAILED = 1
-_STYLES = {"holds": "green", "does not hold": "red", "undecided": "yellow"}
+_STYLES = {"holds": "green", "holds in part": "cyan", "does not hold": "red", "undecided": "yellow"}
 
 Flag = Annotated[bool, Parameter(negative="")]
 
@@ -35,7 +35,7 @@ def reproduce(
     Parameters
     ----------
     quick
-        One seed, short windows, few points: minutes. What that cannot decide stays undecided.
+        Two seeds, short windows, few points: minutes. What that cannot decide stays undecided.
     full
         Ten seeds instead of three.
     baffle

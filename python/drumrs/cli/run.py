@@ -119,7 +119,7 @@ def _goal(until: float | None, limit: float | None, duration: float) -> Goal | N
 
 
 def _first_duration(folder: Path, config: Config) -> float:
-    """Return the duration [s] that a run was begun with: its checkpoint may be of a prolonged one."""
+    """Return the duration [s] that a run was begun with: its checkpoint may be of one extended since."""
     begun = folder / "config.toml"
     return min(Config.read(begun).run.duration if begun.exists() else math.inf, config.run.duration)
 

@@ -29,12 +29,17 @@ impl GrossWork {
 impl<S: Scalar> GrossWork<S> {
     /// Of a contact in one step: the mean of the forces (normal, tangential) at its start and at its end, times the
     /// displacements within the contact.
+    ///
+    /// The normal force jumps at first touch and at the end of a contact, where a dashpot acts. In the steps in which a
+    /// contact opens or ends it is therefore taken as it is at their other end: the mean with 0 would be too small by
+    /// ¼ ν v² Δt, 1 % of an impact at Table 1's step.
     #[inline(always)]
     pub fn of_step(contact: &Kinematics<S>, last: [S; 2], now: [S; 2]) -> Self {
-        let half = S::splat(0.5);
+        let mean = |way: usize| (last[way] + now[way]) * S::splat(0.5);
+        let normal = S::select(contact.touching, S::select(contact.opening, now[0], mean(0)), last[0]);
         Self {
-            gross_work_normal: ((last[0] + now[0]) * half * contact.travel).abs(),
-            gross_work_tangential: ((last[1] + now[1]) * half * contact.slip).abs(),
+            gross_work_normal: (normal * contact.travel).abs(),
+            gross_work_tangential: (mean(1) * contact.slip).abs(),
         }
     }
 }

@@ -58,7 +58,7 @@ def test_resume_ends_as_without_a_break(drum, tmp_path):
     (broken / "config.toml").write_text(config.to_toml())
     simulation = drumrs.Simulation(config)
     simulation.run()
-    simulation.prolong(_next_end(simulation, Goal(0.02, 0.8)))
+    simulation.extend_to(_next_end(simulation, Goal(0.02, 0.8)))
     simulation.run(steps=1000)
     simulation.save(broken / "checkpoint.bin")
     assert drum("run", "--resume", broken, *goal)[0] == 0
@@ -116,8 +116,8 @@ def test_bad_words(drum, tmp_path, words, names):
     assert not (tmp_path / "out").exists()
 
 
-def test_prolonging_never_shortens(short):
+def test_extending_never_shortens(short):
     simulation = drumrs.Simulation(short)
     for duration in (0.01, float("nan"), float("inf")):
         with pytest.raises(ConfigError, match="at least run"):
-            simulation.prolong(duration)
+            simulation.extend_to(duration)

@@ -9,7 +9,7 @@ import numpy as np
 from drumrs.config import Config
 from drumrs.errors import ConfigError
 from drumrs.folders import claim, require_own
-from drumrs.jobs import job_count
+from drumrs.jobs import effective_jobs
 from drumrs.paper.baffle import page
 from drumrs.paper.baffle.design import Plan, Point
 from drumrs.paper.baffle.emulator import emulate, require_library
@@ -76,7 +76,7 @@ def infer_baffle(
     >>> infer_baffle("out/baffle").best  # doctest: +SKIP
     """
     require_library()
-    folder, plan, jobs = Path(folder), plan or Plan(), job_count(jobs)
+    folder, plan, jobs = Path(folder), plan or Plan(), effective_jobs(jobs)
     require_own(folder, "baffle", FILES)
     claim(folder, "baffle", "the inference of the paper's baffle", "")
     runner = _Runner(folder, jobs, progress=progress)

@@ -1,0 +1,114 @@
+"""`Results`: what finished cases tell, by configuration; means over seeds with their errors."""
+
+import math
+from dataclasses import dataclass
+from itertools import pairwise
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from drumrs import analysis
+from drumrs.analysis.frame_window import FrameWindow
+from drumrs.sweep import Case
+from drumrs.validation.cases import Scale
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Mapping
+
+    import polars as pl
+
+    from drumrs.analysis import Estimate, Mean
+    from drumrs.config import Config
+    from drumrs.sweep import Sweep
+
+# A window is cut into so many pieces, whose scatter gives the error of what is measured over all of it.
+_PIECES = 16
+
+
+@dataclass(frozen=True)
+class Results:
+    """The finished cases of a study.
+
+    Attributes
+    ----------
+    table
+        One row a case, as `measure` makes it.
+    sweep
+        The cases.
+    folder
+        Where their results are.
+    scale
+        Seeds of the study; a drum may do with some of them.
+    """
+
+    table: "pl.DataFrame"
+    sweep: "Sweep"
+    folder: Path
+    scale: Scale
+
+    def estimate(self, point: "Config", column: str) -> "Estimate":
+        """Return the mean of a column over the seeds of a point, with its error.
+
+        Raises
+        ------
+        KeyError
+            Where a case of the point is not finished.
+        """
+        rows = [self._row(case.id) for case in self.seeds(point)]
+        # What could not be measured is null in the table, and no number in what is made of it.
+        values = [math.nan if row[column] is None else row[column] for row in rows]
+        return analysis.estimate(values, [row.get(f"{column}_error") for row in rows])
+
+    def seeds(self, point: "Config") -> list[Case]:
+        """Return the cases of a point, seed by seed."""
+        cases = [Case(point.replace({"run.seed": seed})) for seed in self.scale.seeds]
+        ids = {case.id for case in self.sweep.cases}
+        return [case for case in cases if case.id in ids]
+
+    def windows(self, point: "Config") -> "Iterator[FrameWindow]":
+        """Give the frames of the averaging window of each seed."""
+        for case in self.seeds(point):
+            yield FrameWindow.of(self.sweep.frames(case, self.folder), point.run.averaging_window)
+
+    def series(self, point: "Config") -> "pl.DataFrame":
+        """Return the series of a point's first seed."""
+        return self.sweep.series(self.seeds(point)[0], self.folder)
+
+    def _row(self, case: str) -> dict[str, Any]:
+        import polars as pl
+
+        found = self.table.filter(pl.col("case") == case)
+        if found.is_empty():
+            raise KeyError(case)
+        return found.row(0, named=True)
+
+
+def with_errors(
+    measures: "Callable[[FrameWindow], Mapping[str, float]]", seen: FrameWindow
+) -> "dict[str, Mean]":
+    """Return what is measured over a window, with errors from the pieces that it is cut into.
+
+    Parameters
+    ----------
+    measures
+        Function from frames to numbers by name.
+    seen
+        Frames of the window.
+    """
+    whole = measures(seen)
+    bounds = np.linspace(0, len(seen.times) - 1, min(_PIECES, len(seen.times) - 1) + 1).astype(int)
+    pieces = [measures(_piece(seen, *ends)) for ends in pairwise(bounds)]
+    interval = float(seen.times[-1] - seen.times[0]) / len(pieces)
+    found = {}
+    for name, value in whole.items():
+        values = [piece[name] for piece in pieces]
+        known = bool(np.isfinite(values).all())
+        error = analysis.mean_with_error(values, interval).error if known else None
+        found[name] = analysis.Mean(value, error)
+    return found
+
+
+def _piece(seen: FrameWindow, first: int, last: int) -> FrameWindow:
+    chosen = slice(first, last + 1)
+    return FrameWindow(seen.positions[chosen], seen.times[chosen], seen.angles[chosen])

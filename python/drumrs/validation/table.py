@@ -1,0 +1,61 @@
+"""The table of a validation: one row a case, with what its series and frames tell."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from drumrs.analysis.frame_window import FrameWindow
+from drumrs.validation.drum import PublishedDrum
+
+if TYPE_CHECKING:
+    import polars as pl
+
+    from drumrs.config import Config
+    from drumrs.sweep import Sweep
+
+
+def measure(sweep: "Sweep", folder: Path, drums: Mapping[str, PublishedDrum]) -> "pl.DataFrame":
+    """Return the table of a study: that of its sweep, and what the frames of each case tell.
+
+    Parameters
+    ----------
+    sweep
+        Cases, their series and frames.
+    folder
+        Where the results are.
+    drums
+        The drum of each case, by the case's id.
+    """
+    import polars as pl
+
+    table = sweep.table(folder).collect()
+    finished = set(table["case"])
+    rows = []
+    for case in sweep.cases:
+        if case.id not in finished:
+            continue
+        drum, window = drums[case.id], case.config.run.averaging_window
+        series = sweep.series(case, folder)
+        row: dict[str, Any] = {"case": case.id, "drum": drum.name}
+        row |= {"mean_overlap_ratio": _mean_overlap(case.config, series)}
+        if case.wants_frames:
+            seen = FrameWindow.of(sweep.frames(case, folder), window)
+            for name, mean in drum.measures(case.config, seen).items():
+                row |= {name: mean.value, f"{name}_error": mean.error}
+        rows.append(row)
+    if not rows:
+        return table
+    # A number that is none is null, as everywhere in tables.
+    measures = pl.DataFrame(rows, infer_schema_length=None).with_columns(pl.selectors.float().fill_nan(None))
+    return measures.join(table, on="case", how="left", maintain_order="left")
+
+
+def _mean_overlap(config: "Config", series: "pl.DataFrame") -> float:
+    """Return the root mean square of the overlaps over the radius, from the energy in the normal springs."""
+    start, end = config.run.averaging_window
+    within = series.filter(series["time"].is_between(start, end))
+    energy, count = within["elastic_normal"].to_numpy().sum(), within["contact_count"].to_numpy().sum()
+    stiff = config.contact.bundle.normal_stiffness
+    return float(np.sqrt(2.0 * energy / (stiff * max(count, 1))) / (config.load.diameter / 2.0))
