@@ -67,13 +67,13 @@ def reproduce(
 
 
 def _infer_baffle(out: Path, jobs: int | None, *, quick: bool) -> int:
-    from drumrs.jobs import job_count
+    from drumrs.jobs import effective_jobs
     from drumrs.paper import infer_baffle
     from drumrs.paper.baffle import QUICK, Plan
     from drumrs.paper.reproduction import measure_speed
     from drumrs.progress import format_duration
 
-    jobs, plan = job_count(jobs), QUICK if quick else Plan()
+    jobs, plan = effective_jobs(jobs), QUICK if quick else Plan()
     spent = format_duration(plan.cost / measure_speed(jobs))
     sys.stderr.write(
         f"inference of the baffle: {plan.cost:.2g} particle-steps in all, about {spent} at most\n"
