@@ -20,7 +20,7 @@ from drumrs.paper.baffle.sentences import (
     SENTENCES,
     UNWEIGHTED,
 )
-from drumrs.paper.baffle.shape import PADDLE, ROOM, TRIANGLE, Shape, shapes_in_region
+from drumrs.paper.shape import PADDLE, ROOM, TRIANGLE, Shape, shapes_in_region
 
 TRUTH = Shape(0.045, 0.07, 0.04)
 BARE_POWER = {

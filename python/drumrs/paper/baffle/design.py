@@ -7,8 +7,8 @@ from typing import NamedTuple
 from drumrs.config import Config, baseline
 from drumrs.paper.baffle.evidence import TABLE_1, Observable
 from drumrs.paper.baffle.sentences import FILLS, SIZE_FILL, SIZES, WATCHED_FILLS
-from drumrs.paper.baffle.shape import MARKED, TRIANGLE, Shape, shapes_in_region
 from drumrs.paper.cases import cost
+from drumrs.paper.shape import MARKED, TRIANGLE, Shape, shapes_in_region
 
 _BASELINE = baseline()
 _SAMPLE_EVERY = 0.02

@@ -8,7 +8,7 @@ from drumrs.paper.baffle.design import Plan
 from drumrs.paper.baffle.emulator import Emulator
 from drumrs.paper.baffle.evidence import Known, Observable
 from drumrs.paper.baffle.posterior import Array, Corrections, Posterior, foretell
-from drumrs.paper.baffle.shape import Shape
+from drumrs.paper.shape import Shape
 from drumrs.sweep import Failure
 
 if TYPE_CHECKING:

@@ -25,7 +25,7 @@ from drumrs.paper.baffle.posterior import (
     spread_over,
 )
 from drumrs.paper.baffle.sentences import log_likelihood
-from drumrs.paper.baffle.shape import TRIANGLE, Shape, shapes_in_region
+from drumrs.paper.shape import TRIANGLE, Shape, shapes_in_region
 from drumrs.progress import Task
 from drumrs.sweep import Failure, Sweep
 

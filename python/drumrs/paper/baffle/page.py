@@ -20,7 +20,7 @@ from drumrs.paper.baffle.sentences import (
     UNWEIGHTED,
     log_likelihood,
 )
-from drumrs.paper.baffle.shape import BASES, HEIGHTS, MARKED, ROOM, TRIANGLE, Shape, shares_of_drum
+from drumrs.paper.shape import BASES, HEIGHTS, MARKED, ROOM, TRIANGLE, Shape, shares_of_drum
 from drumrs.pictures import attempt
 
 if TYPE_CHECKING:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from drumrs.paper.baffle.emulator import Emulator
 from drumrs.paper.baffle.evidence import Known, Observable, Sentence
 from drumrs.paper.baffle.sentences import CIRCULATION, OBSERVABLES, POWER, RATIO, log_likelihood
-from drumrs.paper.baffle.shape import BASES, HEIGHTS, ROOM, Shape, shares_of_drum
+from drumrs.paper.shape import BASES, HEIGHTS, ROOM, Shape, shares_of_drum
 
 Array = NDArray[np.float64]
 # What softer springs change in proportion; shares and indices of motion they change by so much.
