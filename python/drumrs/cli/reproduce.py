@@ -35,7 +35,7 @@ def reproduce(
     Parameters
     ----------
     quick
-        Two seeds, short windows, few points: minutes. What that cannot decide stays undecided.
+        Short windows, few points, power by softer springs: minutes. What that cannot decide stays undecided.
     full
         Ten seeds instead of three.
     baffle
