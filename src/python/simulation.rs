@@ -17,6 +17,7 @@ use pyo3::types::PyDict;
 use super::arrays;
 use super::fair_lock::FairLock;
 use super::fork_guard::Entered;
+use crate::engine::parallel::CHUNK;
 use crate::error::Error;
 use crate::io::config::SimulationConfig;
 use crate::observe::frames::Frames;
@@ -146,11 +147,15 @@ impl Simulation {
     ) -> PyResult<Self> {
         let config = SimulationConfig::from_json(config)?;
         let initial = state.map(arrays::initial_state).transpose()?;
+        let few = config.load.count <= CHUNK;
         let start = move || match initial {
             Some(initial) => Core::with_state(config, seed, threads, initial),
             None => Core::new(config, seed, threads),
         };
-        on_a_thread(py, "starting a simulation", start).map(Self::around)
+        // A few bundles are packed in a tenth of a second. Each thread would leave memory behind: the system's allocator
+        // keeps an arena for every thread that it has seen, and a sweep starts simulations by the thousand.
+        let made = if few { Ok(py.detach(start)?) } else { on_a_thread(py, "starting a simulation", start) };
+        made.map(Self::around)
     }
 
     #[staticmethod]

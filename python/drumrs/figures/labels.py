@@ -15,6 +15,7 @@ DRUM_SPECIFIC_POWER = quantity("drum_specific_power").label
 GROSS_WORK_RATIO = f"{quantity('gross_work_ratio').label} N/T"
 DISSIPATION_RATIO = f"{quantity('dissipation_ratio').label} N/T"
 WORK_RATIO = f"{quantity('work_ratio').label} N/T"
+TURNING = "angular momentum over M Ω R²"
 FRICTION = "coefficient of friction μ"
 RESTITUTION = "coefficient of restitution e"
 SIZE_RATIO = f"{quantity('size_ratio').label} D/d"

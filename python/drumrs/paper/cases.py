@@ -13,6 +13,8 @@ THIRDS = (0.25, 0.50, 0.75)
 # Fill at which the size of bundles varies, and that at which speed and restitution do.
 SIZE_FILL = 0.40
 BASELINE_FILL = 0.25
+# Fills of the bare drum at which the load passes between two states, and which are run for longer.
+HALF_FULL = (0.45, 0.50, 0.55)
 # Cases whose motion is looked at, bundle by bundle: the snapshots', and one more above 50 %.
 WATCHED_FILLS = (0.25, 0.50, 0.60, 0.75)
 
@@ -53,18 +55,22 @@ def cases(scale: str | Scale = "default") -> list[Config]:
     True
     """
     scale = scale_of(scale)
-    run = {
-        "duration": scale.duration,
-        "window": scale.window,
-        "sample_every": _SAMPLE_EVERY,
-        # The paper's N/T counts what springs take and give back.
-        "record": ["gross_work"],
-    }
+    # The paper's N/T counts what springs take and give back.
+    always = {"sample_every": _SAMPLE_EVERY, "record": ["gross_work"]}
+    half_full = [BARE.config(fill) for fill in HALF_FULL] if scale.half_full_seeds else []
     found: dict[str, Config] = {}
     for point in _points(scale):
-        pause = _pause(point, scale)
-        for seed in scale.seeds:
-            config = _cheaper(point, scale).replace({"run": {**run, "frame_every": pause, "seed": seed}})
+        run = {**always, "duration": scale.duration, "window": scale.window}
+        seeds = scale.seeds
+        if point in half_full:
+            seeds = scale.half_full_seeds
+            run |= {
+                "duration": scale.half_full_duration,
+                "window": (scale.window[0], scale.half_full_duration),
+            }
+        for seed in seeds:
+            changes = {**run, "frame_every": _pause(point, scale), "seed": seed}
+            config = _cheaper(point, scale).replace({"run": changes})
             found.setdefault(config.digest, config)
     beside = cases(scale.beside) if scale.beside else []
     return [*found.values(), *beside]

@@ -7,7 +7,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from drumrs.config import Config, baseline
-from drumrs.paper.baffle.shape import TRIANGLE, Shape
+from drumrs.paper.shape import TRIANGLE, Shape
 
 if TYPE_CHECKING:
     import polars as pl

@@ -12,6 +12,7 @@ from drumrs.paper.cases import THIRDS, percent
 from drumrs.paper.curves import RATIOS
 from drumrs.paper.data import StudyData
 from drumrs.paper.drums import BAFFLED, BARE, Drum, baffles_are_inferred
+from drumrs.paper.states import two_states
 from drumrs.paper.verdict import MissingError
 
 if TYPE_CHECKING:
@@ -34,7 +35,7 @@ class PaperFigure:
     Attributes
     ----------
     number
-        ``"F2"`` to ``"F9"``, ``"speed"``, ``"restitution"``, ``"drift"``.
+        ``"F2"`` to ``"F9"``, ``"speed"``, ``"restitution"``, ``"drift"``, ``"states"``.
     title, caption
         What it shows, and how to read it.
     draw
@@ -99,6 +100,12 @@ def _draw_drift(data: StudyData) -> "Figure":
         config = found[0].config
         mass[name] = config.derived.load_mass
     return plots.drift_over_time(runs, mass, config.run.averaging_window)
+
+
+def _draw_states(data: StudyData) -> "Figure":
+    from drumrs.paper import plots
+
+    return plots.states_over_time(two_states(data))
 
 
 def _draw_speed(data: StudyData) -> "Figure":
@@ -205,6 +212,14 @@ _ALL = (
         "Running means over 2 s, one line a seed; shaded is the window of the averages. Where a load passes between "
         "states, lines bend and part for longer than a few seconds.",
         _draw_drift,
+    ),
+    PaperFigure(
+        "states",
+        "Two states about half full",
+        "Without baffles. Above: angular momentum of the load, means over a turn, of the first five seeds, colored by "
+        "state. Below: the share of the time that the load is a ring carried round, and what the drum does in each "
+        "state. Bars are 95 % intervals over the runs.",
+        _draw_states,
     ),
 )
 

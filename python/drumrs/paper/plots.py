@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+    from drumrs.paper.states import TwoStates
+
 # Marks of N/T by other readings than the line's.
 _MARKS = {"x": "by dissipation", "+": "by net work"}
 # Running means over that long [s]: some two turns of the drum.
@@ -172,6 +174,58 @@ def drift_over_time(
         grid[1, 0].set_ylabel(labels.DISSIPATION_RATIO)
         _say_below(grid[0, 0], sum(window) / 2.0, "averages")
     return figure
+
+
+def states_over_time(states: Sequence["TwoStates"]) -> "Figure":
+    """Draw how loads about half full pass between two states, above; and what each state is like, below.
+
+    Parameters
+    ----------
+    states
+        The states at some fills, of increasing fill.
+    """
+    with drumrs_style():
+        figure = new_figure(9.6, 5.6)
+        grid = figure.subplots(2, max(len(states), 3), sharey="row", squeeze=False)
+        for axes, one in zip(grid[0], states, strict=False):
+            for run, flags in list(zip(one.runs, one.rings, strict=True))[:_SHOWN]:
+                for value, color in enumerate(_STATES.values()):
+                    inside = np.where(flags == value, run.momentum, np.nan)
+                    axes.plot(run.times, inside, color=color, linewidth=0.8)
+            axes.set(title=f"{100.0 * one.fill:.3g} % fill", xlabel=labels.TIME)
+        grid[0, 0].set_ylabel(labels.TURNING)
+        for axes in grid[1]:
+            axes.remove()
+        _draw_branches(states, [figure.add_subplot(2, 3, 4 + place) for place in range(3)])
+    return figure
+
+
+# Runs of a fill that are drawn over time.
+_SHOWN = 5
+_STATES = {"circulating": "C0", "ring": "C1"}
+
+
+def _draw_branches(states: Sequence["TwoStates"], panels: Sequence["Axes"]) -> None:
+    share, power, ratio = panels
+    fills = [100.0 * one.fill for one in states]
+    share.plot(fills, [100.0 * one.share for one in states], "o-", color=_STATES["ring"])
+    share.set(ylabel="time as a ring [%]", ylim=(-4.0, 104.0))
+    for name, color in _STATES.items():
+        found = [
+            (fill, state) for fill, one in zip(fills, states, strict=True) if (state := getattr(one, name))
+        ]
+        for axes, quantity in ((power, "power"), (ratio, "ratio")):
+            estimates = [getattr(state, quantity) for _, state in found]
+            halves = [one.interval().half_width if np.isfinite(one.error) else 0.0 for one in estimates]
+            heights = [one.mean for one in estimates]
+            axes.errorbar(
+                [x for x, _ in found], heights, halves, fmt="o-", color=color, capsize=3.0, label=name
+            )
+    power.set_ylabel(labels.DRUM_SPECIFIC_POWER)
+    ratio.set_ylabel(labels.GROSS_WORK_RATIO)
+    power.legend()
+    for axes in panels:
+        axes.set(xlabel=labels.FILL, xticks=fills)
 
 
 def _running(

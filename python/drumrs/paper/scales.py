@@ -25,6 +25,9 @@ class Scale:
         The same for the drum with baffles, which holds less.
     fills_with_triangles, sizes_with_triangles
         Fills and sizes with the baffles once assumed; these cases are those with baffles where the two are the same.
+    half_full_seeds, half_full_duration
+        Seeds and simulated time [s] of the bare drum about half full, where the load passes between two states; means
+        are from the window's start to the end. Without seeds these fills are run as the others.
     sizes
         Drum over bundle diameter, D/d.
     frictions
@@ -51,6 +54,8 @@ class Scale:
     frictions: tuple[float, ...]
     speeds: tuple[float, ...]
     restitutions: tuple[float, ...]
+    half_full_seeds: tuple[int, ...] = ()
+    half_full_duration: float = 120.0
     fills_with_triangles: tuple[float, ...] = ()
     sizes_with_triangles: tuple[float, ...] = ()
     softer: float = 1.0
@@ -70,6 +75,7 @@ _DEFAULT = Scale(
     seeds=(1, 2, 3),
     duration=30.0,
     window=(20.0, 30.0),
+    half_full_seeds=tuple(range(1, 11)),
     fills=(*_FILLS, 0.80),
     fills_with_baffles=_FILLS,
     fills_with_triangles=_FILLS,

@@ -11,6 +11,7 @@ from matplotlib.collections import FillBetweenPolyCollection
 import drumrs
 from drumrs import figures, paper
 from drumrs.paper import plots
+from drumrs.paper.cases import HALF_FULL
 from drumrs.paper.curves import Results
 from drumrs.paper.figures import points
 from drumrs.paper.thumbnails import thumbnail
@@ -20,6 +21,8 @@ from worlds import world
 
 FROM_TABLE = ["F4", "F5", "F6", "F7", "F8", "F9", "speed", "restitution"]
 FROM_RUNS = ["F2", "F3", "drift"]
+FROM_LONG_RUNS = ["states"]
+ALL = [*FROM_TABLE, *FROM_RUNS, *FROM_LONG_RUNS]
 
 
 class Runs:
@@ -48,28 +51,50 @@ class Runs:
         return pl.DataFrame({"time": time, **{name: time * (2.0 + k) for k, name in enumerate(names)}})
 
 
+class LongRuns(Runs):
+    """Stands for a sweep of long runs about half full, whose load turns the faster the fuller the drum."""
+
+    def __init__(self) -> None:
+        run = {"run.duration": 120.0, "run.sample_every": 0.02}
+        configs = [
+            drumrs.baseline(fill).replace({**run, "run.seed": seed}) for fill in HALF_FULL for seed in (1, 2)
+        ]
+        self.cases = tuple(Case(config) for config in configs)
+
+    def series(self, case: Case, folder: str | None = None) -> pl.DataFrame:
+        assert folder == "somewhere"
+        time = 0.02 * np.arange(6001)
+        names = ("drum_work", "gross_work_normal", "gross_work_tangential")
+        momentum = np.full(len(time), 100.0 * case.config.load.fill)
+        return pl.DataFrame({"time": time, "angular_momentum": momentum, **dict.fromkeys(names, time)})
+
+
 @pytest.fixture(scope="module")
 def table() -> pl.DataFrame:
     return world()
 
 
-def study_data() -> paper.StudyData:
-    runs = Runs()
+def study_data(runs: Runs | None = None) -> paper.StudyData:
+    runs = runs or Runs()
     return paper.StudyData(pl.DataFrame({"case": [case.id for case in runs.cases]}), runs, "somewhere")
 
 
 def drawn(number: str, table: pl.DataFrame) -> object:
-    data = paper.StudyData(table, SimpleNamespace(cases=())) if number in FROM_TABLE else study_data()
+    data = (
+        paper.StudyData(table, SimpleNamespace(cases=()))
+        if number in FROM_TABLE
+        else study_data(LongRuns() if number in FROM_LONG_RUNS else None)
+    )
     return paper.FIGURES[number].draw(data)
 
 
 def test_every_figure_is_there():
-    assert set(paper.FIGURES) == {*FROM_TABLE, *FROM_RUNS}
+    assert set(paper.FIGURES) == set(ALL)
     assert all(one.number == key and one.title and one.caption for key, one in paper.FIGURES.items())
 
 
 @pytest.mark.parametrize("ending", ["png", "svg"])
-@pytest.mark.parametrize("number", [*FROM_TABLE, *FROM_RUNS])
+@pytest.mark.parametrize("number", ALL)
 def test_every_figure_is_written_alike(number, ending, table, tmp_path):
     for name in ("a", "b"):
         figures.write(drawn(number, table), tmp_path / f"{name}.{ending}")
@@ -171,7 +196,7 @@ def test_drift_shows_every_seed():
     assert ratio.get_lines()[0].get_ydata() == pytest.approx(3.0 / 4.0)
 
 
-@pytest.mark.parametrize("number", [*FROM_TABLE, *FROM_RUNS])
+@pytest.mark.parametrize("number", ALL)
 def test_figures_without_cases_say_so(number, table):
     empty = table.clear().with_columns(case=pl.lit(""))
     with pytest.raises(paper.MissingError):

@@ -158,7 +158,7 @@ def test_figures_are_drawn_and_those_that_cannot_be_say_why(written, text):
         assert files == {bool(one.address)}
         assert one.figure.title in text
     missing = [one for one in drawn.figures if one.reason]
-    assert [one.figure.number for one in missing] == ["F3"]
+    assert [one.figure.number for one in missing] == ["F3", "states"]
     assert missing[0].reason in text
     assert "75 % fill with baffles" in missing[0].reason
 
@@ -304,7 +304,7 @@ def opened(browser, written):
 def test_a_browser_shows_pictures_and_plays(opened):
     broken = "[...document.images].filter(image => !image.naturalWidth).length"
     assert opened.evaluate(broken) == 0
-    assert opened.evaluate("document.images.length") == len(FIGURES) - 1 + len(paper.CLAIMS)
+    assert opened.evaluate("document.images.length") == len(FIGURES) - 2 + len(paper.CLAIMS)
     players = opened.locator("drumrs-player")
     assert players.count() == 2
     # Style of the page must not reach into the player, nor be taken from it.

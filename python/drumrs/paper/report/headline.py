@@ -6,9 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from drumrs.paper.cases import BASELINE_FILL, THIRDS, percent
+from drumrs.paper.cases import BASELINE_FILL, HALF_FULL, THIRDS, percent
 from drumrs.paper.curves import RATIOS, Curve
 from drumrs.paper.data import StudyData
+from drumrs.paper.states import two_states
 from drumrs.paper.verdict import (
     FAILS,
     HOLDS,
@@ -125,9 +126,26 @@ EVIDENCE = (
 )
 
 
+def seeds(data: StudyData) -> int:
+    """Return the number of seeds of a case, but for those about half full."""
+    usual = next(iter(data.configs.values())).run.duration
+    return len({config.run.seed for config in data.configs.values() if config.run.duration == usual})
+
+
+def half_full(data: StudyData) -> str:
+    """Say which cases were run for longer, and with how many seeds; nothing where none was."""
+    usual = next(iter(data.configs.values())).run.duration
+    runs = [config.run for config in data.configs.values() if config.run.duration > usual]
+    if not runs:
+        return ""
+    fills = ", ".join(f"{100.0 * fill:.3g}" for fill in HALF_FULL)
+    count = len({run.seed for run in runs})
+    return f" (at {fills} % fill of the bare drum, {count} seeds of {runs[0].duration:g} s)"
+
+
 def sentences(data: StudyData) -> list[Sentence]:
     """Return the findings in words; those whose cases are missing are left out."""
-    tell: tuple[Callable[[StudyData], Sentence], ...] = (_peak, _fall, _motion)
+    tell: tuple[Callable[[StudyData], Sentence], ...] = (_peak, _fall, _motion, _states)
     return list(_told(data, tell))
 
 
@@ -172,6 +190,23 @@ def _fall(data: StudyData) -> Sentence:
             f"at {percent(last)} {curve.label}"
         )
     return Sentence(f"Specific power goes {', and '.join(told)}.", "F5")
+
+
+def _states(data: StudyData) -> Sentence:
+    half = next(one for one in two_states(data) if one.fill == HALF_FULL[1])
+    told = []
+    for name, state in (
+        ("a ring that the drum carries round", half.ring),
+        ("a load that circulates", half.circulating),
+    ):
+        if state is None:
+            continue
+        lasts = f"for {state.residence:.0f} s at a time" if state.residence else "to the end of every run"
+        ratio, power = Number.of("", state.ratio).text, Number.of("", state.power, "W/kg").text
+        told.append(f"{name}, {lasts}, with {power} and N/T {ratio}")
+    share = f"{100.0 * half.share:.0f} % of the time"
+    runs = f"{len(half.runs)} runs without baffles"
+    return Sentence(f"At 50 % fill it is, in {runs}, {share} a ring: {'; and '.join(told)}.", "states")
 
 
 def _variation(data: StudyData, axis: str) -> str:

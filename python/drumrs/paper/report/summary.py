@@ -39,7 +39,7 @@ def write(data: StudyData, drawn: Sequence[Picture], thumbnails: Container[str],
 
 def _opening(data: StudyData) -> Iterator[str]:
     run = next(iter(data.configs.values())).run
-    seeds = len({config.run.seed for config in data.configs.values()})
+    seeds = headline.seeds(data)
     told = facts.times(data)
     spent = float(data.sweep.facts(data.folder)["wall_time"].sum())
     yield f"# The paper's study, {data.scale} scale"
@@ -48,7 +48,8 @@ def _opening(data: StudyData) -> Iterator[str]:
     yield ""
     yield (
         f"Written by `drumrs reproduce`: {told['runs finished']} runs of {run.duration:g} s, averaged over "
-        f"{run.averaging_window[0]:g}–{run.averaging_window[1]:g} s, {seeds} seed{'s' if seeds > 1 else ''} a case; "
+        f"{run.averaging_window[0]:g}–{run.averaging_window[1]:g} s, {seeds} seed{'s' if seeds > 1 else ''} "
+        f"a case{headline.half_full(data)}; "
         f"{told['particle-steps']} particle-steps, which took {format_duration(spent / 2.0)} on two cores "
         f"({told.get('speed of one run', 'speed not known')} each). drumrs {provenance.versions()['drumrs']}."
     )

@@ -1,8 +1,6 @@
 //! Gross work: known answers for single contacts, and that recording it changes nothing else.
 
-mod common;
-
-use common::*;
+use crate::common::*;
 use drumrs::io::config::SimulationConfig;
 use drumrs::observe::recorder::Recording;
 use drumrs::physics::contact::parameters::{Base, Tension};

@@ -3,11 +3,9 @@
 //!
 //! Formulas for discs (I = m r²/2); what the scheme leaves of them is derived in `drumrs verify`.
 
-mod common;
-
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use common::*;
+use crate::common::*;
 use drumrs::io::config::SimulationConfig;
 use drumrs::observe::recorder::contact_energies;
 use drumrs::physics::contact::adhesion::Adhesion;
