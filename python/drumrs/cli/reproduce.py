@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
-from drumrs.cli.options import Jobs, check_folder
+from drumrs.cli.options import PATH, Jobs, check_folder
 from drumrs.cli.tables import print_paths
 from drumrs.errors import ConfigError
 
@@ -24,7 +24,7 @@ def reproduce(
     quick: Flag = False,
     full: Flag = False,
     baffle: Flag = False,
-    out: Path = Path("out"),
+    out: Annotated[Path, PATH] = Path("out"),
     jobs: Jobs = None,
     retry: Flag = False,
 ) -> int:
@@ -51,10 +51,8 @@ def reproduce(
 
     if quick and full:
         raise ConfigError("--quick", problem="and --full are both given, but only one of them may be")
-    if baffle and (quick or full or retry):
-        raise ConfigError(
-            "--baffle", problem="is given with --quick, --full or --retry, but has one scale of its own"
-        )
+    if baffle and (full or retry):
+        raise ConfigError("--baffle", problem="is given with --full or --retry, which it does not have")
     check_folder(out)
     if baffle:
         return _infer_baffle(out, jobs, quick=quick)
