@@ -129,6 +129,15 @@ def test_softer_springs_are_shown_beside_stiff_ones(data):
     assert checks.softness(data) == []
 
 
+def test_runs_with_softer_springs_are_told(data):
+    assert headline.softer(data) == ""
+    beside = replace(SMALL, duration=0.3, window=(0.2, 0.3), softer=100.0)
+    both = replace(data, sweep=Sweep.from_configs(paper.cases(replace(SMALL, beside=beside))))
+    count = len(data.sweep)
+    told = f"; {count} of the runs, for power alone, are of 0.3 s with springs softer by 100"
+    assert headline.softer(both) == told
+
+
 def test_the_headline_is_what_the_table_says(data, text):
     row = data.table.row(
         by_predicate=(pl.col("load.fill") == 0.25) & (pl.col("drum.baffles.count") == 0), named=True
