@@ -201,7 +201,7 @@ def _draw(results: Results) -> "Figure":
             axes.set_xticks(places, [f"{place:g}" for place in places])
             axes.minorticks_off()
         low, high = sizes.get_ylim()
-        ticks = [tick for tick in (2, 3, 4, 5, 6, 8, 10, 12, 15, 20, 30) if low <= tick <= high]
+        ticks = [tick for tick in range(2, 31) if low <= tick <= high]
         sizes.set_yticks(ticks, [str(tick) for tick in ticks])
         title = f"{quantity('size_ratio').title} D/d"
         sizes.set(xlabel=title, ylabel="flowing layer, in diameters", title=f"Froude number {_FROUDE:g}")

@@ -187,7 +187,7 @@ def _draw(results: Results) -> "Figure":
             axes.set_xlabel("speed over critical speed [%]")
             shown = _SPEEDS if axes is power else _MODEL_SPEEDS
             axes.set_xticks([100.0 * speed for speed in shown])
-        for axes, place in ((power, "lower right"), (arms, "upper right"), (shoulders, "upper left")):
+        for axes, place in ((power, "lower right"), (shoulders, "upper left")):
             axes.legend(loc=place)
     return figure
 
