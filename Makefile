@@ -54,7 +54,7 @@ develop: $(STAMP) ## build the core into the environment (.venv)
 
 lint: develop ## check format, lints, layers, types and the stub of the core
 	cargo fmt --check
-	cargo clippy --all-targets --features python -- -D warnings
+	cargo clippy --all-targets --features python,baseline -- -D warnings
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
 	$(BIN)/lint-imports --no-cache

@@ -1,8 +1,9 @@
 """What accuracy costs: specific power, N/T and time against the time step, and against softer springs.
 
 Writes docs/accuracy/accuracy.parquet, one row a run, the figure beside it, and the table in docs/accuracy.md. Runs that
-are kept in the folder are not run again. N/T is that of the study: power dissipated by normal damping over that by
-sliding. The time is that of one core, CPU time, so other work on the machine hardly counts.
+are kept in the folder are not run again. N/T has two readings: power dissipated by normal damping over that by sliding,
+and gross work along normals over that along tangents. The time is that of one core, CPU time, so other work on the
+machine hardly counts; recording the gross work is in it.
 """
 
 import argparse
@@ -31,6 +32,14 @@ SOFTER = (10.0, 100.0)
 FILL = 0.25
 WINDOW = (4.0, 10.0)
 SEEDS = (1, 2, 3)
+# Colors of the two drums, those of all figures.
+COLORS = {"bare": "C0", "three baffles": "C1"}
+RECORD = ["gross_work"]
+# Readings of N/T: what stands above the line, and below it.
+RATIOS = {
+    "ratio": ("dissipated_normal", "dissipated_sliding"),
+    "gross_ratio": ("gross_work_normal", "gross_work_tangential"),
+}
 TABLE = re.compile(r"(<!-- table -->\n).*?(<!-- end of table -->)", re.DOTALL)
 
 
@@ -44,7 +53,13 @@ class Setting:
 
     def config(self, seed: int) -> drumrs.Config:
         """Return the paper's drum at this setting."""
-        run = {"seed": seed, "duration": WINDOW[1], "window": WINDOW, "frame_every": WINDOW[1]}
+        run = {
+            "seed": seed,
+            "duration": WINDOW[1],
+            "window": WINDOW,
+            "frame_every": WINDOW[1],
+            "record": RECORD,
+        }
         base = drumrs.baseline(FILL, baffles=self.baffles).replace({"run": run})
         collision = base.derived.bundle.collision_time
         return base.replace({"run.time_step": collision / self.steps}).softer(self.softer)
@@ -68,7 +83,7 @@ def measure(setting: Setting, seed: int, folder: Path) -> None:
     simulation.run()
     seconds = (time.process_time() - began) / WINDOW[1]
     summary = simulation.summary()
-    ratio = analysis.ratio_with_error(simulation.series, "dissipated_normal", "dissipated_sliding", WINDOW)
+    ratios = {name: analysis.ratio_with_error(simulation.series, *of, WINDOW) for name, of in RATIOS.items()}
     row = {
         "baffles": setting.baffles,
         "steps_per_collision": setting.steps,
@@ -77,8 +92,8 @@ def measure(setting: Setting, seed: int, folder: Path) -> None:
         "time_step": simulation.time_step,
         "power": summary.drum_specific_power,
         "power_error": summary.drum_specific_power_error,
-        "ratio": ratio.value if ratio is not None else None,
-        "ratio_error": ratio.error if ratio is not None else None,
+        **{name: ratio.value if ratio is not None else None for name, ratio in ratios.items()},
+        **{f"{name}_error": ratio.error if ratio is not None else None for name, ratio in ratios.items()},
         "numerical_share": summary.numerical_power / summary.drum_power,
         "max_overlap_ratio": summary.max_overlap_ratio,
         "seconds": seconds,
@@ -93,7 +108,7 @@ def means(table: pl.DataFrame) -> list[dict[str, Any]]:
     keys = ["baffles", "steps_per_collision", "softer"]
     for key, rows in table.group_by(keys, maintain_order=True):
         entry: dict[str, Any] = dict(zip(keys, key, strict=True))
-        for name in ("power", "ratio"):
+        for name in ("power", *RATIOS):
             values, errors = rows[name].to_list(), rows[f"{name}_error"].to_list()
             entry[name] = analysis.estimate(values, errors)
         entry["seconds"] = rows["seconds"].median()
@@ -106,17 +121,18 @@ def means(table: pl.DataFrame) -> list[dict[str, Any]]:
 def lines_of(entries: Sequence[dict[str, Any]]) -> list[str]:
     """Return the table in Markdown."""
     lines = [
-        "| drum | t_c / dt | softer | specific power [W/kg] | N/T | numerical | greatest overlap | s per s |",
-        "|---" * 8 + "|",
+        "| drum | t_c / dt | softer | specific power [W/kg] | N/T, dissipated | N/T, gross | numerical "
+        "| greatest overlap | s per s |",
+        "|---" * 9 + "|",
     ]
     for entry in entries:
-        power, ratio = entry["power"], entry["ratio"]
+        power, ratios = entry["power"], [entry[name] for name in RATIOS]
         words = [
             "three baffles" if entry["baffles"] else "bare",
             f"{entry['steps_per_collision']:g}",
             f"{entry['softer']:g}",
             f"{power.mean:.3f} ± {power.error:.3f}",
-            f"{ratio.mean:.3f} ± {ratio.error:.3f}",
+            *(f"{ratio.mean:.3f} ± {ratio.error:.3f}" for ratio in ratios),
             f"{100.0 * entry['numerical_share']:+.2f} %",
             f"{100.0 * entry['max_overlap_ratio']:.1f} % of r",
             f"{entry['seconds']:.2f}",
@@ -149,7 +165,7 @@ def draw(entries: Sequence[dict[str, Any]]) -> "Figure":
                 axes.set_xticks(places, [f"{place:g}" for place in places])
                 axes.minorticks_off()
             row[0].set_ylabel("Specific power [W/kg]")
-            row[1].set_ylabel("N/T")
+            row[1].set_ylabel("N/T: dissipated (—), gross (--)")
             row[2].set(ylabel="Time per simulated second [s]", yscale="log")
         grid[0][2].legend()
     return figure
@@ -157,11 +173,15 @@ def draw(entries: Sequence[dict[str, Any]]) -> "Figure":
 
 def _draw_row(row: Any, entries: Sequence[dict[str, Any]], key: str, label: str) -> None:
     places = [entry[key] for entry in entries]
-    for axes, name in zip(row, ("power", "ratio"), strict=False):
+    color = COLORS[label]
+    for axes, name, style in (
+        (row[0], "power", "-"),
+        *zip((row[1], row[1]), RATIOS, ("-", "--"), strict=True),
+    ):
         intervals = [entry[name].interval() for entry in entries]
         heights, halves = [i.mean for i in intervals], [i.half_width for i in intervals]
-        axes.errorbar(places, heights, halves, marker=".", capsize=3.0, label=label)
-    row[2].plot(places, [entry["seconds"] for entry in entries], marker=".", label=label)
+        axes.errorbar(places, heights, halves, marker=".", capsize=3.0, color=color, linestyle=style)
+    row[2].plot(places, [entry["seconds"] for entry in entries], marker=".", color=color, label=label)
 
 
 def main() -> int:

@@ -1,5 +1,5 @@
 //! The loads for `instructions.sh`, which counts what a step costs: `settle FILE COUNT BAFFLES` makes one in the tumble,
-//! `run FILE STEPS` goes on with it. Any other arguments, such as those of `cargo bench`, do nothing.
+//! `run FILE STEPS` goes on with it.
 
 mod scenes;
 
@@ -33,6 +33,6 @@ fn main() {
             let mut simulation = Simulation::from_checkpoint(&bytes, 1).expect("a settled load");
             simulation.run(number(steps) as u64).expect("a stable run");
         }
-        _ => {}
+        _ => panic!("settle FILE COUNT BAFFLES, or run FILE STEPS"),
     }
 }

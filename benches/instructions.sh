@@ -25,8 +25,8 @@ if [ "${1:-}" != --keep ] && [ "$(head -1 "$kept")" != "$compiler" ]; then
 fi
 
 # In a folder of its own: built beside the Python module, it would take that one's place, which would be built anew.
-program=$(cargo bench --quiet --target-dir target/instructions --bench baseline --no-run --message-format json |
-    sed -n 's/.*"executable":"\([^"]*baseline[^"]*\)".*/\1/p')
+cargo build --quiet --release --target-dir target/instructions --features baseline --bin baseline
+program=target/instructions/release/baseline
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 

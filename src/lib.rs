@@ -10,10 +10,11 @@
 //! | 0     | [`error`], [`physics::columns`], [`physics::scalar`], [`physics::vector`]                              |
 //! | 1     | [`physics::contact`], [`physics::drum`], [`physics::particles`], [`physics::rotation`]                 |
 //! | 2     | [`physics::energy`], [`physics::load`]                                                                 |
-//! | 3     | [`engine`], [`io::config`], [`observe`]                                                                |
-//! | 4     | [`simulation`]                                                                                         |
-//! | 5     | [`io::checkpoint`]                                                                                     |
-//! | 6     | `python`, which only the feature of that name builds                                                   |
+//! | 3     | [`engine`], [`observe`]                                                                                |
+//! | 4     | [`io::config`]                                                                                         |
+//! | 5     | [`simulation`]                                                                                         |
+//! | 6     | [`io::checkpoint`]                                                                                     |
+//! | 7     | `python`, which only the feature of that name builds                                                   |
 //!
 //! `tests/architecture.rs` reads this table and checks it.
 //!

@@ -5,10 +5,6 @@
 #[path = "../../tests/common/mod.rs"]
 pub mod common;
 
-use std::time::Duration;
-
-use criterion::BenchmarkGroup;
-use criterion::measurement::WallTime;
 use drumrs::io::config::SimulationConfig;
 use drumrs::physics::drum::Drum;
 use drumrs::physics::vector::{Vec2, perpendicular};
@@ -29,11 +25,6 @@ pub fn drum_for(count: usize, baffle_count: usize) -> SimulationConfig {
         config.rotation.knots = vec![[0.0, (0.774 * common::GRAVITY / radius).sqrt()]];
     }
     config
-}
-
-/// Times that suffice for a ratio, so that all benches take minutes.
-pub fn keep_short(group: &mut BenchmarkGroup<WallTime>) {
-    group.sample_size(20).warm_up_time(Duration::from_secs(1)).measurement_time(Duration::from_secs(3));
 }
 
 /// A load before its first step. Large ones, which would fall for longer than is spent here, start as a bed.

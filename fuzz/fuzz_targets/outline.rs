@@ -1,7 +1,7 @@
-//! Any bytes as a drum's outlines: see `outline` in `tests/hostile/mod.rs`.
+//! Any bytes as a drum's outlines: see `outline` in `tests/contracts/hostile.rs`.
 #![no_main]
 
-#[path = "../../tests/hostile/mod.rs"]
+#[path = "../../tests/contracts/hostile.rs"]
 #[allow(dead_code)] // Each target uses its own part.
 mod hostile;
 

@@ -15,7 +15,7 @@ from drumrs import errors
 from drumrs.config import Config, baseline
 from drumrs.errors import CheckpointError, ConfigError, DrumrsError, DrumrsWarning, UnstableError
 from drumrs.frames import Frames
-from drumrs.jobs import job_count
+from drumrs.jobs import effective_jobs
 from drumrs.output import player, save
 from drumrs.progress import Task
 from drumrs.registry import Quantity, quantity
@@ -50,9 +50,9 @@ __all__ = [
     "Verification",
     "__version__",
     "baseline",
+    "effective_jobs",
     "errors",
     "info",
-    "job_count",
     "load",
     "player",
     "quantities",

@@ -17,6 +17,7 @@ KINDS = {
     "sweep": "a sweep",
     "reproduction": "a reproduction",
     "validation": "a validation",
+    "baffle": "an inference of the baffle",
 }
 # What a run's folder holds.
 RUN_FILES = (

@@ -37,8 +37,9 @@ Energies, powers, forces and torques are per meter of drum depth. Names follow t
 - The standard error of a mean has its name and `_error`: `drum_specific_power_error`.
 - What one part of the drum does begins with the part: `rim_torque`, `baffle_2_work`, `wall_1_force_x`.
 
-N/T, normal over tangential power, has two readings: `dissipation_ratio`, what normal damping takes over what sliding
-takes, and `work_ratio`, which counts what springs store as well.
+N/T, normal over tangential power, has three readings: `dissipation_ratio`, what normal damping takes over what sliding
+takes; `work_ratio`, which counts what springs store as well; and `gross_work_ratio`, which counts loading and unloading
+both. Gross work is recorded on request: `run.record = ["gross_work"]`.
 
 How values are to be read:
 
@@ -106,7 +107,7 @@ def quantities() -> QuantityTable:
 
 def _places() -> Mapping[str, Sequence[str]]:
     """Return the names that are found in each place."""
-    series = [column.name for column in registry.recorded(1, 1)]
+    series = [column.name for column in registry.recorded(1, 1, registry.RECORDINGS)]
     summary = [field.name for field in fields(Summary)]
     table = [one.name for one in registry.known(schema()) if one.name not in summary]
     drums = registry.PUBLISHED_DRUMS

@@ -8,7 +8,7 @@ from drumrs.errors import ConfigError
 MOST_JOBS = 1024
 
 
-def job_count(jobs: int | None = None) -> int:
+def effective_jobs(jobs: int | None = None) -> int:
     """Return how many cases are to run at once.
 
     Parameters
@@ -24,7 +24,7 @@ def job_count(jobs: int | None = None) -> int:
     Examples
     --------
     >>> import drumrs
-    >>> drumrs.job_count(3), drumrs.job_count() >= 1
+    >>> drumrs.effective_jobs(3), drumrs.effective_jobs() >= 1
     (3, True)
     """
     if jobs is None:

@@ -68,7 +68,7 @@ def run_until_precise(
     """
     run_to_end(simulation, folder, progress=progress)
     while (end := _next_end(simulation, goal)) is not None:
-        simulation.prolong(end)
+        simulation.extend_to(end)
         run_to_end(simulation, folder, label=f"on to {end:.4g} s", progress=progress)
     reached = _precision(simulation)
     found = f"{100.0 * reached:.2g} %" if math.isfinite(reached) else "not known"

@@ -16,6 +16,9 @@ from types import MappingProxyType
 from drumrs import _core
 from drumrs.errors import ConfigError
 
+# What is recorded on request, by the key `run.record`.
+RECORDINGS = ("gross_work",)
+
 # How values are to be read.
 READINGS = MappingProxyType(
     {
@@ -142,9 +145,12 @@ def require(path: Path, names: Iterable[str], wanted: Iterable[str]) -> None:
             raise ConfigError(Path(path), problem=problem, hint=hint)
 
 
-def recorded(baffles: int, walls: int) -> list[Quantity]:
-    """Return the columns of the series of a drum with so many baffles and walls, in their order."""
-    return [Quantity(*row) for row in _core.Simulation.columns(baffles, walls)]
+def recorded(baffles: int, walls: int, record: Iterable[str] = ()) -> list[Quantity]:
+    """Return the columns of the series of a drum with so many baffles and walls, in their order.
+
+    Those of what is recorded on request, `record`, are among them.
+    """
+    return [Quantity(*row) for row in _core.Simulation.columns(baffles, walls, "gross_work" in record)]
 
 
 def declared() -> Mapping[str, Quantity]:
@@ -154,7 +160,7 @@ def declared() -> Mapping[str, Quantity]:
 
 @cache
 def _declared() -> Mapping[str, Quantity]:
-    rows = (*recorded(1, 1), *_ROWS, *_PUBLISHED_DRUMS)
+    rows = (*recorded(1, 1, RECORDINGS), *_ROWS, *_PUBLISHED_DRUMS)
     return MappingProxyType({row.name: row for row in rows})
 
 
@@ -257,6 +263,15 @@ _ROWS = (
         symbol="(N/T)_W",
         formula="ΔN/ΔT",
     ),
+    _made(
+        "gross_work_ratio",
+        "1",
+        "ratio",
+        "N/T by gross work: what normal forces exchange over what tangential forces exchange, loading and unloading "
+        "both counted; where run.record has 'gross_work'",
+        symbol="(N/T)_G",
+        formula="ΔN_gross/ΔT_gross",
+    ),
     _made("kinetic_energy", "J/m", "mean", "kinetic energy of the load", symbol="K", formula="K_t + K_r"),
     _made("drum_force_x", "N/m", "mean", "horizontal force of the load on the drum", symbol="F_x"),
     _made("drum_force_y", "N/m", "mean", "vertical force of the load on the drum", symbol="F_y"),
@@ -279,7 +294,7 @@ _ROWS = (
         "change of the share of normal damping in all dissipation within the window",
     ),
     _made(
-        "state_switching",
+        "share_switching",
         "1",
         "test",
         "difference of that share between stretches of time, greatest less least",
@@ -293,10 +308,10 @@ _ROWS = (
         symbol="p",
     ),
     _made(
-        "state_switching_significance",
+        "share_switching_significance",
         "1",
         "test",
-        "probability of so large a state_switching in a steady run",
+        "probability of so large a share_switching in a steady run",
         symbol="p",
     ),
     _made(

@@ -53,6 +53,7 @@ class Summary:
     tangential_power: float
     dissipation_ratio: float | None
     work_ratio: float | None
+    gross_work_ratio: float | None
     center_of_mass_x: float
     center_of_mass_y: float
     coordination: float
@@ -93,6 +94,7 @@ class Summary:
             "drum_torque": number(self.drum_torque),
             "dissipation_ratio": number(self.dissipation_ratio),
             "work_ratio": number(self.work_ratio),
+            "gross_work_ratio": number(self.gross_work_ratio),
             "center_of_mass_x": number(self.center_of_mass_x),
             "center_of_mass_y": number(self.center_of_mass_y),
             "coordination": number(self.coordination),

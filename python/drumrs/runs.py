@@ -123,7 +123,7 @@ def advance_to_end(
     going = True
     while going and simulation.step < simulation.last_step:
         try:
-            going = simulation.run_until(simulation.last_step, wall_limit=pause, on_progress=after_slice)
+            going = simulation.run_to_step(simulation.last_step, wall_limit=pause, on_progress=after_slice)
         except (KeyboardInterrupt, MemoryError):
             _save(simulation, folder)
             raise

@@ -108,7 +108,7 @@ class Simulation(HasRecords):
     def _start(self, config: Config, core: _core.Simulation) -> None:
         self._config = config
         self._core = core
-        columns = recorded(config.drum.baffles.count, len(config.drum.walls))
+        columns = recorded(config.drum.baffles.count, len(config.drum.walls), config.run.record)
         self._records = Records(core, config, [column.name for column in columns])
         self._stop = threading.Event()
         self._running = threading.Lock()
@@ -153,9 +153,9 @@ class Simulation(HasRecords):
                 raise ConfigError("duration", duration, "a finite number of at least 0")
             steps = step_count("duration", float(duration), self.time_step)
         end = self.last_step if steps is None else self.step + check_steps(steps)
-        self.run_until(end, on_progress=on_progress)
+        self.run_to_step(end, on_progress=on_progress)
 
-    def run_until(
+    def run_to_step(
         self, step: int, *, wall_limit: float = math.inf, on_progress: Callable[[int], None] | None = None
     ) -> bool:
         """Advance to a step number, but no longer than a time of the wall clock.
@@ -203,7 +203,7 @@ class Simulation(HasRecords):
         self._stop.set()
         self._core.stop()
 
-    def prolong(self, duration: float) -> None:
+    def extend_to(self, duration: float) -> None:
         """Let the run, and the window of its averages, end later [s]: it becomes that of the longer configuration.
 
         Raises
@@ -258,8 +258,8 @@ class Simulation(HasRecords):
         return self._core.time_step
 
     @property
-    def collision_times(self) -> dict[str, float]:
-        """Duration of a collision with another bundle and with the drum [s]."""
+    def collision_time(self) -> dict[str, float]:
+        """Duration of a collision with another bundle, "bundle", and with the drum, "drum" [s]."""
         return self._core.collision_times
 
     @property

@@ -84,7 +84,7 @@ def refuse_to_repeat(folder: Path, simulation: Simulation) -> None:
     if ended is None:
         return
     settings = "--set run.time_step=auto"
-    if simulation.time_step <= min(simulation.collision_times.values()) / _RESOLVED:
+    if simulation.time_step <= min(simulation.collision_time.values()) / _RESOLVED:
         # The steps are as short as "auto": it is the springs that are too soft.
         contact = simulation.config.contact
         for side, law in (("bundle", contact.bundle), ("drum", contact.drum)):

@@ -65,6 +65,8 @@ pub struct World<'a> {
     pub drum: &'a Drum,
     /// What acts between species, and between them and the drum.
     pub table: &'a SpeciesTable,
+    /// Whether gross work is summed up.
+    pub records_gross_work: bool,
     /// Length of a step [s].
     pub time_step: f64,
     /// Gravity [m/s²].
@@ -91,7 +93,11 @@ impl Engine {
         let bodies = bodies(particles, radius, world.table);
         let free = world.drum.radius().map_or(1.0, |rim| rim - particles.largest_radius());
         Self {
-            pass: new_pass(Model::of(world.table), world.drum.surface_count(), &bodies),
+            pass: new_pass(
+                Model::of(world.table, world.records_gross_work),
+                world.drum.surface_count(),
+                &bodies,
+            ),
             list: PairList::new(count, skin, particles.largest_radius()),
             verlet: Verlet::new(particles, world.time_step, world.gravity),
             sums: vec![DriftSums::default(); chunk_count(count)],

@@ -21,7 +21,7 @@ use crate::simulation::{Records, Simulation};
 
 const MAGIC: &[u8; 8] = b"DRUMRS\r\n";
 /// Version of the layout below; a checkpoint of another one is refused.
-pub const FORMAT_VERSION: u32 = 5;
+pub const FORMAT_VERSION: u32 = 6;
 /// Beyond this, step × time step is no longer exact to a step.
 const MOST_STEPS: u64 = 1 << 53;
 const HEADER: usize = MAGIC.len() + 4 + 32;
@@ -87,7 +87,7 @@ impl Simulation {
         let config =
             SimulationConfig::from_json(&snapshot.config).map_err(|error| refuse(error.to_string()))?;
         let drum = check(&snapshot.state, &snapshot.engine, &config)?;
-        let mut records = Records::new(&drum);
+        let mut records = Records::new(&drum, &config.run.record);
         records.series.prepend(&snapshot.rows)?;
         records.frames = snapshot.frames.into_owned();
         check_records(&snapshot.state, &records, snapshot.rows.len())?;

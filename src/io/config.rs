@@ -7,6 +7,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, require_finite, require_non_negative, require_positive};
+use crate::observe::recorder::Recording;
 use crate::physics::contact::parameters::ContactParameters;
 use crate::physics::contact::species::SpeciesTable;
 use crate::physics::drum::DrumParameters;
@@ -131,6 +132,8 @@ pub struct RunParameters {
     /// Margin of the neighbor list [m]; none takes the measured best. It never changes a result.
     #[serde(deserialize_with = "Option::deserialize")]
     pub skin: Option<f64>,
+    /// What is recorded beside what always is.
+    pub record: Vec<Recording>,
     /// Greatest overlap allowed, as a fraction of the smaller radius.
     pub overlap_limit: f64,
 }

@@ -9,8 +9,17 @@ use serde::{Deserialize, Serialize};
 use super::memory;
 use crate::error::Error;
 use crate::physics::columns::Columns;
+use crate::physics::contact::gross_work::GrossWork;
 use crate::physics::contact::{Flows, Stored};
 use crate::physics::energy::{EnergyLedger, StoredEnergy, SurfaceAccount};
+
+/// What is recorded on request.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Recording {
+    /// What contacts exchange, loading and unloading both counted.
+    GrossWork,
+}
 
 /// Everything that a sample may look at.
 #[derive(Debug)]
@@ -23,6 +32,8 @@ pub struct Snapshot<'a> {
     pub angular_velocity: f64,
     /// The accounts.
     pub ledger: &'a EnergyLedger,
+    /// Gross work, where it is recorded [J/m].
+    pub gross_work: Option<GrossWork<f64>>,
     /// What is stored now.
     pub stored: StoredEnergy,
     /// Angular momentum of the load about the axis [kg m/s].
@@ -254,12 +265,25 @@ fn impulses(account: &SurfaceAccount) -> [f64; 3] {
     [x, y, account.angular_impulse()]
 }
 
-/// The columns of a drum with so many baffles and walls.
-pub fn columns(baffles: usize, walls: usize) -> Vec<Column> {
+/// The columns of a drum with so many baffles and walls, and of what is recorded on request.
+pub fn columns(baffles: usize, walls: usize, record: &[Recording]) -> Vec<Column> {
     let baffles = (1..=baffles).map(|k| format!("baffle_{k}"));
     let walls = (1..=walls).map(|k| format!("wall_{k}"));
     let surfaces = std::iter::once("rim".to_owned()).chain(baffles).chain(walls);
-    quantities().chain(surfaces.flat_map(|surface| columns_of(&surface))).collect()
+    let on_request = record.contains(&Recording::GrossWork).then(gross_work).into_iter().flatten();
+    quantities().chain(on_request).chain(surfaces.flat_map(|surface| columns_of(&surface))).collect()
+}
+
+/// The columns of the gross work.
+fn gross_work() -> impl Iterator<Item = Column> {
+    (0..GrossWork::COUNT).map(|way| Column {
+        name: GrossWork::NAMES[way].into(),
+        symbol: GrossWork::SYMBOLS[way].into(),
+        unit: "J/m",
+        reading: Reading::Cumulative,
+        formula: GrossWork::FORMULAS[way].into(),
+        meaning: format!("energy{}, loading and unloading both counted", GrossWork::MEANINGS[way]).into(),
+    })
 }
 
 /// The columns of a surface, in the order in which `Series::push` writes them.
@@ -285,19 +309,19 @@ fn columns_of(surface: &str) -> [Column; 4] {
 /// Samples, one row each.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Series {
-    width: usize,
+    columns: Vec<Column>,
     values: Vec<f64>,
 }
 
 impl Series {
-    /// An empty series of `width` columns.
-    pub fn new(width: usize) -> Self {
-        Self { width, values: Vec::new() }
+    /// An empty series of these columns.
+    pub fn new(columns: Vec<Column>) -> Self {
+        Self { columns, values: Vec::new() }
     }
 
     /// Number of rows.
     pub fn len(&self) -> usize {
-        self.values.len().checked_div(self.width).unwrap_or(0)
+        self.values.len().checked_div(self.width()).unwrap_or(0)
     }
 
     /// Whether nothing has been recorded.
@@ -305,14 +329,19 @@ impl Series {
         self.values.is_empty()
     }
 
+    /// The columns.
+    pub fn columns(&self) -> &[Column] {
+        &self.columns
+    }
+
     /// Number of columns.
     pub fn width(&self) -> usize {
-        self.width
+        self.columns.len()
     }
 
     /// The values from a row on, row after row.
     pub fn rows_from(&self, row: usize) -> &[f64] {
-        &self.values[row * self.width..]
+        &self.values[row * self.width()..]
     }
 
     /// Puts whole rows before those that are there.
@@ -328,12 +357,15 @@ impl Series {
     /// # Errors
     /// `Error::Memory` where there is none.
     pub fn reserve(&mut self) -> Result<(), Error> {
-        memory::reserve(&mut self.values, self.width, "recording a sample")
+        memory::reserve(&mut self.values, self.columns.len(), "recording a sample")
     }
 
     /// Appends a row.
     pub fn push(&mut self, snapshot: &Snapshot) {
         self.values.extend(snapshot.values());
+        let gross_work = snapshot.gross_work.iter();
+        self.values
+            .extend(gross_work.flat_map(|sums| (0..GrossWork::COUNT).map(|way| GrossWork::field(sums, way))));
         for (surface, account) in snapshot.ledger.surfaces.iter().enumerate() {
             // Forces are those of the load on the surface, as bearings feel them; torque is that of the drive.
             let [x, y, torque] = snapshot.mean_load(surface);
@@ -343,19 +375,21 @@ impl Series {
 
     /// One column, a value for each row.
     pub fn column(&self, index: usize) -> Vec<f64> {
-        self.values.iter().skip(index).step_by(self.width.max(1)).copied().collect()
+        self.values.iter().skip(index).step_by(self.width().max(1)).copied().collect()
+    }
+
+    /// The place of a column.
+    pub fn place_of(&self, name: &str) -> Option<usize> {
+        self.columns.iter().position(|column| column.name == name)
     }
 
     /// The sum over rim, baffles and walls of a quantity that each of them has, a value for each row.
-    ///
-    /// # Panics
-    /// Where they have no such quantity.
     pub fn sum_over_surfaces(&self, quantity: &str) -> Vec<f64> {
-        let of_each = columns_of("rim");
-        let place = of_each.iter().position(|column| column.name == format!("rim_{quantity}"));
-        let first = quantities().count() + place.expect("a quantity of surfaces");
-        let sum = |row: &[f64]| row[first..].iter().step_by(of_each.len()).sum();
-        self.values.chunks_exact(self.width.max(1)).map(sum).collect()
+        let ending = format!("_{quantity}");
+        let is_meant = |column: &Column| column.name.ends_with(&ending);
+        let places: Vec<_> = (0..self.width()).filter(|&place| is_meant(&self.columns[place])).collect();
+        let sum = |row: &[f64]| places.iter().map(|&place| row[place]).sum();
+        self.values.chunks_exact(self.width().max(1)).map(sum).collect()
     }
 
     /// One column, where there may be no memory for it.
@@ -365,7 +399,7 @@ impl Series {
     pub fn try_column(&self, index: usize) -> Result<Vec<f64>, Error> {
         let mut column = Vec::new();
         memory::reserve(&mut column, self.len(), "reading the series")?;
-        column.extend(self.values.iter().skip(index).step_by(self.width.max(1)));
+        column.extend(self.values.iter().skip(index).step_by(self.width().max(1)));
         Ok(column)
     }
 }
@@ -376,11 +410,11 @@ mod tests {
 
     #[test]
     fn every_column_has_a_name_of_its_own_and_a_unit() {
-        let columns = columns(3, 1);
+        let columns = columns(3, 1, &[Recording::GrossWork]);
         let mut names: Vec<_> = columns.iter().map(|column| &column.name).collect();
         names.sort_unstable();
         names.dedup();
-        assert_eq!(names.len(), quantities().count() + 4 * 5);
+        assert_eq!(names.len(), quantities().count() + GrossWork::COUNT + 4 * 5);
         assert!(columns.iter().all(|column| !column.unit.is_empty() && !column.meaning.is_empty()));
     }
 }

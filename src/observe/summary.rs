@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 use crate::observe::averages;
-use crate::observe::recorder::{Series, contact_energies, quantities};
+use crate::observe::recorder::{Series, contact_energies};
 use crate::physics::contact::{Flows, Stored};
 
 /// A named statistic; none where it is not defined.
@@ -27,6 +27,9 @@ pub fn summarize(series: &Series, mass: f64, start: f64, end: f64) -> Result<Vec
     let mean = |name: &str| averages::mean_sampled(&table.column(name)[1..], sample_every).value;
     let ratio = |above: f64, below: f64| (below != 0.0).then(|| above / below);
     let (normal, tangential) = (rate("normal_work"), rate("tangential_work"));
+    let is_recorded = series.place_of("gross_work_normal").is_some();
+    let gross_work_ratio =
+        is_recorded.then(|| ratio(rate("gross_work_normal"), rate("gross_work_tangential"))).flatten();
     let work = averages::mean_rate(&times, &table.column("drum_work"));
     let (power, spread) = (work.value, work.spread);
     let motion = rate("kinetic_translation") + rate("kinetic_rotation") + rate("gravitational");
@@ -47,6 +50,7 @@ pub fn summarize(series: &Series, mass: f64, start: f64, end: f64) -> Result<Vec
         ("drum_specific_power_error", spread.map(|spread| spread.error / mass)),
         ("correlation_time", spread.map(|spread| spread.correlation_time)),
         ("work_ratio", ratio(normal, tangential)),
+        ("gross_work_ratio", gross_work_ratio),
         ("dissipation_ratio", ratio(rate("dissipated_normal"), rate("dissipated_sliding"))),
         ("normal_power", Some(normal)),
         ("tangential_power", Some(tangential)),
@@ -100,6 +104,6 @@ impl Table<'_> {
 }
 
 fn whole_column(series: &Series, name: &str) -> Vec<f64> {
-    let index = quantities().position(|column| column.name == name);
+    let index = series.place_of(name);
     series.column(index.expect("the summary asks for recorded quantities only"))
 }

@@ -17,10 +17,11 @@ use pyo3::types::PyDict;
 use super::arrays;
 use super::fair_lock::FairLock;
 use super::fork_guard::Entered;
+use crate::engine::parallel::CHUNK;
 use crate::error::Error;
 use crate::io::config::SimulationConfig;
 use crate::observe::frames::Frames;
-use crate::observe::recorder::columns;
+use crate::observe::recorder::{Recording, columns};
 use crate::observe::summary::summarize;
 use crate::physics::particles::Particles;
 use crate::simulation::Simulation as Core;
@@ -146,11 +147,15 @@ impl Simulation {
     ) -> PyResult<Self> {
         let config = SimulationConfig::from_json(config)?;
         let initial = state.map(arrays::initial_state).transpose()?;
+        let few = config.load.count <= CHUNK;
         let start = move || match initial {
             Some(initial) => Core::with_state(config, seed, threads, initial),
             None => Core::new(config, seed, threads),
         };
-        on_a_thread(py, "starting a simulation", start).map(Self::around)
+        // A few bundles are packed in a tenth of a second. Each thread would leave memory behind: the system's allocator
+        // keeps an arena for every thread that it has seen, and a sweep starts simulations by the thousand.
+        let made = if few { Ok(py.detach(start)?) } else { on_a_thread(py, "starting a simulation", start) };
+        made.map(Self::around)
     }
 
     #[staticmethod]
@@ -291,12 +296,9 @@ impl Simulation {
 
     fn series<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let table = self.with(py, |core| {
-            let names = columns(core.drum().baffle_count(), core.drum().wall_count());
-            let values = (0..names.len()).map(|index| core.series().try_column(index));
-            names
-                .into_iter()
-                .zip(values)
-                .map(|(column, values)| Ok((column.name, values?)))
+            let columns = core.series().columns().iter().enumerate();
+            columns
+                .map(|(index, column)| Ok((column.name.clone(), core.series().try_column(index)?)))
                 .collect::<Result<Vec<_>, Error>>()
         });
         let series = PyDict::new(py);
@@ -384,8 +386,9 @@ impl Simulation {
 
     /// The columns of the series: name, symbol, unit, reading, formula, meaning.
     #[staticmethod]
-    fn columns(baffles: usize, walls: usize) -> Vec<[String; 6]> {
-        let told = columns(baffles, walls).into_iter();
+    fn columns(baffles: usize, walls: usize, record_gross_work: bool) -> Vec<[String; 6]> {
+        let record = record_gross_work.then_some(Recording::GrossWork);
+        let told = columns(baffles, walls, record.as_slice()).into_iter();
         told.map(|c| {
             [c.name, c.symbol, c.unit.into(), c.reading.name().into(), c.formula, c.meaning]
                 .map(Cow::into_owned)

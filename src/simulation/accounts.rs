@@ -106,6 +106,7 @@ impl Simulation {
         let folded = self.engine.pass_mut().fold();
         let taken = 0.5 * self.derived.time_step * folded.power;
         self.state.ledger.fold(taken, &folded.flows, folded.deepest);
+        self.state.ledger.fold_gross_work(&folded.gross_work);
     }
 
     fn sample(&mut self) {
@@ -124,6 +125,7 @@ impl Simulation {
             angle,
             angular_velocity: self.config.rotation.angular_velocity(time),
             ledger: &state.ledger,
+            gross_work: self.derived.records_gross_work.then(|| state.ledger.gross_work()),
             stored,
             angular_momentum,
             mass: self.derived.mass,

@@ -5,6 +5,7 @@ use serde::Serialize;
 use crate::engine::World;
 use crate::error::Error;
 use crate::io::config::SimulationConfig;
+use crate::observe::recorder::Recording;
 use crate::physics::contact::law::BodyPair;
 use crate::physics::contact::linear;
 use crate::physics::contact::parameters::{Base, ContactParameters};
@@ -18,6 +19,7 @@ use crate::physics::vector::Vec2;
 pub(super) struct Derived {
     pub(super) drum: Drum,
     pub(super) table: SpeciesTable,
+    pub(super) records_gross_work: bool,
     pub(super) time_step: f64,
     pub(super) gravity: Vec2,
     pub(super) mass: f64,
@@ -36,6 +38,7 @@ impl Derived {
         Ok(Self {
             drum: Drum::new(&config.drum)?,
             table,
+            records_gross_work: config.run.record.contains(&Recording::GrossWork),
             time_step,
             gravity: Vec2::new(config.gravity[0], config.gravity[1]),
             mass: particles.total_mass(),
@@ -48,7 +51,13 @@ impl Derived {
 
     /// What the engine needs of it.
     pub(super) fn world(&self) -> World<'_> {
-        World { drum: &self.drum, table: &self.table, time_step: self.time_step, gravity: self.gravity }
+        World {
+            drum: &self.drum,
+            table: &self.table,
+            records_gross_work: self.records_gross_work,
+            time_step: self.time_step,
+            gravity: self.gravity,
+        }
     }
 }
 

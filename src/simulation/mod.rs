@@ -105,7 +105,7 @@ impl Simulation {
             particles,
         };
         let engine_state = EngineState { contacts, totals: Vec::new() };
-        let records = Records::new(&derived.drum);
+        let records = Records::new(&derived.drum, &config.run.record);
         let mut simulation = Self::assemble(config, seed, threads, state, &engine_state, records, derived);
         simulation.open(&engine_state);
         if engine_state.contacts == Lists::default() {

@@ -7,7 +7,7 @@ use super::Simulation;
 use crate::error::Error;
 use crate::observe::frames::Frames;
 use crate::observe::memory;
-use crate::observe::recorder::{Series, columns};
+use crate::observe::recorder::{Recording, Series, columns};
 use crate::physics::drum::Drum;
 
 /// Samples and frames in memory: the last of those that the state counts.
@@ -22,10 +22,10 @@ pub struct Records {
 }
 
 impl Records {
-    /// No records of a drum's load.
-    pub fn new(drum: &Drum) -> Self {
-        let width = columns(drum.baffle_count(), drum.wall_count()).len();
-        Self { series: Series::new(width), ..Self::default() }
+    /// No records of a drum's load yet; `record` is what is recorded on request.
+    pub fn new(drum: &Drum, record: &[Recording]) -> Self {
+        let columns = columns(drum.baffle_count(), drum.wall_count(), record);
+        Self { series: Series::new(columns), ..Self::default() }
     }
 
     /// The samples that were not taken yet, row after row.

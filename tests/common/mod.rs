@@ -106,6 +106,7 @@ pub fn baseline(count: usize, baffle_count: usize) -> SimulationConfig {
             sample_every: 0.001,
             frame_every: 0.04,
             skin: None,
+            record: Vec::new(),
             overlap_limit: 0.5,
         },
     }
@@ -189,9 +190,7 @@ pub fn bits(simulation: &Simulation) -> Vec<u64> {
     all.extend(vectors(&particles.forces));
     all.extend(numbers(&particles.angles));
     all.extend(numbers(&particles.angular_velocities));
-    let columns =
-        drumrs::observe::recorder::columns(simulation.drum().baffle_count(), simulation.drum().wall_count());
-    for index in 0..columns.len() {
+    for index in 0..simulation.series().width() {
         all.extend(numbers(&simulation.series().column(index)));
     }
     all
@@ -211,8 +210,5 @@ pub fn last(simulation: &Simulation, name: &str) -> f64 {
 
 /// All values of a recorded quantity.
 pub fn column(simulation: &Simulation, name: &str) -> Vec<f64> {
-    let columns =
-        drumrs::observe::recorder::columns(simulation.drum().baffle_count(), simulation.drum().wall_count());
-    let index = columns.iter().position(|column| column.name == name).expect("a recorded quantity");
-    simulation.series().column(index)
+    simulation.series().column(simulation.series().place_of(name).expect("a recorded quantity"))
 }

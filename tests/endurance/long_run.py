@@ -29,7 +29,7 @@ def main(steps: int) -> None:
     simulation = drumrs.Simulation(config)
     began, held = time.perf_counter(), []
     for part in range(1, 11):
-        simulation.run_until(part * steps // 10)
+        simulation.run_to_step(part * steps // 10)
         residual = simulation.series["energy_residual"][-1]
         held.append(resident())
         took = time.perf_counter() - began

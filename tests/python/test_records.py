@@ -332,18 +332,18 @@ def test_full_memory_is_an_exception_that_loses_nothing():
 
 
 def test_full_memory_ends_a_run_with_a_checkpoint(drum, tmp_path, monkeypatch):
-    run_until, calls = drumrs.Simulation.run_until, []
+    run_to_step, calls = drumrs.Simulation.run_to_step, []
 
     def full(simulation, step, **options):
         calls.append(step)
         if len(calls) > 1:
-            return run_until(simulation, step, **options)
-        run_until(simulation, 500)
+            return run_to_step(simulation, step, **options)
+        run_to_step(simulation, 500)
         raise MemoryError("recording a frame: there is no memory for 1600 bytes more")
 
     case = [*DENSE, "--set", "run.duration=0.1", "--out"]
     assert drum("run", *case, tmp_path / "whole")[0] == 0
-    monkeypatch.setattr(drumrs.Simulation, "run_until", full)
+    monkeypatch.setattr(drumrs.Simulation, "run_to_step", full)
     status, _, told = drum("run", *case, tmp_path / "full")
     assert status == 1
     assert "out of memory at t = " in told

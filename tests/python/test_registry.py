@@ -22,7 +22,13 @@ from drumrs.viewer.curves import panels_of_series
 
 DOCS = Path(__file__).parents[2] / "docs"
 CONFIG = drumrs.baseline(0.1, baffles=True).replace(
-    {"run.duration": 0.06, "run.window": [0.02, 0.06], "run.sample_every": 0.002, "run.frame_every": 0.02}
+    {
+        "run.duration": 0.06,
+        "run.window": [0.02, 0.06],
+        "run.sample_every": 0.002,
+        "run.frame_every": 0.02,
+        "run.record": registry.RECORDINGS,
+    }
 )
 
 
@@ -111,6 +117,9 @@ def test_the_kept_study_has_the_names_of_today():
         *parameters(CONFIG),
         "dissipated_tangential_power",
         "dissipated_rolling_power",
+        # Not recorded when it was made.
+        "gross_work_ratio",
+        "gross_work_ratio_error",
     }
 
 
@@ -202,7 +211,7 @@ def test_a_run_does_not_go_on_from_records_of_older_names(tmp_path):
 def test_numbers_of_a_configuration_have_units():
     kinds = columns._leaves(drumrs.Config)
     plain = {
-        "drum.rim drum.baffles.count drum.baffles.shape load.count load.spin_locked run.seed contact.base",
+        "drum.rim drum.baffles.count drum.baffles.shape load.count load.spin_locked run.seed run.record contact.base",
         "contact.species contact.pairs contact.walls contact.bundle.tension contact.drum.tension",
     }
     without = set(" ".join(plain).split())

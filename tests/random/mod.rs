@@ -134,6 +134,7 @@ fn put_together(draw: &Draw, mut baffles: BaffleParameters, mut walls: Vec<Vec<[
         sample_every: 100.0 * time_step,
         frame_every: 1000.0 * time_step,
         skin: draw.skin.map(|skin| skin * diameter),
+        record: Vec::new(),
         overlap_limit: 0.5,
     };
     let load = LoadParameters {

@@ -15,6 +15,7 @@ _MEANS = (
     "dissipated_sliding_specific_power",
     "dissipation_ratio",
     "work_ratio",
+    "gross_work_ratio",
     "specific_angular_momentum",
 )
 _TESTS = (
@@ -22,8 +23,8 @@ _TESTS = (
     "drift_significance",
     "share_drift",
     "share_drift_significance",
-    "state_switching",
-    "state_switching_significance",
+    "share_switching",
+    "share_switching_significance",
     "drifting",
 )
 # Names of what `statistics` returns.
@@ -32,6 +33,7 @@ STATISTICS = (*(f"{name}{ending}" for name in _MEANS for ending in ("", "_error"
 # Changes below this do not matter, however sure.
 _MATTERS = 0.01
 _LOSSES = ("dissipated_normal", "dissipated_sliding")
+_GROSS_WORK = ("gross_work_normal", "gross_work_tangential")
 
 
 def statistics(
@@ -55,10 +57,11 @@ def statistics(
         drum puts in, and what normal damping and sliding take [W/kg].
         ``dissipation_ratio``: the latter two over each other.
         ``work_ratio``: the same with what springs store counted as well.
+        ``gross_work_ratio``: the same with loading and unloading both counted, where that was recorded.
         ``specific_angular_momentum`` [m²/s], 0 for a load that stays where it is, however it rocks.
         All with ``…_error``; `None` where not defined.
         ``drift``: change of the drum's specific power within the window over its mean, ``share_drift``: that of the
-        normal damping's share in all dissipation, ``state_switching``: how much that share differs between parts of
+        normal damping's share in all dissipation, ``share_switching``: how much that share differs between parts of
         the run; each with the ``…_significance`` of `Drift` and `StateSwitching`.
         ``drifting``: whether one of the three is beyond chance (one in a thousand) and above a hundredth.
     """
@@ -68,6 +71,8 @@ def statistics(
     }
     means["dissipation_ratio"] = ratio_with_error(series, *_LOSSES, window)
     means["work_ratio"] = ratio_with_error(series, "normal_work", "tangential_work", window)
+    is_recorded = set(_GROSS_WORK) <= set(series.columns)
+    means["gross_work_ratio"] = ratio_with_error(series, *_GROSS_WORK, window) if is_recorded else None
     means["specific_angular_momentum"] = _scaled(_sampled(series, "angular_momentum", window), mass)
     columns: dict[str, float | bool | None] = {}
     for name, mean in means.items():
@@ -88,7 +93,7 @@ def _steadiness(series: "pl.DataFrame", window: tuple[float, float]) -> dict[str
         "share_drift": (share_drift.change * mean.value, share_drift.significance)
         if share_drift and mean
         else None,
-        "state_switching": (switching.spread, switching.significance) if switching else None,
+        "share_switching": (switching.spread, switching.significance) if switching else None,
     }
     columns: dict[str, float | bool | None] = {}
     for name, found in changes.items():

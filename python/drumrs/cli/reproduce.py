@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
-from drumrs.cli.options import Jobs, check_folder
+from drumrs.cli.options import PATH, Jobs, check_folder
 from drumrs.cli.tables import print_paths
 from drumrs.errors import ConfigError
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from drumrs.paper import Reproduction, ReproductionResult
 
 _FAILED = 1
-_STYLES = {"holds": "green", "does not hold": "red", "undecided": "yellow"}
+_STYLES = {"holds": "green", "holds in part": "cyan", "does not hold": "red", "undecided": "yellow"}
 
 Flag = Annotated[bool, Parameter(negative="")]
 
@@ -23,7 +23,8 @@ def reproduce(
     *,
     quick: Flag = False,
     full: Flag = False,
-    out: Path = Path("out"),
+    baffle: Flag = False,
+    out: Annotated[Path, PATH] = Path("out"),
     jobs: Jobs = None,
     retry: Flag = False,
 ) -> int:
@@ -34,11 +35,15 @@ def reproduce(
     Parameters
     ----------
     quick
-        One seed, short windows, few points: minutes. What that cannot decide stays undecided.
+        Two seeds, short windows, few points: minutes. What that cannot decide stays undecided.
     full
         Ten seeds instead of three.
+    baffle
+        Instead of the study, infer the shape of the paper's baffle, whose drawing is lost, from what the text says;
+        with --quick from fewer shapes and seeds.
     out
-        Folder for report.html, summary.md, table.parquet, figures/ and runs/.
+        Folder for report.html, summary.md, table.parquet, figures/ and runs/; with --baffle for baffle.md,
+        baffle.parquet, figures/ and runs/.
     retry
         Run cases again that failed before.
     """
@@ -46,13 +51,40 @@ def reproduce(
 
     if quick and full:
         raise ConfigError("--quick", problem="and --full are both given, but only one of them may be")
+    if baffle and (full or retry):
+        raise ConfigError("--baffle", problem="is given with --full or --retry, which it does not have")
     check_folder(out)
+    if baffle:
+        return _infer_baffle(out, jobs, quick=quick)
     reproduction = Reproduction("quick" if quick else "full" if full else "default", out, jobs)
     _announce(reproduction)
     done = reproduction.run(retry=retry)
     _print_verdicts(done)
     print_paths([*sorted({done.table, done.summary, out / "figures"}), done.report])
     return _tell_failures(done)
+
+
+def _infer_baffle(out: Path, jobs: int | None, *, quick: bool) -> int:
+    from drumrs.jobs import effective_jobs
+    from drumrs.paper import infer_baffle
+    from drumrs.paper.baffle import QUICK, Plan
+    from drumrs.paper.reproduction import measure_speed
+    from drumrs.progress import format_duration
+
+    jobs, plan = effective_jobs(jobs), QUICK if quick else Plan()
+    spent = format_duration(plan.cost / measure_speed(jobs))
+    sys.stderr.write(
+        f"inference of the baffle: {plan.cost:.2g} particle-steps in all, about {spent} at most\n"
+    )
+    found = infer_baffle(out, plan, jobs)
+    height, base, tip = (f"{100.0 * length:.3g}" for length in found.best.lengths)
+    sys.stdout.write(f"inferred baffle: height {height} cm, base {base} cm, tip {tip} cm\n")
+    for failure in found.failures:
+        sys.stderr.write(
+            f"drumrs: case {failure.case.id} ({failure.case.config.title}) failed: {failure.message}\n"
+        )
+    print_paths([out / "baffle.parquet", out / "figures", out / "baffle.md"])
+    return _FAILED if found.failures else 0
 
 
 def _announce(reproduction: "Reproduction") -> None:

@@ -252,6 +252,11 @@ class Run(ConfigTable):
     checkpoint_every: Positive = _key(60.0, "Interval between checkpoints, in time of the wall clock", "s")
     seed: types.Seed = _key(1, "Seed of the random start")
     skin: Skin = _key("auto", "Margin of the neighbor lists, which changes the speed, never a result", "m")
+    record: types.Recordings = _key(
+        (),
+        "What is recorded on request: 'gross_work', the energy that contacts exchange, loading and unloading both "
+        "counted; a run is a few per cent slower with it",
+    )
     overlap_limit: types.OpenFraction = _key(
         0.5, "Greatest overlap, over the smaller radius, before the run is given up as unstable", "1"
     )

@@ -53,5 +53,6 @@ def _run(run: "Run") -> dict[str, Any]:
         "sample_every": run.sample_every,
         "frame_every": run.frame_every,
         "skin": None if run.skin == "auto" else run.skin,
+        "record": run.record,
         "overlap_limit": run.overlap_limit,
     }

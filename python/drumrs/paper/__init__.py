@@ -8,6 +8,7 @@ True
 tables and frames.
 """
 
+from drumrs.paper.baffle import infer_baffle
 from drumrs.paper.cases import cases, cost
 from drumrs.paper.claims import CLAIMS, Claim, judge
 from drumrs.paper.data import StudyData
@@ -32,6 +33,7 @@ __all__ = [
     "Verdict",
     "cases",
     "cost",
+    "infer_baffle",
     "judge",
     "measure",
 ]

@@ -9,7 +9,7 @@ from pathlib import Path
 from drumrs.config import baseline
 from drumrs.files import write_whole
 from drumrs.folders import claim, require_own
-from drumrs.jobs import job_count
+from drumrs.jobs import effective_jobs
 from drumrs.paper.cases import cases
 from drumrs.paper.data import StudyData
 from drumrs.paper.measure import measure
@@ -84,7 +84,7 @@ class Reproduction:
     def __init__(self, scale: str | Scale, folder: str | Path, jobs: int | None = None) -> None:
         self.scale = scale if isinstance(scale, str) else "own"
         self.folder = Path(folder)
-        self.jobs = job_count(jobs)
+        self.jobs = effective_jobs(jobs)
         self.sweep = Sweep.from_configs(cases(scale))
         require_own(self.folder, "reproduction", _FILES)
         store = Store(self.runs_folder)
@@ -152,8 +152,8 @@ class Reproduction:
         data = StudyData(table, self.sweep, self.runs_folder, self.scale, failures, taken)
         page, text = self.folder / "report.html", self.folder / "summary.md"
         pictures = write(data, page, self.folder / "figures")
-        summary.write(data, pictures, text)
-        return ReproductionResult(data, page, text, self.folder / "table.parquet", tuple(pictures))
+        summary.write(data, pictures.figures, pictures.thumbnails, text)
+        return ReproductionResult(data, page, text, self.folder / "table.parquet", pictures.figures)
 
 
 def measure_speed(jobs: int) -> float:
@@ -173,5 +173,5 @@ def _speed(seed: int) -> float:
     simulation = Simulation(baseline(_TRIAL_FILL, baffles=True), seed=seed)
     simulation.run(duration=_SETTLING)
     first, began = simulation.step, time.perf_counter()
-    simulation.run_until(simulation.last_step, wall_limit=_TRIAL)
+    simulation.run_to_step(simulation.last_step, wall_limit=_TRIAL)
     return (simulation.step - first) * simulation.count / (time.perf_counter() - began)

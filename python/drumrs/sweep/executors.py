@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from multiprocessing.synchronize import Event
 
 from drumrs.errors import ConfigError
-from drumrs.jobs import MOST_JOBS, job_count
+from drumrs.jobs import MOST_JOBS, effective_jobs
 from drumrs.sweep.case import Case
 from drumrs.sweep.worker import CaseOutcome, Running, run_case, stop_with
 
@@ -95,7 +95,7 @@ def open_workers(executor: Executor | str | None, jobs: int | None) -> Iterator[
     ConfigError
         Where there is no such executor.
     """
-    count = job_count(jobs)
+    count = effective_jobs(jobs)
     if executor is None or executor == "threads":
         with ThreadPoolExecutor(count, thread_name_prefix="drumrs") as pool:
             yield Workers(pool, count + _SPARE, Running())

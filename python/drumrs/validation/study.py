@@ -7,7 +7,7 @@ from types import MappingProxyType
 
 from drumrs.errors import ConfigError
 from drumrs.folders import claim, require_own
-from drumrs.jobs import job_count
+from drumrs.jobs import effective_jobs
 from drumrs.pictures import attempt
 from drumrs.progress import Task
 from drumrs.registry import known, metadata
@@ -91,7 +91,7 @@ class Validation:
         for name in names:
             if name not in DRUMS:
                 raise ConfigError("NAME", name, f"one of {', '.join(DRUMS)}")
-        self.folder, self.jobs, self.scale = Path(folder), job_count(jobs), scale or Scale()
+        self.folder, self.jobs, self.scale = Path(folder), effective_jobs(jobs), scale or Scale()
         self.drums = [drum for drum in DRUMS.values() if not names or drum.name in names]
         require_own(self.folder, "validation", _FILES)
         cases = {drum.name: [Case(config) for config in drum.cases(self.scale)] for drum in self.drums}

@@ -28,4 +28,4 @@ def advance(simulation: Simulation, steps: int) -> None:
     while simulation.step < end:
         if halt is not None and halt.is_set():
             raise Halted
-        simulation.run_until(end, wall_limit=_PAUSE)
+        simulation.run_to_step(end, wall_limit=_PAUSE)

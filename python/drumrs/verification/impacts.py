@@ -121,6 +121,35 @@ def restitution_order() -> Evidence:
     )
 
 
+@case("gross-work", source="energy balance", formula="½ m* v² (1 + 2 e_c² − e²), clipped ½ m* v² (1 + e_c²)")
+def gross_work() -> Evidence:
+    """Gross work along the normal in a head-on impact on the floor, ∫ |F v| dt, against the damping ratio.
+
+    The energy of the approach goes in; that of the rebound up to where the force vanishes, e_c² of it, comes out, e_c
+    being the restitution of the clipped law; where the dashpot may pull, it then takes e_c² − e². Each of the three is
+    met as well as the square of a speed: within 2 (θ² + θ/400) of the energy of the approach.
+    """
+    clipped = theory.clipped_restitution(_FINE) ** 2
+    curves = {
+        "allowed": 1.0 + 2.0 * clipped - theory.free_restitution(_FINE) ** 2,
+        "clipped": 1.0 + clipped,
+    }
+    traces, found = [], []
+    for tension, curve in curves.items():
+        measured = []
+        for ratio in _RATIOS:
+            changes = {"run.record": ["gross_work"], "contact.drum.tension": tension, **scenes.damping(ratio)}
+            config = scenes.floor({"run.time_step": _STEP, **changes})
+            state = scenes.on_the_floor([0.0, -1.0], (1.0 + scenes.phases(_ONSETS)) * _STEP)
+            run = scenes.after(config, state, 4e-4 + 8.0 * math.pi / WALL_FREQUENCY)
+            measured.append(scenes.last(run, "gross_work_normal") / _ONSETS / (0.5 * MASS))
+        expected = np.interp(_RATIOS, _FINE, curve)
+        allowed = 6.0 * np.array(_ALLOWED)
+        found += checks_at([f"at z = {z:g}, tension {tension}" for z in _RATIOS], expected, measured, allowed)
+        traces.append(Trace(f"tension {tension}", _RATIOS, measured, (_FINE, curve)))
+    return Evidence(tuple(found), Panel("damping ratio z", "gross work / ½ m* v²", tuple(traces)))
+
+
 @case("normal-dissipation", source="energy balance", formula="½ m* (1 − e²) v²")
 def normal_dissipation() -> Evidence:
     """Energy that the dashpot takes in a head-on impact of two bundles.
@@ -154,4 +183,5 @@ CASES = (
     contact_duration,
     restitution_order,
     normal_dissipation,
+    gross_work,
 )

@@ -11,7 +11,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from drumrs import DrumrsWarning, Task, job_count
+from drumrs import DrumrsWarning, Task, effective_jobs
 from drumrs.pages import write_page
 from drumrs.verification.advance import broken_off
 from drumrs.verification.case import Case, Trial
@@ -156,7 +156,7 @@ def verify(
     (True, ['restitution-clipped', 'stack'])
     """
     cases = chosen([only] if isinstance(only, str) else only)
-    workers = job_count(jobs)
+    workers = effective_jobs(jobs)
     began = time.perf_counter()
     trials = _run(cases, workers, progress=progress)
     return Verification(trials, time.perf_counter() - began, workers)

@@ -4,6 +4,7 @@ use super::totals::Totals;
 use crate::engine::contacts::Block;
 use crate::engine::simd::{F64x4, Vec2x4};
 use crate::physics::columns::{Columns, Of};
+use crate::physics::contact::gross_work::GrossWork;
 use crate::physics::contact::law::ContactLaw;
 use crate::physics::contact::{ContactState, Kinematics, RelativeMotion};
 
@@ -44,6 +45,12 @@ pub fn evaluate<L: ContactLaw>(
     let force = Vec2x4 { x: normal.x * push + normal.y * pull, y: normal.y * push - normal.x * pull };
     let moment = if L::ROLLS { arm * pull + response.rolling_moment } else { arm * pull };
     totals.add_flows(L::FLOWS, &response.flows);
+    if L::RECORDS_GROSS_WORK {
+        // The last force as the normal and the tangent of now see it.
+        let (x, y) = (last.force_x, last.force_y);
+        let last_force = [x * normal.x + y * normal.y, x * normal.y - y * normal.x];
+        totals.add_gross_work(&GrossWork::of_step(&contact, last_force, [push, pull]));
+    }
     block.state = ContactState {
         overlap: contact.overlap.to_array(),
         separation_rate: contact.last_rate.to_array(),

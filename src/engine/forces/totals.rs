@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::engine::simd::{F64x4, LANES, greatest, sum};
 use crate::physics::columns::{Columns, Field};
 use crate::physics::contact::Flows;
+use crate::physics::contact::gross_work::GrossWork;
 use crate::physics::scalar::Scalar;
 
 /// Sums over contacts: kept lane by lane, added to in registers, folded to numbers. They belong to the state: a checkpoint
@@ -15,6 +16,8 @@ pub struct Totals<T = [f64; LANES]> {
     pub power: T,
     /// Energy taken, flow by flow [J/m].
     pub flows: Flows<T>,
+    /// Gross work, 0 where it is not recorded [J/m].
+    pub gross_work: GrossWork<T>,
     /// Greatest overlap over the smaller radius.
     pub deepest: T,
 }
@@ -22,8 +25,12 @@ pub struct Totals<T = [f64; LANES]> {
 impl<T: Field> Totals<T> {
     #[inline(always)]
     fn map<U: Field>(&self, convert: impl Fn(T) -> U) -> Totals<U> {
-        let flows = Flows::map(&self.flows, &convert);
-        Totals { power: convert(self.power), flows, deepest: convert(self.deepest) }
+        Totals {
+            power: convert(self.power),
+            flows: Flows::map(&self.flows, &convert),
+            gross_work: GrossWork::map(&self.gross_work, &convert),
+            deepest: convert(self.deepest),
+        }
     }
 }
 
@@ -61,6 +68,9 @@ impl Totals<f64> {
         Self {
             power: self.power + other.power,
             flows: Flows::build(|flow| Flows::field(&self.flows, flow) + Flows::field(&other.flows, flow)),
+            gross_work: GrossWork::build(|way| {
+                GrossWork::field(&self.gross_work, way) + GrossWork::field(&other.gross_work, way)
+            }),
             deepest: self.deepest.max(other.deepest),
         }
     }
@@ -74,5 +84,12 @@ impl Totals<F64x4> {
             let (sum, new) = (Flows::field(&self.flows, flow), Flows::field(flows, flow));
             if Flows::field(&set, flow) { sum + new } else { sum }
         });
+    }
+
+    /// Adds gross work.
+    #[inline(always)]
+    pub fn add_gross_work(&mut self, new: &GrossWork<F64x4>) {
+        self.gross_work =
+            GrossWork::build(|way| GrossWork::field(&self.gross_work, way) + GrossWork::field(new, way));
     }
 }

@@ -53,6 +53,8 @@ pub trait ContactLaw: Copy + Debug + Default + PartialEq + Send + Sync + 'static
     const FLOWS: Flows<bool>;
     /// Whether the moments on the two bodies can differ where their arms are equal.
     const ROLLS: bool;
+    /// Whether its gross work is recorded.
+    const RECORDS_GROSS_WORK: bool = false;
 
     /// The law between two bodies.
     fn between(parameters: &ContactParameters, bodies: BodyPair) -> Of<Self::Parameters, f64>;
@@ -75,6 +77,8 @@ pub trait ContactTerm: Columns {
     type History: Columns;
     /// The energies that it takes.
     const FLOWS: Flows<bool>;
+    /// Whether it makes the moments on the two bodies differ where their arms are equal.
+    const ROLLS: bool = false;
 
     /// The term between two bodies.
     fn between(parameters: &ContactParameters, bodies: BodyPair) -> Of<Self, f64>;
@@ -101,6 +105,7 @@ pub trait ContactTerm: Columns {
 impl<A: ContactTerm, B: ContactTerm> ContactTerm for (A, B) {
     type History = (A::History, B::History);
     const FLOWS: Flows<bool> = A::FLOWS.union(B::FLOWS);
+    const ROLLS: bool = A::ROLLS || B::ROLLS;
 
     fn between(parameters: &ContactParameters, bodies: BodyPair) -> Of<Self, f64> {
         (A::between(parameters, bodies), B::between(parameters, bodies))
@@ -132,7 +137,7 @@ impl<B: ContactLaw, T: ContactTerm> ContactLaw for (B, T) {
     type Parameters = (B::Parameters, T);
     type History = (B::History, T::History);
     const FLOWS: Flows<bool> = B::FLOWS.union(T::FLOWS);
-    const ROLLS: bool = true;
+    const ROLLS: bool = B::ROLLS || T::ROLLS;
 
     fn between(parameters: &ContactParameters, bodies: BodyPair) -> Of<Self::Parameters, f64> {
         (B::between(parameters, bodies), T::between(parameters, bodies))

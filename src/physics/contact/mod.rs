@@ -12,6 +12,7 @@
 
 pub mod adhesion;
 mod friction;
+pub mod gross_work;
 pub mod hertz;
 mod kinematics;
 pub mod law;

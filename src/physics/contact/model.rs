@@ -1,6 +1,7 @@
-//! The list of laws: which base law a simulation has, and which terms act with it.
+//! The list of laws: which base law a simulation has, which terms act with it, and whether its gross work is recorded.
 
 use super::adhesion::Adhesion;
+use super::gross_work::WithGrossWork;
 use super::hertz::Hertz;
 use super::linear::Linear;
 use super::parameters::{Base, ContactParameters};
@@ -23,7 +24,15 @@ pub type BareHertzLaw = Hertz;
 /// Hertz–Mindlin with the terms that do not go with the tangential stiffness.
 pub type FullHertzLaw = (Hertz, Adhesion);
 
-/// Which law a simulation has. Chosen once: a term that is 0 for every pair costs nothing.
+/// `ClippedLaw` with its gross work; where tension is allowed, nothing is clipped.
+pub type ClippedGrossLaw = WithGrossWork<ClippedLaw>;
+/// `FullLaw` with its gross work.
+pub type FullGrossLaw = WithGrossWork<FullLaw>;
+/// `FullHertzLaw` with its gross work.
+pub type FullHertzGrossLaw = WithGrossWork<FullHertzLaw>;
+
+/// Which law a simulation has. Chosen once: a term that is 0 for every pair costs nothing, nor does gross work that is not
+/// recorded.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Model {
     /// `BareLaw`
@@ -36,13 +45,22 @@ pub enum Model {
     Hertz,
     /// `FullHertzLaw`
     FullHertz,
+    /// `ClippedGrossLaw`
+    ClippedGross,
+    /// `FullGrossLaw`
+    FullGross,
+    /// `FullHertzGrossLaw`
+    FullHertzGross,
 }
 
 impl Model {
     /// The simplest one that does what the table asks for.
-    pub fn of(table: &SpeciesTable) -> Self {
+    pub fn of(table: &SpeciesTable, records_gross_work: bool) -> Self {
         let has_terms = table.all().any(ContactParameters::has_terms);
         match table.base() {
+            Base::Hertz if records_gross_work => Self::FullHertzGross,
+            Base::Linear if records_gross_work && has_terms => Self::FullGross,
+            Base::Linear if records_gross_work => Self::ClippedGross,
             Base::Hertz if has_terms => Self::FullHertz,
             Base::Hertz => Self::Hertz,
             Base::Linear if has_terms => Self::Full,
@@ -75,6 +93,18 @@ macro_rules! with_law {
             }
             laws::Model::FullHertz => {
                 type $law = laws::FullHertzLaw;
+                $work
+            }
+            laws::Model::ClippedGross => {
+                type $law = laws::ClippedGrossLaw;
+                $work
+            }
+            laws::Model::FullGross => {
+                type $law = laws::FullGrossLaw;
+                $work
+            }
+            laws::Model::FullHertzGross => {
+                type $law = laws::FullHertzGrossLaw;
                 $work
             }
         }

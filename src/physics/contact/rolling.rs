@@ -32,6 +32,7 @@ columns! {
 impl ContactTerm for RollingResistance {
     type History = RollingHistory;
     const FLOWS: Flows<bool> = Flows { dissipated_rolling: true, ..Flows::NONE };
+    const ROLLS: bool = true;
 
     fn between(parameters: &ContactParameters, bodies: BodyPair) -> RollingResistance<f64> {
         let radius = bodies.effective_radius;

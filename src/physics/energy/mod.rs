@@ -13,6 +13,7 @@ pub use moments::MomentBalance;
 pub use sum::{Integrals, Sum};
 
 use crate::physics::columns::Columns;
+use crate::physics::contact::gross_work::GrossWork;
 use crate::physics::contact::{Flows, Stored};
 use crate::physics::vector::Vec2;
 
@@ -90,6 +91,7 @@ pub struct EnergyLedger {
     /// Work that contacts took out of the particles [J/m].
     taken: Sum,
     flows: Flows<Sum>,
+    gross_work: GrossWork<Sum>,
     /// Rim, baffles, walls.
     pub surfaces: Vec<SurfaceAccount>,
     /// The third power.
@@ -106,6 +108,7 @@ impl EnergyLedger {
         Self {
             taken: Sum::default(),
             flows: Flows::build(|_| Sum::default()),
+            gross_work: GrossWork::build(|_| Sum::default()),
             surfaces: surfaces.iter().map(|load| SurfaceAccount(Integrals::from(load.rates()))).collect(),
             moments,
             initial: stored,
@@ -132,6 +135,18 @@ impl EnergyLedger {
         self.overlap_ratio = self.overlap_ratio.max(overlap_ratio);
         self.surfaces.iter_mut().for_each(|account| account.0.fold());
         self.moments.fold();
+    }
+
+    /// Brings the gross work since the last fold to the rest. No balance needs it.
+    pub fn fold_gross_work(&mut self, gross_work: &GrossWork<f64>) {
+        for way in 0..GrossWork::COUNT {
+            GrossWork::field_mut(&mut self.gross_work, way).add(GrossWork::field(gross_work, way));
+        }
+    }
+
+    /// Gross work since the start [J/m]; 0 where it is not recorded.
+    pub fn gross_work(&self) -> GrossWork<f64> {
+        GrossWork::map(&self.gross_work, |sum| sum.value())
     }
 
     /// Takes note of the energy stored at a sample.

@@ -10,7 +10,7 @@ from drumrs.analysis import Estimate
 @pytest.mark.parametrize("setting", list(accuracy.settings()))
 def test_a_collision_takes_the_steps_that_are_said(setting):
     simulation = drumrs.Simulation(setting.config(seed=1))
-    assert simulation.collision_times["bundle"] / simulation.time_step == pytest.approx(setting.steps)
+    assert simulation.collision_time["bundle"] / simulation.time_step == pytest.approx(setting.steps)
     assert simulation.config.contact.drum.normal_stiffness == pytest.approx(9.7e7 / setting.softer)
 
 

@@ -35,5 +35,5 @@ def test_a_scaled_drum_has_the_same_groups():
     froude = [config.rotation.rpm**2 * config.drum.diameter for config in (small, large)]
     assert froude[0] == froude[1]
     assert small.drum.diameter / small.load.diameter == large.drum.diameter / large.load.diameter
-    periods = [drumrs.Simulation(config).collision_times["bundle"] for config in (small, large)]
+    periods = [drumrs.Simulation(config).collision_time["bundle"] for config in (small, large)]
     assert periods[1] == pytest.approx(2.0 * periods[0])

@@ -8,6 +8,7 @@ import pytest
 import drumrs
 from drumrs.errors import ConfigError
 from drumrs.precision import Goal, _next_end, run_until_precise
+from drumrs.run_folder import RunFolder
 
 SHORT = ["--set", "load.count=20", "--set", "run.duration=0.2", "--set", "run.window=[0.1, 0.2]"]
 
@@ -51,14 +52,13 @@ def test_resume_ends_as_without_a_break(drum, tmp_path):
     goal = ["--until", "0.02", "--limit", "0.8"]
     assert drum("run", *SHORT, *goal, "--out", whole)[0] == 0
     # As after a power cut in a run that had gone beyond its duration.
-    broken.mkdir()
     config = drumrs.baseline().replace(
         {"load.count": 20, "run.duration": 0.2, "run.window": [0.1, 0.2], "run.seed": 1}
     )
-    (broken / "config.toml").write_text(config.to_toml())
+    RunFolder(broken).begin(config)
     simulation = drumrs.Simulation(config)
     simulation.run()
-    simulation.prolong(_next_end(simulation, Goal(0.02, 0.8)))
+    simulation.extend_to(_next_end(simulation, Goal(0.02, 0.8)))
     simulation.run(steps=1000)
     simulation.save(broken / "checkpoint.bin")
     assert drum("run", "--resume", broken, *goal)[0] == 0
@@ -116,8 +116,8 @@ def test_bad_words(drum, tmp_path, words, names):
     assert not (tmp_path / "out").exists()
 
 
-def test_prolonging_never_shortens(short):
+def test_extending_never_shortens(short):
     simulation = drumrs.Simulation(short)
     for duration in (0.01, float("nan"), float("inf")):
         with pytest.raises(ConfigError, match="at least run"):
-            simulation.prolong(duration)
+            simulation.extend_to(duration)

@@ -74,6 +74,7 @@ VALUES = {
     "run.checkpoint_every": positive,
     "run.seed": st.integers(0, 2**63 - 1),
     "run.skin": non_negative | st.just("auto"),
+    "run.record": st.sampled_from([(), ("gross_work",)]),
     "run.overlap_limit": st.floats(0.01, 0.99),
 } | {
     f"contact.{kind}.{key}": strategy

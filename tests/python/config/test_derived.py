@@ -21,7 +21,7 @@ def test_it_is_what_the_simulation_has(changes):
     assert config.derived.load_mass == pytest.approx(simulation.masses.sum(), rel=1e-14)
     assert config.derived.time_step == simulation.time_step
     assert config.derived.angular_velocity == simulation.drum_angular_velocity
-    for side, duration in simulation.collision_times.items():
+    for side, duration in simulation.collision_time.items():
         assert getattr(config.derived, side).collision_time == duration
 
 

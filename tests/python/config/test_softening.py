@@ -14,8 +14,8 @@ def test_a_contact_takes_as_many_steps_and_loses_as_much():
     stiff = drumrs.Simulation(drumrs.baseline(fill=0.1))
     soft = drumrs.Simulation(drumrs.baseline(fill=0.1).softer(100.0))
     assert soft.time_step == pytest.approx(10.0 * stiff.time_step)
-    for side, duration in stiff.collision_times.items():
-        assert soft.collision_times[side] == pytest.approx(10.0 * duration)
+    for side, duration in stiff.collision_time.items():
+        assert soft.collision_time[side] == pytest.approx(10.0 * duration)
     assert soft.config.contact.bundle.restitution == 0.1
 
 

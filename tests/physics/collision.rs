@@ -2,9 +2,7 @@
 //!
 //! Formulas for discs (I = m r²/2). Source of the clipped restitution: Schwager & Pöschel, Granular Matter 9 (2007) 465.
 
-mod common;
-
-use common::*;
+use crate::common::{self, *};
 use drumrs::physics::contact::law::ContactLaw;
 use drumrs::physics::contact::linear::{Linear, LinearHistory};
 use drumrs::physics::contact::parameters::{ContactParameters, Tension};

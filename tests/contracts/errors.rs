@@ -1,8 +1,6 @@
 //! Every message that a user may meet, and the initial states that are refused.
 
-mod common;
-
-use common::*;
+use crate::common::*;
 use drumrs::error::{Error, Incident, Value};
 use drumrs::physics::vector::Vec2;
 use drumrs::simulation::Simulation;

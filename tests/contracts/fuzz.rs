@@ -1,7 +1,5 @@
 //! The short form of the fuzz targets: the kept bytes of `fuzz/seeds`, each changed in some hundred ways.
 
-mod hostile;
-
 use std::fs;
 use std::path::Path;
 
@@ -9,6 +7,8 @@ use drumrs::io::config::SimulationConfig;
 use drumrs::simulation::Simulation;
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
+
+use crate::hostile;
 
 /// The kept bytes of a target, by name.
 fn seeds(target: &str) -> Vec<Vec<u8>> {

@@ -1,8 +1,6 @@
 //! Numbers and lanes: the law gives the same bits, whichever it is worked out with.
 
-mod common;
-
-use common::*;
+use crate::common::*;
 use drumrs::engine::simd::{F64x4, LANES, Vec2x4, lanes, vectors};
 use drumrs::physics::columns::{Columns, Of};
 use drumrs::physics::contact::law::{BodyPair, ContactLaw};

@@ -1,8 +1,6 @@
 //! The bitwise promises: threads, skin, restart at an odd step, scaling by powers of two, mirror.
 
-mod common;
-
-use common::*;
+use crate::common::*;
 use drumrs::engine::memory_order;
 use drumrs::engine::parallel::Threads;
 use drumrs::io::checkpoint;

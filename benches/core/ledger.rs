@@ -1,16 +1,16 @@
 //! The ledger on its own: charging a step, and the sums over the load that a sample asks for.
 
-mod scenes;
-
 use std::hint::black_box;
 
-use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use criterion::{Criterion, Throughput};
 use drumrs::physics::energy::{EnergyLedger, MomentBalance, StoredEnergy, SurfaceLoad};
 use drumrs::physics::vector::Vec2;
 
-fn accounts(criterion: &mut Criterion) {
+use crate::{keep_short, scenes};
+
+pub fn accounts(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("ledger");
-    scenes::keep_short(&mut group);
+    keep_short(&mut group);
     // Rim and three baffles.
     let surfaces = [SurfaceLoad { force: Vec2::new(3.0, 40.0), moment: -1.7 }; 4];
     let (mass_moment, outer_moment) = (Vec2::new(2.0, -9.0), -19.6);
@@ -32,6 +32,3 @@ fn accounts(criterion: &mut Criterion) {
     });
     group.finish();
 }
-
-criterion_group!(benches, accounts);
-criterion_main!(benches);

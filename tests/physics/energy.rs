@@ -1,8 +1,6 @@
 //! Whole-drum identities: the ledger closes, three powers agree, the numerical column falls with the time step.
 
-mod common;
-
-use common::*;
+use crate::common::*;
 use drumrs::io::config::SimulationConfig;
 use drumrs::physics::contact::parameters::Tension;
 use drumrs::simulation::Simulation;

@@ -3,11 +3,9 @@
 //!
 //! Formulas for discs (I = m r²/2); what the scheme leaves of them is derived in `drumrs verify`.
 
-mod common;
-
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use common::*;
+use crate::common::*;
 use drumrs::io::config::SimulationConfig;
 use drumrs::observe::recorder::contact_energies;
 use drumrs::physics::contact::adhesion::Adhesion;
@@ -335,7 +333,7 @@ fn one_term_fills_its_own_columns_only() {
 fn terms_that_nobody_has_change_no_bit() {
     for baffle_count in [0, 3] {
         let plain = with([0.0; 3], baffle_count);
-        assert_eq!(Model::of(&plain.contact.table().unwrap()), Model::Bare);
+        assert_eq!(Model::of(&plain.contact.table().unwrap(), false), Model::Bare);
         let mut config = plain.clone();
         // A species without a bundle has them all.
         config.contact.species = 2;
@@ -343,7 +341,7 @@ fn terms_that_nobody_has_change_no_bit() {
         set(&mut law, ALL);
         config.contact.walls = vec![(1, law.clone())];
         config.contact.pairs = vec![(0, 1, law)];
-        assert_eq!(Model::of(&config.contact.table().unwrap()), Model::Full);
+        assert_eq!(Model::of(&config.contact.table().unwrap(), false), Model::Full);
         assert!(bits(&tumbled(&plain, STEPS)) == bits(&tumbled(&config, STEPS)), "{baffle_count} baffles");
     }
 }

@@ -2,8 +2,6 @@
 //! was up to physics version 2. Sums in another order and the rate of separation remembered along the old normal make the
 //! difference.
 
-mod common;
-
 use std::fs;
 
 use drumrs::engine::contacts::ContactRecord;

@@ -1,8 +1,6 @@
 //! Bundles at baffles: rolling round a tip, the foot, the torque of each part, programmes.
 
-mod common;
-
-use common::*;
+use crate::common::*;
 use drumrs::error::Error;
 use drumrs::physics::contact::linear;
 use drumrs::physics::drum::RIM;

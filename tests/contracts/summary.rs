@@ -1,8 +1,6 @@
 //! Window means and their errors: which samples a window takes, what is left undefined, blocks, the time step.
 
-mod common;
-
-use common::*;
+use crate::common::*;
 use drumrs::observe::averages::BlockError;
 use drumrs::observe::summary::summarize;
 use drumrs::simulation::Simulation;

@@ -1,9 +1,7 @@
 //! Friction and rolling: slip to roll, the incline, the spin-locked disc in a turning drum, a stack at rest,
 //! co-rotation.
 
-mod common;
-
-use common::*;
+use crate::common::*;
 use drumrs::physics::contact::parameters::Tension;
 use drumrs::physics::vector::{Vec2, cross};
 

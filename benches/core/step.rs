@@ -1,12 +1,12 @@
 //! One step of a tumbling drum, ledger and recording on.
 
-mod scenes;
+use criterion::{BenchmarkId, Criterion, Throughput};
 
-use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use crate::{keep_short, scenes};
 
-fn steps(criterion: &mut Criterion) {
+pub fn steps(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("step");
-    scenes::keep_short(&mut group);
+    keep_short(&mut group);
     for (name, baffle_count) in [("bare", 0), ("baffles", 3)] {
         for count in [100, 200, 300, 1_000, 10_000, 100_000] {
             let batch = (100_000 / count).max(2) as u64;
@@ -21,6 +21,3 @@ fn steps(criterion: &mut Criterion) {
     }
     group.finish();
 }
-
-criterion_group!(benches, steps);
-criterion_main!(benches);

@@ -1,17 +1,17 @@
 //! One step of the contact law, for four contacts at once, over contacts that press, pull, slide, stick, open and close.
 
-mod scenes;
-
 use std::hint::black_box;
 
-use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use criterion::{Criterion, Throughput};
 use drumrs::engine::simd::{F64x4, LANES, lanes};
 use drumrs::physics::columns::Columns;
 use drumrs::physics::contact::law::ContactLaw;
 use drumrs::physics::contact::linear::{Linear, LinearHistory, LinearLaw};
 use drumrs::physics::contact::{ContactState, Kinematics, RelativeMotion};
 use drumrs::physics::scalar::Scalar;
-use scenes::common::{TIME_STEP, law, linear_law};
+
+use crate::keep_short;
+use crate::scenes::common::{TIME_STEP, law, linear_law};
 
 /// Numbers within ±1.
 fn wave(first: usize, pace: usize) -> F64x4 {
@@ -42,12 +42,12 @@ fn contacts(count: usize) -> Vec<Contact> {
     (0..count).step_by(LANES).map(contact).collect()
 }
 
-fn responses(criterion: &mut Criterion) {
+pub fn responses(criterion: &mut Criterion) {
     let contacts = contacts(1024);
     let law = LinearLaw::map(&linear_law(&law(9.25e7)), F64x4::splat);
     let time = [F64x4::splat(TIME_STEP), F64x4::splat(1.0 / TIME_STEP)];
     let mut group = criterion.benchmark_group("law");
-    scenes::keep_short(&mut group);
+    keep_short(&mut group);
     group.throughput(Throughput::Elements((contacts.len() * LANES) as u64));
     group.bench_function("linear", |bencher| {
         bencher.iter(|| {
@@ -59,6 +59,3 @@ fn responses(criterion: &mut Criterion) {
     });
     group.finish();
 }
-
-criterion_group!(benches, responses);
-criterion_main!(benches);

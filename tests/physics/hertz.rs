@@ -1,8 +1,6 @@
 //! Hertz–Mindlin: greatest overlap, duration, restitution at any speed, accounts, promises.
 
-mod common;
-
-use common::*;
+use crate::common::*;
 use drumrs::io::config::SimulationConfig;
 use drumrs::physics::contact::hertz::Hertz;
 use drumrs::physics::contact::law::{BodyPair, ContactLaw};

@@ -1,9 +1,7 @@
 //! The configuration at the border: every key is there, is required, survives the round trip in every bit, and has its
 //! limits.
 
-mod common;
-
-use common::*;
+use crate::common::*;
 use drumrs::io::config::SimulationConfig;
 use drumrs::physics::drum::baffle::BaffleShape;
 use serde_json::Value;
@@ -55,6 +53,7 @@ const KEYS: &[&str] = &[
     "rotation.knots",
     "run.frame_every",
     "run.overlap_limit",
+    "run.record",
     "run.sample_every",
     "run.skin",
     "run.time_step",

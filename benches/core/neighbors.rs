@@ -1,16 +1,16 @@
 //! One rebuild of the pair list: cells and search.
 
-mod scenes;
-
-use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use criterion::{BenchmarkId, Criterion, Throughput};
 use drumrs::engine::forces::{Bodies, StepInputs};
 use drumrs::engine::pair_list::PairList;
 use drumrs::engine::parallel::Threads;
 use drumrs::physics::vector::Rotation;
 
-fn rebuilds(criterion: &mut Criterion) {
+use crate::{keep_short, scenes};
+
+pub fn rebuilds(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("rebuild");
-    scenes::keep_short(&mut group);
+    keep_short(&mut group);
     let threads = Threads::new(1).expect("one thread");
     for count in [1_000, 10_000, 100_000] {
         group.throughput(Throughput::Elements(count as u64));
@@ -41,6 +41,3 @@ fn rebuilds(criterion: &mut Criterion) {
     }
     group.finish();
 }
-
-criterion_group!(benches, rebuilds);
-criterion_main!(benches);

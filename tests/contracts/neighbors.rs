@@ -1,10 +1,8 @@
 //! Pair lists and near lists against brute force.
 
-mod common;
-
 use std::collections::BTreeSet;
 
-use common::*;
+use crate::common::*;
 use drumrs::engine::contacts::ContactRecord;
 use drumrs::engine::forces::{Bodies, StepInputs};
 use drumrs::engine::pair_list::PairList;

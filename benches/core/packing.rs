@@ -1,14 +1,14 @@
 //! The start: random insertion into a loose bed, a shuffled pattern in a dense one.
 
-mod scenes;
-
-use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use criterion::{BenchmarkId, Criterion, Throughput};
 use drumrs::physics::drum::Drum;
 use drumrs::physics::load::packing::pack;
 
-fn beds(criterion: &mut Criterion) {
+use crate::{keep_short, scenes};
+
+pub fn beds(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("packing");
-    scenes::keep_short(&mut group);
+    keep_short(&mut group);
     group.sample_size(10);
     for count in [100, 300, 10_000] {
         let drum = Drum::new(&scenes::drum_for(count, 0).drum).expect("a valid drum");
@@ -19,6 +19,3 @@ fn beds(criterion: &mut Criterion) {
     }
     group.finish();
 }
-
-criterion_group!(benches, beds);
-criterion_main!(benches);

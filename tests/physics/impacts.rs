@@ -5,9 +5,7 @@
 //! tangential impulse is ⅔ m* s, which turns the slip round, where that is below the impulse of sliding all the way,
 //! 2 μ m* w; and else it is that.
 
-mod common;
-
-use common::*;
+use crate::common::{self, *};
 use drumrs::io::config::SimulationConfig;
 use drumrs::physics::vector::Vec2;
 use drumrs::simulation::Simulation;

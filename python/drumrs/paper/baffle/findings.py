@@ -1,0 +1,69 @@
+"""`Inference`: what is known of the baffle once everything is run."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from drumrs.paper.baffle.design import Plan
+from drumrs.paper.baffle.emulator import Emulator
+from drumrs.paper.baffle.evidence import Known, Observable
+from drumrs.paper.baffle.posterior import Array, Corrections, Posterior, foretell
+from drumrs.paper.shape import Shape
+from drumrs.sweep import Failure
+
+if TYPE_CHECKING:
+    import polars as pl
+
+
+@dataclass(frozen=True, eq=False)
+class Inference:
+    """What is known of the paper's baffle.
+
+    Attributes
+    ----------
+    plan
+        What was run.
+    table
+        Means of all runs, one row a case and quantity.
+    emulators
+        An emulator of every observable with softer springs.
+    bare
+        The bare drum at full stiffness.
+    corrections
+        What full stiffness changes about observables with softer springs.
+    posteriors
+        Posterior by factor of the tolerances.
+    known
+        What is foretold at the posterior's shapes.
+    confirmed
+        What is known at full stiffness of each shape that was run so, the likeliest first.
+    failures
+        Cases without results; their shapes are left out.
+    """
+
+    plan: Plan
+    table: "pl.DataFrame"
+    emulators: Mapping[Observable, Emulator]
+    bare: Known
+    corrections: Corrections
+    posteriors: Mapping[float, Posterior]
+    known: Known
+    confirmed: Mapping[Shape, Known]
+    failures: tuple[Failure, ...] = ()
+
+    @property
+    def best(self) -> Shape:
+        """The confirmed shape that fits the sentences best: the inferred one."""
+        return next(iter(self.confirmed))
+
+    @property
+    def scanned(self) -> list[Shape]:
+        """The shapes that were run with softer springs."""
+        rows = self.table.filter(self.table["softer"] > 1.0).drop_nulls("height")
+        return [
+            Shape(*row) for row in rows.select("height", "base", "tip").unique(maintain_order=True).rows()
+        ]
+
+    def foretold_at(self, shapes: Array) -> Known:
+        """Return what the emulators foretell at full stiffness, for rows of height, base and tip [m]."""
+        return foretell(self.emulators, shapes, self.bare, self.corrections)

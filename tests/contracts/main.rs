@@ -1,0 +1,17 @@
+//! What holds however a step is computed: bits, borders, messages, lists against brute force, any bytes as input.
+//!
+//! One program, not one a file: each would link the core once more, and that is most of the time that building takes.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod config;
+mod determinism;
+mod errors;
+mod fuzz;
+mod hostile;
+mod lanes;
+mod neighbors;
+mod parts;
+mod reference;
+mod summary;
