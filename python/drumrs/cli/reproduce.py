@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from drumrs.paper import Reproduction, ReproductionResult
 
 _FAILED = 1
-_STYLES = {"holds": "green", "does not hold": "red", "undecided": "yellow"}
+_STYLES = {"holds": "green", "holds in part": "cyan", "does not hold": "red", "undecided": "yellow"}
 
 Flag = Annotated[bool, Parameter(negative="")]
 
@@ -35,11 +35,12 @@ def reproduce(
     Parameters
     ----------
     quick
-        One seed, short windows, few points: minutes. What that cannot decide stays undecided.
+        Two seeds, short windows, few points: minutes. What that cannot decide stays undecided.
     full
         Ten seeds instead of three.
     baffle
-        Instead of the study, infer the shape of the paper's baffle, whose drawing is lost, from what the text says.
+        Instead of the study, infer the shape of the paper's baffle, whose drawing is lost, from what the text says;
+        with --quick from fewer shapes and seeds.
     out
         Folder for report.html, summary.md, table.parquet, figures/ and runs/; with --baffle for baffle.md,
         baffle.parquet, figures/ and runs/.
@@ -56,7 +57,7 @@ def reproduce(
         )
     check_folder(out)
     if baffle:
-        return _infer_baffle(out, jobs)
+        return _infer_baffle(out, jobs, quick=quick)
     reproduction = Reproduction("quick" if quick else "full" if full else "default", out, jobs)
     _announce(reproduction)
     done = reproduction.run(retry=retry)
@@ -65,10 +66,19 @@ def reproduce(
     return _tell_failures(done)
 
 
-def _infer_baffle(out: Path, jobs: int | None) -> int:
+def _infer_baffle(out: Path, jobs: int | None, *, quick: bool) -> int:
+    from drumrs.jobs import effective_jobs
     from drumrs.paper import infer_baffle
+    from drumrs.paper.baffle import QUICK, Plan
+    from drumrs.paper.reproduction import measure_speed
+    from drumrs.progress import format_duration
 
-    found = infer_baffle(out, jobs=jobs)
+    jobs, plan = effective_jobs(jobs), QUICK if quick else Plan()
+    spent = format_duration(plan.cost / measure_speed(jobs))
+    sys.stderr.write(
+        f"inference of the baffle: {plan.cost:.2g} particle-steps in all, about {spent} at most\n"
+    )
+    found = infer_baffle(out, plan, jobs)
     height, base, tip = (f"{100.0 * length:.3g}" for length in found.best.lengths)
     sys.stdout.write(f"inferred baffle: height {height} cm, base {base} cm, tip {tip} cm\n")
     for failure in found.failures:

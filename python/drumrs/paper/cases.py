@@ -5,6 +5,7 @@ from collections.abc import Iterable, Iterator
 from typing import Any
 
 from drumrs.config import Config, baseline
+from drumrs.paper.drums import BAFFLED, BARE, TRIANGLES
 from drumrs.paper.scales import Scale, scale_of
 
 # Fills of the figures of friction, and of the snapshots.
@@ -12,6 +13,8 @@ THIRDS = (0.25, 0.50, 0.75)
 # Fill at which the size of bundles varies, and that at which speed and restitution do.
 SIZE_FILL = 0.40
 BASELINE_FILL = 0.25
+# Fills of the bare drum at which the load passes between two states, and which are run for longer.
+HALF_FULL = (0.45, 0.50, 0.55)
 # Cases whose motion is looked at, bundle by bundle: the snapshots', and one more above 50 %.
 WATCHED_FILLS = (0.25, 0.50, 0.60, 0.75)
 
@@ -52,10 +55,20 @@ def cases(scale: str | Scale = "default") -> list[Config]:
     True
     """
     scale = scale_of(scale)
-    run = {"duration": scale.duration, "window": scale.window, "sample_every": _SAMPLE_EVERY}
+    # The paper's N/T counts what springs take and give back.
+    always = {"sample_every": _SAMPLE_EVERY, "record": ["gross_work"]}
+    half_full = [BARE.config(fill) for fill in HALF_FULL] if scale.half_full_seeds else []
     found: dict[str, Config] = {}
     for point in _points(scale):
-        for seed in scale.seeds:
+        run = {**always, "duration": scale.duration, "window": scale.window}
+        seeds = scale.seeds
+        if point in half_full:
+            seeds = scale.half_full_seeds
+            run |= {
+                "duration": scale.half_full_duration,
+                "window": (scale.window[0], scale.half_full_duration),
+            }
+        for seed in seeds:
             config = point.replace({"run": {**run, "frame_every": _pause(point, scale), "seed": seed}})
             found.setdefault(config.digest, config)
     return list(found.values())
@@ -76,20 +89,30 @@ def cost(configs: Iterable[Config]) -> int:
 
 
 def _points(scale: Scale) -> Iterator[Config]:
-    for baffles, fills in ((False, scale.fills), (True, scale.fills_with_baffles)):
+    for drum, fills in (
+        (BARE, scale.fills),
+        (BAFFLED, scale.fills_with_baffles),
+        (TRIANGLES, scale.fills_with_triangles),
+    ):
         for fill in fills:
-            yield baseline(fill, baffles=baffles)
-    for baffles in (False, True):
-        for ratio in scale.sizes:
-            yield baseline(SIZE_FILL, baffles=baffles).replace(_size(ratio))
+            yield drum.config(fill)
+    for drum, sizes in ((BARE, scale.sizes), (BAFFLED, scale.sizes), (TRIANGLES, scale.sizes_with_triangles)):
+        for ratio in sizes:
+            yield _softer(drum.config(SIZE_FILL).replace(_size(ratio)), scale, "size")
     for fill in THIRDS:
         for friction in scale.frictions:
-            yield baseline(fill).replace(_of_both("friction", friction))
-    for baffles in (False, True):
+            yield BARE.config(fill).replace(_of_both("friction", friction))
+    for drum in (BARE, BAFFLED):
+        at = drum.config(BASELINE_FILL)
         for rpm in scale.speeds:
-            yield baseline(BASELINE_FILL, baffles=baffles).replace({"rotation.rpm": rpm})
+            yield _softer(at.replace({"rotation.rpm": rpm}), scale, "speed")
         for restitution in scale.restitutions:
-            yield baseline(BASELINE_FILL, baffles=baffles).replace(_of_both("restitution", restitution))
+            yield _softer(at.replace(_of_both("restitution", restitution)), scale, "restitution")
+
+
+def _softer(point: Config, scale: Scale, axis: str) -> Config:
+    factor = scale.softer.get(axis, 1.0)
+    return point if factor == 1.0 else point.softer(factor)
 
 
 def _size(ratio: float) -> dict[str, Any]:
@@ -108,9 +131,7 @@ def _of_both(key: str, value: float) -> dict[str, float]:
 
 def _pause(point: Config, scale: Scale) -> float:
     """Return the time between frames: short where the motion is looked at, else first and last alone."""
-    watched = any(
-        point == baseline(fill, baffles=baffles) for fill in WATCHED_FILLS for baffles in (False, True)
-    )
+    watched = any(point == drum.config(fill) for fill in WATCHED_FILLS for drum in (BARE, BAFFLED, TRIANGLES))
     return _FRAME_EVERY if watched else scale.duration
 
 

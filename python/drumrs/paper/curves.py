@@ -10,7 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drumrs.analysis import Estimate, combine, estimate
-from drumrs.paper.cases import BASELINE_FILL, SIZE_FILL
+from drumrs.config import baseline
+from drumrs.paper.cases import BASELINE_FILL, SIZE_FILL, THIRDS, percent
+from drumrs.paper.drums import BAFFLED, BARE, Drum
 from drumrs.paper.verdict import MissingError
 
 if TYPE_CHECKING:
@@ -26,6 +28,10 @@ AXES: Mapping[str, tuple[str, float]] = MappingProxyType(
         "restitution": ("contact.bundle.restitution", 0.1),
     }
 )
+# Readings of N/T, the one first by which claims are judged: what normal contacts exchange over what tangential ones do,
+# loading and unloading both counted; what they dissipate; and what they dissipate and store on balance.
+RATIOS = ("gross_work_ratio", "dissipation_ratio", "work_ratio")
+_STIFFNESS = "contact.bundle.normal_stiffness"
 # Values of a parameter this near each other are the same.
 _SAME = 1e-6
 # Turns of the drum that a window must hold for its blocks to tell an error.
@@ -59,10 +65,25 @@ class Point:
 
 @dataclass(frozen=True)
 class Curve:
-    """Points in the order of the parameter."""
+    """Points in the order of the parameter.
+
+    Attributes
+    ----------
+    label
+        What tells it from the other curves of its figure, such as ``"without baffles"``.
+    points
+        Its points.
+    axis, column
+        The parameter, a key of `AXES`, and the quantity.
+    softer
+        By how much springs were softer than Table 1's.
+    """
 
     label: str
     points: tuple[Point, ...]
+    axis: str = "fill"
+    column: str = ""
+    softer: float = 1.0
 
     def __len__(self) -> int:
         """Return the number of points."""
@@ -133,13 +154,27 @@ class Results:
         What `measure` returned.
     steady_only
         Whether runs that drift are left out.
+    baffled
+        The drum that stands for the one with baffles.
+    ratio
+        The column that stands for N/T, one of `RATIOS`.
     """
 
     table: "pl.DataFrame"
     steady_only: bool = False
+    baffled: Drum = BAFFLED
+    ratio: str = RATIOS[0]
 
-    def curve(self, axis: str, column: str, *, baffles: bool = False, fill: float | None = None) -> Curve:
+    @property
+    def drums(self) -> tuple[Drum, Drum]:
+        """The bare drum, and the one with baffles."""
+        return (BARE, self.baffled)
+
+    def curve(self, axis: str, column: str, *, drum: Drum = BARE, fill: float | None = None) -> Curve:
         """Return a quantity against a parameter.
+
+        A curve is of one stiffness: that with most points, of as many the stiffest. N/T depends on it, and is taken
+        from runs with Table 1's alone; without friction there is no T.
 
         Parameters
         ----------
@@ -147,8 +182,8 @@ class Results:
             Key of `AXES`.
         column
             Column of the table; its errors are in ``…_error``, where there is one.
-        baffles
-            Whether the drum has baffles.
+        drum
+            The drum.
         fill
             Fill of all points; unless given 40 % for sizes, 25 % for the rest.
 
@@ -157,15 +192,43 @@ class Results:
         Curve
             With no points where the table has none.
         """
-        rows = self._rows(axis, baffles=baffles, fill=fill).drop_nulls(column)
-        if self.steady_only:
-            rows = rows.filter(~rows["drifting"])
-        at: dict[float, list[dict[str, Any]]] = {}
+        label = drum.name if fill is None else f"{percent(fill)} fill"
+        if column not in self.table.columns:
+            return Curve(label, (), axis, column)
+        own = baseline().contact.bundle.normal_stiffness
+        at: dict[float, dict[float, list[dict[str, Any]]]] = {}
+        rows = self._rows(axis, drum=drum, fill=fill).drop_nulls(column)
+        if column in RATIOS:
+            rows = rows.filter(rows[AXES["friction"][0]] > 0.0)
         for row in rows.iter_rows(named=True):
-            at.setdefault(round(float(row[AXES[axis][0]]), 9), []).append(row)
-        points = [_point(x, at[x], column) for x in sorted(at)]
-        drum = "with baffles" if baffles else "without baffles"
-        return Curve(drum if fill is None else f"{100.0 * fill:.0f} % fill", tuple(points))
+            alike = at.setdefault(row[_STIFFNESS] / own, {})
+            alike.setdefault(round(float(row[AXES[axis][0]]), 9), []).append(row)
+        stiffness = 1.0 if column in RATIOS else max(at, key=lambda one: (len(at[one]), one), default=1.0)
+        points = []
+        for x, seeds in sorted(at.get(stiffness, {}).items()):
+            steady = [row for row in seeds if not (self.steady_only and row["drifting"])]
+            points += [_point(x, steady, column)] if steady else []
+        return Curve(label, tuple(points), axis, column, 1.0 / stiffness)
+
+    def shown(self, axis: str, column: str) -> list[Curve]:
+        """Return the curves that the paper's figure of a quantity against a parameter shows."""
+        if axis == "friction":
+            return [self.curve(axis, column, fill=fill) for fill in THIRDS]
+        return [self.curve(axis, column, drum=drum) for drum in self.drums]
+
+    def largest(self, axis: str, column: str) -> float:
+        """Return the largest value of the figure of a quantity against a parameter: the scale on which it is read.
+
+        Raises
+        ------
+        MissingError
+            Where the figure has no point.
+        """
+        every = replace(self, steady_only=False)
+        means = [one.mean for curve in every.shown(axis, column) for one in curve.estimates]
+        if not means:
+            raise MissingError(f"every point of {column} against {axis}")
+        return max(means)
 
     def usual(self, column: str, fill: float) -> float:
         """Return the mean of a quantity in Table 1's bare drum, drifting runs included: a scale for others.
@@ -178,15 +241,14 @@ class Results:
         every = replace(self, steady_only=False).curve("fill", column)
         return every.at(fill).mean
 
-    def _rows(self, axis: str, *, baffles: bool, fill: float | None) -> "pl.DataFrame":
+    def _rows(self, axis: str, *, drum: Drum, fill: float | None) -> "pl.DataFrame":
         import polars as pl
 
         fixed = {name: value for name, (_, value) in AXES.items() if name != axis}
         if axis != "fill":
             fixed["fill"] = fill if fill is not None else SIZE_FILL if axis == "size" else BASELINE_FILL
         same = [(pl.col(AXES[name][0]) - value).abs() < _SAME for name, value in fixed.items()]
-        turned = (pl.col("drum.baffles.count") > 0) == baffles
-        return self.table.filter(turned, *same).sort("seed", maintain_order=True)
+        return self.table.filter(drum.rows, *same).sort("seed", maintain_order=True)
 
 
 def _point(x: float, rows: Sequence[Mapping[str, Any]], column: str) -> Point:

@@ -5,10 +5,11 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from drumrs.config import Config, baseline
+from drumrs.config import Config
 from drumrs.paper.cases import percent
 from drumrs.paper.claims import judge
 from drumrs.paper.curves import Results
+from drumrs.paper.drums import BARE, Drum
 from drumrs.paper.verdict import MissingError, Verdict
 from drumrs.sweep import Case, Failure, Sweep
 
@@ -58,18 +59,18 @@ class StudyData:
         """Configuration of every case by its name."""
         return {case.id: case.config for case in self.sweep.cases}
 
-    def cases(self, fill: float, *, baffles: bool) -> list[Case]:
-        """Return the finished cases of a fill in Table 1's drum, by seed.
+    def cases(self, fill: float, drum: Drum = BARE) -> list[Case]:
+        """Return the finished cases of a fill in a drum, all else as in Table 1, by seed.
 
         Raises
         ------
         MissingError
             Where there are none.
         """
-        finished, like = set(self.table["case"]), baseline(fill, baffles=baffles)
+        finished, like = set(self.table["case"]), drum.config(fill)
         found = [case for case in self.sweep.cases if case.id in finished and _same_drum(case.config, like)]
         if not found:
-            raise MissingError(f"runs at {percent(fill)} fill {'with' if baffles else 'without'} baffles")
+            raise MissingError(f"runs at {percent(fill)} fill {drum.name}")
         return sorted(found, key=lambda case: case.config.run.seed)
 
 

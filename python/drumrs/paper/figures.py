@@ -9,7 +9,10 @@ from typing import TYPE_CHECKING
 from drumrs.analysis import disagreement
 from drumrs.config import baseline
 from drumrs.paper.cases import THIRDS, percent
+from drumrs.paper.curves import RATIOS
 from drumrs.paper.data import StudyData
+from drumrs.paper.drums import BAFFLED, BARE, Drum
+from drumrs.paper.states import two_states
 from drumrs.paper.verdict import MissingError
 
 if TYPE_CHECKING:
@@ -22,6 +25,7 @@ if TYPE_CHECKING:
 # Seeds this unlikely to be of one steady state are shown one by one.
 _APART = 0.05
 _HALF = 0.5
+_POWER = "drum_specific_power"
 
 
 @dataclass(frozen=True)
@@ -31,7 +35,7 @@ class PaperFigure:
     Attributes
     ----------
     number
-        ``"F2"`` to ``"F9"``, ``"speed"``, ``"restitution"``, ``"drift"``.
+        ``"F2"`` to ``"F9"``, ``"speed"``, ``"restitution"``, ``"drift"``, ``"states"``.
     title, caption
         What it shows, and how to read it.
     draw
@@ -72,21 +76,13 @@ def points(curves: "list[Curve]") -> "pl.DataFrame":
     return pl.DataFrame(rows)
 
 
-def _both_drums(data: StudyData, axis: str, column: str) -> "pl.DataFrame":
-    return points([data.results.curve(axis, column, baffles=baffles) for baffles in (False, True)])
-
-
-def _three_fills(data: StudyData, column: str) -> "pl.DataFrame":
-    return points([data.results.curve("friction", column, fill=fill) for fill in THIRDS])
-
-
-def _snapshots(baffles: bool) -> "Callable[[StudyData], Figure]":
+def _snapshots(drum: Drum) -> "Callable[[StudyData], Figure]":
     def draw(data: StudyData) -> "Figure":
         from drumrs.paper import plots
 
         frames = {}
         for fill in THIRDS:
-            case = data.cases(fill, baffles=baffles)[0]
+            case = data.cases(fill, drum)[0]
             frames[f"{percent(fill)} fill"] = data.sweep.frames(case, data.folder)
         return plots.snapshots_of_fills(frames)
 
@@ -97,20 +93,38 @@ def _draw_drift(data: StudyData) -> "Figure":
     from drumrs.paper import plots
 
     runs, mass = {}, {}
-    for baffles in (False, True):
-        found = data.cases(_HALF, baffles=baffles)
-        drum = f"50 % fill, {'with' if baffles else 'without'} baffles"
-        runs[drum] = [data.sweep.series(case, data.folder) for case in found]
+    for drum in (BARE, BAFFLED):
+        found = data.cases(_HALF, drum)
+        name = f"50 % fill, {drum.name}"
+        runs[name] = [data.sweep.series(case, data.folder) for case in found]
         config = found[0].config
-        mass[drum] = config.derived.load_mass
+        mass[name] = config.derived.load_mass
     return plots.drift_over_time(runs, mass, config.run.averaging_window)
+
+
+def _draw_states(data: StudyData) -> "Figure":
+    from drumrs.paper import plots
+
+    return plots.states_over_time(two_states(data))
 
 
 def _draw_speed(data: StudyData) -> "Figure":
     from drumrs.paper import plots
 
     centrifuging = (baseline().derived.critical_angular_velocity or 0.0) * 30.0 / math.pi
-    return plots.specific_power_against_speed(_both_drums(data, "speed", "drum_specific_power"), centrifuging)
+    shown = data.results.shown("speed", _POWER)
+    figure = plots.specific_power_against_speed(points(shown), centrifuging)
+    _say_softer(figure, shown)
+    return figure
+
+
+def _say_softer(figure: "Figure", curves: "list[Curve]") -> None:
+    """Say above a figure by how much springs are softer than Table 1's, where they are."""
+    from drumrs.figures.curves import say_above
+
+    softer = max(curve.softer for curve in curves)
+    if softer > 1.0:
+        say_above(figure.axes[0], f"springs softer by {softer:g}")
 
 
 def _curve(number: str, axis: str, *columns: str) -> "Callable[[StudyData], Figure]":
@@ -119,11 +133,9 @@ def _curve(number: str, axis: str, *columns: str) -> "Callable[[StudyData], Figu
     def draw(data: StudyData) -> "Figure":
         from drumrs.paper import plots
 
-        tables = [
-            _three_fills(data, column) if axis == "friction" else _both_drums(data, axis, column)
-            for column in columns
-        ]
-        return plots.CURVES[number](*tables)
+        figure = plots.CURVES[number](*(points(data.results.shown(axis, column)) for column in columns))
+        _say_softer(figure, data.results.shown(axis, columns[0]))
+        return figure
 
     return draw
 
@@ -131,17 +143,16 @@ def _curve(number: str, axis: str, *columns: str) -> "Callable[[StudyData], Figu
 _BARS = (
     "Bars are 95 % intervals; open markers: the load drifts; faint dots: single seeds, where they disagree."
 )
-_POWER, _RATIOS = "drum_specific_power", ("dissipation_ratio", "work_ratio")
 
 _ALL = (
     PaperFigure(
         "F2",
         "Snapshots without baffles",
         "Fill 25, 50 and 75 %, colored by speed, at the end of the runs; a radius on each bundle shows its spin.",
-        _snapshots(baffles=False),
+        _snapshots(BARE),
     ),
     PaperFigure(
-        "F3", "Snapshots with baffles", "As F2. The baffles' size is an assumption.", _snapshots(baffles=True)
+        "F3", "Snapshots with baffles", "As F2. The baffles' size is an assumption.", _snapshots(BAFFLED)
     ),
     PaperFigure(
         "F4",
@@ -158,9 +169,9 @@ _ALL = (
     PaperFigure(
         "F6",
         "N/T against fill",
-        "Power taken by normal damping over power taken by sliding; crosses: the same with what springs "
-        f"store counted as well. {_BARS}",
-        _curve("F6", "fill", *_RATIOS),
+        "What normal contacts exchange over what tangential ones do, loading and unloading of springs both counted. "
+        f"Marks: by dissipation (×), and by net work (+), to which springs add nothing on balance. {_BARS}",
+        _curve("F6", "fill", *RATIOS),
     ),
     PaperFigure(
         "F7",
@@ -178,7 +189,7 @@ _ALL = (
         "F9",
         "N/T against friction",
         f"Without baffles; readings as in F6. {_BARS}",
-        _curve("F9", "friction", *_RATIOS),
+        _curve("F9", "friction", *RATIOS),
     ),
     PaperFigure(
         "speed",
@@ -198,6 +209,14 @@ _ALL = (
         "Running means over 2 s, one line a seed; shaded is the window of the averages. Where a load passes between "
         "states, lines bend and part for longer than a few seconds.",
         _draw_drift,
+    ),
+    PaperFigure(
+        "states",
+        "Two states about half full",
+        "Without baffles. Above: angular momentum of the load, means over a turn, of the first five seeds, colored by "
+        "state. Below: the share of the time that the load is a ring carried round, and what the drum does in each "
+        "state. Bars are 95 % intervals over the runs.",
+        _draw_states,
     ),
 )
 

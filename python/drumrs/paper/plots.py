@@ -20,6 +20,10 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+    from drumrs.paper.states import TwoStates
+
+# Marks of N/T by other readings than the line's.
+_MARKS = {"x": "by dissipation", "+": "by net work"}
 # Running means over that long [s]: some two turns of the drum.
 _LONG = 2.0
 
@@ -53,17 +57,17 @@ def specific_power_against_fill(points: "pl.DataFrame") -> "Figure":
     return curves(points, Labels(labels.FILL, labels.DRUM_SPECIFIC_POWER, x_scale=100.0))
 
 
-def ratio_against_fill(points: "pl.DataFrame", other: "pl.DataFrame") -> "Figure":
+def ratio_against_fill(points: "pl.DataFrame", *others: "pl.DataFrame") -> "Figure":
     """Draw F6: N/T against fill, without and with baffles.
 
     Parameters
     ----------
     points
-        N/T by dissipation.
-    other
-        N/T by net work: crosses.
+        N/T by gross work.
+    *others
+        N/T by dissipation and by net work: marks.
     """
-    return _two_readings(points, other, Labels(labels.FILL, labels.DISSIPATION_RATIO, x_scale=100.0))
+    return _readings(points, others, Labels(labels.FILL, labels.GROSS_WORK_RATIO, x_scale=100.0))
 
 
 def specific_power_against_size(points: "pl.DataFrame") -> "Figure":
@@ -76,9 +80,9 @@ def specific_power_against_friction(points: "pl.DataFrame") -> "Figure":
     return curves(points, Labels(labels.FRICTION, labels.DRUM_SPECIFIC_POWER))
 
 
-def ratio_against_friction(points: "pl.DataFrame", other: "pl.DataFrame") -> "Figure":
-    """Draw F9: N/T against friction without baffles, at three fills; `other` as in `ratio_against_fill`."""
-    return _two_readings(points, other, Labels(labels.FRICTION, labels.DISSIPATION_RATIO))
+def ratio_against_friction(points: "pl.DataFrame", *others: "pl.DataFrame") -> "Figure":
+    """Draw F9: N/T against friction without baffles, at three fills; `others` as in `ratio_against_fill`."""
+    return _readings(points, others, Labels(labels.FRICTION, labels.GROSS_WORK_RATIO))
 
 
 def specific_power_against_speed(points: "pl.DataFrame", centrifuging: float) -> "Figure":
@@ -130,12 +134,13 @@ def _say_below(axes: "Axes", x: float, text: str, beside: float = 0.0) -> None:
     )
 
 
-def _two_readings(points: "pl.DataFrame", other: "pl.DataFrame", axis_labels: Labels) -> "Figure":
+def _readings(points: "pl.DataFrame", others: "Sequence[pl.DataFrame]", axis_labels: Labels) -> "Figure":
     figure = curves(points, axis_labels)
     axes = figure.axes[0]
-    x, y = axis_labels.x_scale * other["x"].to_numpy(), other["mean"].to_numpy()
-    axes.plot(x, y, "x", color="black", markersize=6.5, markeredgewidth=0.6, zorder=4)
-    say_above(axes, f"×: {labels.WORK_RATIO}")
+    for other, (mark, name) in zip(others, _MARKS.items(), strict=True):
+        x, y = axis_labels.x_scale * other["x"].to_numpy(), other["mean"].to_numpy()
+        axes.plot(x, y, mark, color="black", markersize=6.5, markeredgewidth=0.6, zorder=4)
+        say_above(axes, f"{mark.replace('x', '×')}: {name}")
     return figure
 
 
@@ -169,6 +174,58 @@ def drift_over_time(
         grid[1, 0].set_ylabel(labels.DISSIPATION_RATIO)
         _say_below(grid[0, 0], sum(window) / 2.0, "averages")
     return figure
+
+
+def states_over_time(states: Sequence["TwoStates"]) -> "Figure":
+    """Draw how loads about half full pass between two states, above; and what each state is like, below.
+
+    Parameters
+    ----------
+    states
+        The states at some fills, of increasing fill.
+    """
+    with drumrs_style():
+        figure = new_figure(9.6, 5.6)
+        grid = figure.subplots(2, max(len(states), 3), sharey="row", squeeze=False)
+        for axes, one in zip(grid[0], states, strict=False):
+            for run, flags in list(zip(one.runs, one.rings, strict=True))[:_SHOWN]:
+                for value, color in enumerate(_STATES.values()):
+                    inside = np.where(flags == value, run.momentum, np.nan)
+                    axes.plot(run.times, inside, color=color, linewidth=0.8)
+            axes.set(title=f"{100.0 * one.fill:.3g} % fill", xlabel=labels.TIME)
+        grid[0, 0].set_ylabel(labels.TURNING)
+        for axes in grid[1]:
+            axes.remove()
+        _draw_branches(states, [figure.add_subplot(2, 3, 4 + place) for place in range(3)])
+    return figure
+
+
+# Runs of a fill that are drawn over time.
+_SHOWN = 5
+_STATES = {"circulating": "C0", "ring": "C1"}
+
+
+def _draw_branches(states: Sequence["TwoStates"], panels: Sequence["Axes"]) -> None:
+    share, power, ratio = panels
+    fills = [100.0 * one.fill for one in states]
+    share.plot(fills, [100.0 * one.share for one in states], "o-", color=_STATES["ring"])
+    share.set(ylabel="time as a ring [%]", ylim=(-4.0, 104.0))
+    for name, color in _STATES.items():
+        found = [
+            (fill, state) for fill, one in zip(fills, states, strict=True) if (state := getattr(one, name))
+        ]
+        for axes, quantity in ((power, "power"), (ratio, "ratio")):
+            estimates = [getattr(state, quantity) for _, state in found]
+            halves = [one.interval().half_width if np.isfinite(one.error) else 0.0 for one in estimates]
+            heights = [one.mean for one in estimates]
+            axes.errorbar(
+                [x for x, _ in found], heights, halves, fmt="o-", color=color, capsize=3.0, label=name
+            )
+    power.set_ylabel(labels.DRUM_SPECIFIC_POWER)
+    ratio.set_ylabel(labels.GROSS_WORK_RATIO)
+    power.legend()
+    for axes in panels:
+        axes.set(xlabel=labels.FILL, xticks=fills)
 
 
 def _running(

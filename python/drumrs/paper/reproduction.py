@@ -152,8 +152,8 @@ class Reproduction:
         data = StudyData(table, self.sweep, self.runs_folder, self.scale, failures, taken)
         page, text = self.folder / "report.html", self.folder / "summary.md"
         pictures = write(data, page, self.folder / "figures")
-        summary.write(data, pictures, text)
-        return ReproductionResult(data, page, text, self.folder / "table.parquet", tuple(pictures))
+        summary.write(data, pictures.figures, pictures.thumbnails, text)
+        return ReproductionResult(data, page, text, self.folder / "table.parquet", pictures.figures)
 
 
 def measure_speed(jobs: int) -> float:

@@ -37,7 +37,7 @@ class Scale:
 
     @property
     def few(self) -> tuple[int, ...]:
-        """Half of the seeds, for drums whose starts are soon forgotten."""
+        """Half of the seeds, for points that need fewer starts."""
         return self.seeds[: (len(self.seeds) + 1) // 2]
 
 

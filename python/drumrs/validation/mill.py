@@ -84,7 +84,7 @@ def measures(config: Config, seen: "FrameWindow") -> "Mapping[str, Mean]":
 def _cases(scale: Scale) -> list[Config]:
     trend = [point(scale, speed, friction=friction) for speed in _SPEEDS for friction in _FRICTIONS]
     model = [point(scale, speed, filling) for speed in _MODEL_SPEEDS for filling in _FILLINGS]
-    return with_seeds([*trend, *model, point(scale).softer(2.0)], scale.few)
+    return with_seeds([*trend, *model, point(scale).softer(2.0)], scale.seeds)
 
 
 def _checks(results: Results) -> list[Check]:
@@ -185,7 +185,10 @@ def _draw(results: Results) -> "Figure":
         shoulders.set(ylabel="shoulder [°]")
         for axes in (power, arms, toes, shoulders):
             axes.set_xlabel("speed over critical speed [%]")
-            axes.legend()
+            shown = _SPEEDS if axes is power else _MODEL_SPEEDS
+            axes.set_xticks([100.0 * speed for speed in shown])
+        for axes, place in ((power, "lower right"), (arms, "upper right"), (shoulders, "upper left")):
+            axes.legend(loc=place)
     return figure
 
 

@@ -1,6 +1,7 @@
 """The cases of the study: complete, each once, within the budget, and able to start."""
 
 import math
+import sys
 
 import pytest
 
@@ -8,6 +9,7 @@ import drumrs
 from drumrs import paper
 from drumrs.errors import ConfigError
 from drumrs.paper.cases import TIME_STEP, WATCHED_FILLS
+from drumrs.paper.drums import TRIANGLES, Drum
 
 
 def points(scale: str) -> list[drumrs.Config]:
@@ -19,7 +21,11 @@ def points(scale: str) -> list[drumrs.Config]:
 def test_every_case_comes_once_and_with_every_seed(scale):
     found = paper.cases(scale)
     assert len({config.digest for config in found}) == len(found)
-    assert len(found) == len(points(scale)) * len(paper.SCALES[scale].seeds)
+    scale = paper.SCALES[scale]
+    half_full = [config for config in found if config.run.duration > scale.duration]
+    assert len(half_full) == (3 * len(scale.half_full_seeds) if scale.half_full_seeds else 0)
+    usual = [config for config in found if config.run.duration == scale.duration]
+    assert len(usual) == len({config.replace({"run.seed": 1}).digest for config in usual}) * len(scale.seeds)
 
 
 @pytest.mark.parametrize("scale", paper.SCALES)
@@ -32,8 +38,11 @@ def test_the_baseline_is_among_them(scale):
 
 def test_the_default_is_the_papers_protocol():
     found = paper.cases("default")
-    assert {config.run.duration for config in found} == {30.0}
-    assert {config.run.window for config in found} == {(20.0, 30.0)}
+    assert {(config.run.duration, config.run.window) for config in found} == {
+        (30.0, (20.0, 30.0)),
+        (120.0, (20.0, 120.0)),
+    }
+    assert {config.load.fill for config in found if config.run.duration == 120.0} == {0.45, 0.50, 0.55}
     for baffles, highest in ((0, 0.80), (3, 0.75)):
         fills = {c.load.fill for c in found if c.drum.baffles.count == baffles and c.load.diameter == 0.02375}
         assert (min(fills), max(fills)) == (0.10, highest)
@@ -57,7 +66,7 @@ def test_the_time_step_follows_the_contact_time():
 
 @pytest.mark.parametrize("scale", ["quick", "default"])
 def test_budget(scale):
-    most = {"quick": 1.3e10, "default": 5.0e11}[scale]
+    most = {"quick": 2.4e10, "default": 8.0e11}[scale]
     assert 0.8 * most < paper.cost(paper.cases(scale)) < most
 
 
@@ -74,12 +83,44 @@ def test_motion_is_kept_where_it_is_looked_at():
         assert {(c.load.fill, c.drum.baffles.count) for c in dense} == {
             (f, n) for f in WATCHED_FILLS for n in (0, 3)
         }
-        assert len(dense) == 2 * len(WATCHED_FILLS) * len(paper.SCALES[scale].seeds)
+        seeds, half_full = (
+            len(of) for of in (paper.SCALES[scale].seeds, paper.SCALES[scale].half_full_seeds)
+        )
+        # The bare drum at 50 % is one that is run for longer.
+        longer = half_full - seeds if half_full else 0
+        assert len(dense) == 2 * len(WATCHED_FILLS) * seeds + longer
 
 
 def test_cost_is_bundles_times_steps():
     config = drumrs.baseline(0.25).replace({"run.duration": 37.0e-6})
     assert paper.cost([config, config]) == 2 * 100 * 10
+
+
+def test_softer_springs_are_those_of_the_scale():
+    soft = [config for config in paper.cases("quick") if config.contact.bundle.normal_stiffness < 1e7]
+    quick = paper.SCALES["quick"]
+    points = 2 * sum(len(getattr(quick, axis)) for axis in ("sizes", "speeds", "restitutions"))
+    # Table 1's own speed and restitution are one case.
+    assert len(soft) == len(quick.seeds) * (points - 2)
+    for config in soft:
+        ratio = 0.475 / config.load.diameter
+        assert config.contact.drum.normal_stiffness == pytest.approx(9.7e5)
+        assert config.run.time_step == pytest.approx(10.0 * TIME_STEP * 20.0 / ratio)
+    assert all(config.contact.bundle.normal_stiffness > 1e7 for config in paper.cases("default"))
+
+
+def test_triangles_are_cases_of_their_own_where_the_baffles_are_others(monkeypatch):
+    washer = Drum("with baffles", {**TRIANGLES.changes, "drum.baffles.height": 0.035})
+    alone = len(paper.cases("default"))
+    # The function of that name hides the module.
+    monkeypatch.setattr(sys.modules["drumrs.paper.cases"], "BAFFLED", washer)
+    default = paper.SCALES["default"]
+    more = len(default.fills_with_triangles) + len(default.sizes_with_triangles) - 1
+    assert len(paper.cases("default")) == alone + more * len(default.seeds)
+
+
+def test_gross_work_is_recorded():
+    assert {config.run.record for config in paper.cases("quick")} == {("gross_work",)}
 
 
 def test_unknown_scale():

@@ -10,6 +10,7 @@ import drumrs
 from drumrs import analysis, paper
 from drumrs.paper.claims import power
 from drumrs.paper.curves import Curve, Point, Results, peak, slope
+from drumrs.paper.drums import BAFFLED
 from drumrs.sweep import Case, Sweep
 from worlds import DEFAULT, world
 
@@ -81,10 +82,10 @@ def test_slope_and_its_error():
     ("axis", "options", "x"),
     [
         ("fill", {}, DEFAULT.fills),
-        ("fill", {"baffles": True}, DEFAULT.fills_with_baffles),
+        ("fill", {"drum": BAFFLED}, DEFAULT.fills_with_baffles),
         ("size", {}, DEFAULT.sizes),
         ("friction", {"fill": 0.75}, DEFAULT.frictions),
-        ("speed", {"baffles": True}, DEFAULT.speeds),
+        ("speed", {"drum": BAFFLED}, DEFAULT.speeds),
         ("restitution", {}, DEFAULT.restitutions),
     ],
 )

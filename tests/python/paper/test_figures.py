@@ -10,6 +10,7 @@ import pytest
 import drumrs
 from drumrs import figures, paper
 from drumrs.paper import plots
+from drumrs.paper.cases import HALF_FULL
 from drumrs.paper.curves import Results
 from drumrs.paper.figures import points
 from drumrs.sweep import Case
@@ -18,6 +19,8 @@ from worlds import world
 
 FROM_TABLE = ["F4", "F5", "F6", "F7", "F8", "F9", "speed", "restitution"]
 FROM_RUNS = ["F2", "F3", "drift"]
+FROM_LONG_RUNS = ["states"]
+ALL = [*FROM_TABLE, *FROM_RUNS, *FROM_LONG_RUNS]
 
 
 class Runs:
@@ -46,28 +49,50 @@ class Runs:
         return pl.DataFrame({"time": time, **{name: time * (2.0 + k) for k, name in enumerate(names)}})
 
 
+class LongRuns(Runs):
+    """Stands for a sweep of long runs about half full, whose load turns the faster the fuller the drum."""
+
+    def __init__(self) -> None:
+        run = {"run.duration": 120.0, "run.sample_every": 0.02}
+        configs = [
+            drumrs.baseline(fill).replace({**run, "run.seed": seed}) for fill in HALF_FULL for seed in (1, 2)
+        ]
+        self.cases = tuple(Case(config) for config in configs)
+
+    def series(self, case: Case, folder: str | None = None) -> pl.DataFrame:
+        assert folder == "somewhere"
+        time = 0.02 * np.arange(6001)
+        names = ("drum_work", "gross_work_normal", "gross_work_tangential")
+        momentum = np.full(len(time), 100.0 * case.config.load.fill)
+        return pl.DataFrame({"time": time, "angular_momentum": momentum, **dict.fromkeys(names, time)})
+
+
 @pytest.fixture(scope="module")
 def table() -> pl.DataFrame:
     return world()
 
 
-def study_data() -> paper.StudyData:
-    runs = Runs()
+def study_data(runs: Runs | None = None) -> paper.StudyData:
+    runs = runs or Runs()
     return paper.StudyData(pl.DataFrame({"case": [case.id for case in runs.cases]}), runs, "somewhere")
 
 
 def drawn(number: str, table: pl.DataFrame) -> object:
-    data = paper.StudyData(table, SimpleNamespace(cases=())) if number in FROM_TABLE else study_data()
+    data = (
+        paper.StudyData(table, SimpleNamespace(cases=()))
+        if number in FROM_TABLE
+        else study_data(LongRuns() if number in FROM_LONG_RUNS else None)
+    )
     return paper.FIGURES[number].draw(data)
 
 
 def test_every_figure_is_there():
-    assert set(paper.FIGURES) == {*FROM_TABLE, *FROM_RUNS}
+    assert set(paper.FIGURES) == set(ALL)
     assert all(one.number == key and one.title and one.caption for key, one in paper.FIGURES.items())
 
 
 @pytest.mark.parametrize("ending", ["png", "svg"])
-@pytest.mark.parametrize("number", [*FROM_TABLE, *FROM_RUNS])
+@pytest.mark.parametrize("number", ALL)
 def test_every_figure_is_written_alike(number, ending, table, tmp_path):
     for name in ("a", "b"):
         figures.write(drawn(number, table), tmp_path / f"{name}.{ending}")
@@ -116,9 +141,9 @@ def test_drifting_points_are_open_and_seeds_that_disagree_are_shown(table):
     at_half = (pl.col("load.fill") == 0.5) & (pl.col("contact.bundle.friction") == 0.5)
     moved = table.with_columns(
         drifting=at_half & (pl.col("seed") == 1),
-        dissipation_ratio=pl.when(at_half & (pl.col("seed") == 1))
+        gross_work_ratio=pl.when(at_half & (pl.col("seed") == 1))
         .then(1.2)
-        .otherwise(pl.col("dissipation_ratio")),
+        .otherwise(pl.col("gross_work_ratio")),
     )
     axes = drawn("F6", moved).axes[0]
     assert marked(axes, "white") == 2
@@ -132,6 +157,20 @@ def test_unknown_errors_have_no_bar():
     assert set(frame["half_width"]) == {math.inf}
     bars = plots.specific_power_against_fill(frame).axes[0].collections[0].get_segments()
     assert all(bar[0, 1] == bar[1, 1] for bar in bars)
+
+
+@pytest.mark.parametrize("number", ["F6", "F9"])
+def test_three_readings_of_the_ratio_are_shown(number, table):
+    axes = drawn(number, table).axes[0]
+    marks = {
+        line.get_marker(): np.asarray(line.get_ydata())
+        for line in axes.get_lines()
+        if line.get_marker() in "x+"
+    }
+    assert {mark: len(y) for mark, y in marks.items()} == dict.fromkeys("x+", len(marks["x"]))
+    assert (marks["+"] >= marks["x"]).all()
+    assert axes.get_title(loc="left") == "×: by dissipation; +: by net work"
+    assert axes.get_ylabel() == "gross work ratio N/T"
 
 
 def test_snapshots_are_of_the_first_seed_in_the_papers_order():
@@ -155,7 +194,7 @@ def test_drift_shows_every_seed():
     assert ratio.get_lines()[0].get_ydata() == pytest.approx(3.0 / 4.0)
 
 
-@pytest.mark.parametrize("number", [*FROM_TABLE, *FROM_RUNS])
+@pytest.mark.parametrize("number", ALL)
 def test_figures_without_cases_say_so(number, table):
     empty = table.clear().with_columns(case=pl.lit(""))
     with pytest.raises(paper.MissingError):

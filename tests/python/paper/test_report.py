@@ -15,9 +15,12 @@ import drumrs
 from drumrs import paper
 from drumrs.pages import provenance
 from drumrs.paper import FIGURES, report
-from drumrs.paper.report import checks, facts, headline, page, pictures, table1
+from drumrs.paper.claims import EVIDENCE
+from drumrs.paper.drums import BAFFLED
+from drumrs.paper.report import Pictures, checks, facts, headline, page, pictures, table1
 from drumrs.sweep import Failure, Sweep
 from small_study import SMALL
+from worlds import world
 
 
 @pytest.fixture(scope="module")
@@ -56,8 +59,68 @@ def test_every_claim_has_its_verdict_and_numbers(data, text):
         for part in verdict.parts:
             assert " ".join(part.sentence.split()) in text
             assert all(number.text in part.sentence for number in part.numbers)
-    for outcome, count in headline.count_of_verdicts(data).items():
+    for outcome, count in headline.count_of_verdicts(data.verdicts).items():
         assert count == sum(verdict.verdict == outcome for verdict in data.verdicts)
+
+
+def test_every_claim_has_a_card_with_its_parts_and_its_curves(data, written):
+    html = written[0].read_text(encoding="utf-8")
+    cards = dict(re.findall(r'<li id="(C\d+)"(.*?)</details>', html, re.DOTALL))
+    assert list(cards) == [verdict.claim for verdict in data.verdicts]
+    for verdict in data.verdicts:
+        card = cards[verdict.claim]
+        assert re.search(r'<img class="thumbnail" src="data:image/png;base64,\w+', card)
+        told = words(card.split("<details>")[0].partition(">")[2])
+        for part in verdict.parts:
+            assert " ".join([part.heading, *map(str, part.deciding)]) in told
+        assert (f"Surely holds: {verdict.where}." in told) == bool(verdict.where)
+        assert all(str(other) in told for other in verdict.others)
+        assert ("Why." in told) == bool(verdict.why)
+        assert (written[0].parent / "figures" / f"{verdict.claim}.png").is_file()
+
+
+def test_a_range_and_a_reason_are_told():
+    ratio = "gross_work_ratio"
+    table = world().with_columns(
+        pl.when(pl.col("load.fill") < 0.2).then(0.3).otherwise(pl.col(ratio)).alias(ratio),
+        pl.when((pl.col("drum.baffles.count") > 0) & (pl.col("load.fill") > 0.6))
+        .then(pl.col("drum_power") * 0.4)
+        .otherwise(pl.col("drum_power"))
+        .alias("drum_power"),
+    )
+    verdicts = {one.claim: one for one in paper.judge(table)}
+    assert verdicts["C6"].where.startswith("about 1 below 40 % fill, from 20 % fill on")
+    share = BAFFLED.baffles_share
+    assert f"Baffles take {100.0 * share:.1f} % of the drum’s area" in verdicts["C2"].why
+    assert f"{75.0 / (1.0 - share):.0f} % of what they leave free is full" in verdicts["C2"].why
+
+
+def test_evidence_is_counted_apart(data):
+    told = [replace(one, is_evidence=one.claim in EVIDENCE) for one in data.verdicts]
+    sentence = headline._counted(told)
+    assert "8 of them served as evidence for the shape of the lost baffle" in sentence
+    assert "and of the other 6 " in sentence
+    some = replace(data)
+    object.__setattr__(some, "verdicts", told)
+    html = page.render(some, Pictures())
+    assert html.count('class="evidence"') == len(EVIDENCE)
+    assert headline.EVIDENCE in words(html)
+    assert headline.EVIDENCE not in words(page.render(data, Pictures()))
+
+
+def test_softer_springs_are_shown_beside_stiff_ones(data):
+    soft = data.table.filter(pl.col("contact.bundle.friction") == 0.5).with_columns(
+        pl.col("contact.bundle.normal_stiffness") / 100.0, pl.col("drum_specific_power") * 0.97
+    )
+    more = soft.with_columns(pl.lit(80.0).alias("rotation.rpm"))
+    some = replace(data, table=pl.concat([data.table, soft, more]))
+    found = checks.softness(some)
+    assert {(one.drum, one.fill, one.factor) for one in found} == {
+        (drum, "25 %", 100.0) for drum in ("without baffles", "with baffles")
+    }
+    assert all(one.ratio.startswith("0.97") for one in found)
+    assert "Softer springs" in words(page.render(some, Pictures()))
+    assert checks.softness(data) == []
 
 
 def test_the_headline_is_what_the_table_says(data, text):
@@ -81,15 +144,15 @@ def test_sentences_without_their_cases_are_left_out(data):
 
 def test_figures_are_drawn_and_those_that_cannot_be_say_why(written, text):
     path, drawn = written
-    assert [one.figure.number for one in drawn] == list(FIGURES)
-    for one in drawn:
+    assert [one.figure.number for one in drawn.figures] == list(FIGURES)
+    for one in drawn.figures:
         files = {
             (path.parent / "figures" / f"{one.figure.number}{ending}").exists() for ending in (".png", ".svg")
         }
         assert files == {bool(one.address)}
         assert one.figure.title in text
-    missing = [one for one in drawn if one.reason]
-    assert [one.figure.number for one in missing] == ["F3"]
+    missing = [one for one in drawn.figures if one.reason]
+    assert [one.figure.number for one in missing] == ["F3", "states"]
     assert missing[0].reason in text
     assert "75 % fill with baffles" in missing[0].reason
 
@@ -149,7 +212,7 @@ def test_baffles_take_the_area_that_they_have_in_the_core():
         covered += abs(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1))) / 2.0
         angle = 2.0 * math.asin(0.03 / radius)
         covered += radius**2 * (angle - math.sin(angle)) / 2.0
-    assert page.baffles_share() == pytest.approx(covered / (math.pi * radius**2))
+    assert BAFFLED.baffles_share == pytest.approx(covered / (math.pi * radius**2))
 
 
 def test_balance_is_that_of_the_worst_run(data, text):
@@ -176,7 +239,7 @@ def test_drifting_runs_are_named(data):
     some = replace(data, table=drifting)
     runs = [run for run in checks.runs(some) if run.drifting]
     assert [run.reasons for run in runs] == ["power changes by +25%"]
-    told = words(page.render(some, []))
+    told = words(page.render(some, Pictures()))
     assert f"1 of {data.table.height} runs drift in their window" in told
     assert "power changes by +25%" in told
 
@@ -184,15 +247,15 @@ def test_drifting_runs_are_named(data):
 def test_failures_are_told_at_the_top_and_escaped(data):
     case = data.sweep.cases[0]
     failed = replace(data, failures=(Failure(case, "UnstableError", "overlap <b> of bundle 3 & more"),))
-    html = page.render(failed, [])
+    html = page.render(failed, Pictures())
     assert "overlap &lt;b&gt; of bundle 3 &amp; more" in html
     assert "1 case failed." in words(html)
-    assert "None." in words(page.render(data, []))
+    assert "None." in words(page.render(data, Pictures()))
 
 
 def test_nothing_finished_still_gives_a_report(data):
     nothing = replace(data, table=data.table.clear())
-    html = words(page.render(nothing, []))
+    html = words(page.render(nothing, Pictures()))
     assert "No run is finished." in html
     assert "14 claims undecided" in html
     assert "See it move" not in html
@@ -235,7 +298,7 @@ def opened(browser, written):
 def test_a_browser_shows_pictures_and_plays(opened):
     broken = "[...document.images].filter(image => !image.naturalWidth).length"
     assert opened.evaluate(broken) == 0
-    assert opened.evaluate("document.images.length") == len(FIGURES) - 1
+    assert opened.evaluate("document.images.length") == len(FIGURES) - 2 + len(paper.CLAIMS)
     players = opened.locator("drumrs-player")
     assert players.count() == 2
     # Style of the page must not reach into the player, nor be taken from it.

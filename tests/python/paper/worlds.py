@@ -4,6 +4,8 @@ from collections.abc import Callable
 
 import polars as pl
 
+from drumrs import baseline
+from drumrs.paper.drums import BAFFLED, BARE
 from drumrs.paper.scales import SCALES
 
 DEFAULT = SCALES["default"]
@@ -44,8 +46,9 @@ def measures(at: dict[str, float], baffles: bool) -> dict[str, float | None]:
         "drum_specific_power": specific,
         "dissipated_normal_specific_power": specific * n_over_t / (1.0 + n_over_t),
         "dissipated_sliding_specific_power": specific / (1.0 + n_over_t),
-        "dissipation_ratio": n_over_t if friction else None,
-        "work_ratio": 1.002 * n_over_t if friction else None,
+        "gross_work_ratio": n_over_t if friction else 400.0,
+        "dissipation_ratio": 0.98 * n_over_t if friction else None,
+        "work_ratio": 0.982 * n_over_t if friction else None,
         "specific_angular_momentum": (0.15 if circulates else 0.0) * (1.03 if baffles else 1.0),
         "along_the_rim": 0.7 if baffles else 0.1,
         "carried_round": ((0.6 if fill < 0.5 else 0.2) if baffles else 0.01) * (fill < 0.5)
@@ -73,6 +76,16 @@ def points() -> list[tuple[dict[str, float], bool]]:
     return list(unique.values())
 
 
+def _columns(baffles: bool) -> dict[str, object]:
+    """Return what a table says of the drum and of contacts, beside what is varied."""
+    config = (BAFFLED if baffles else BARE).config()
+    kept = config.drum.baffles
+    return {
+        **{f"drum.baffles.{key}": getattr(kept, key) for key in ("count", "shape", "height", "base", "tip")},
+        "contact.bundle.normal_stiffness": baseline().contact.bundle.normal_stiffness,
+    }
+
+
 def world(
     noise: float = 0.004,
     seeds: tuple[int, ...] = SEEDS,
@@ -88,7 +101,7 @@ def world(
                 "contact.bundle.friction": at["friction"],
                 "rotation.rpm": at["speed"],
                 "contact.bundle.restitution": at["restitution"],
-                "drum.baffles.count": 3 if baffles else 0,
+                **_columns(baffles),
                 "seed": seed,
                 "window_start": 20.0,
                 "window_end": 30.0,

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from drumrs.errors import ConfigError
 from drumrs.paper.baffle.evidence import Known, Observable
 from drumrs.paper.baffle.sentences import OBSERVABLES
-from drumrs.paper.baffle.shape import BASES, HEIGHTS, Shape
+from drumrs.paper.shape import BASES, HEIGHTS, Shape
 
 Array = NDArray[np.float64]
 

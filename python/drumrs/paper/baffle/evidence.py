@@ -11,6 +11,9 @@ Array = NDArray[np.float64]
 
 # D/d of the paper's Table 1.
 TABLE_1 = 20.0
+# Degrees of freedom of Student's distribution, in which residuals are likely: tolerances are guesses themselves, and a
+# sentence that no shape fits should not decide among shapes.
+_FREEDOM = 4.0
 
 
 class Observable(NamedTuple):
@@ -69,16 +72,16 @@ class Part:
         return (value - self.expected) / self.tolerance, error / self.tolerance
 
     def log_likelihood(self, known: Known, factor: float = 1.0) -> Array:
-        """Return the logarithm of the likelihood, with the tolerance times a factor."""
+        """Return the logarithm of the likelihood, 0 at best, with the tolerance times a factor."""
         from scipy import special
 
         residual, error = self.residual(known)
         scatter = np.sqrt(factor**2 + error**2)
         if self.at_least:
-            below: Array = special.log_ndtr(residual / scatter)
-            return below
-        gauss: Array = -0.5 * (residual / scatter) ** 2 - np.log(scatter / factor)
-        return gauss
+            met: Array = np.log(special.stdtr(_FREEDOM, residual / scatter))
+            return met
+        bell: Array = -0.5 * (_FREEDOM + 1.0) * np.log1p((residual / scatter) ** 2 / _FREEDOM)
+        return bell - np.log(scatter / factor)
 
 
 @dataclass(frozen=True)

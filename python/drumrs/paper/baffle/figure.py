@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from drumrs.figures import INK, drumrs_style, line_colors, new_figure
-from drumrs.paper.baffle.shape import BASES, HEIGHTS, MARKED, RADIUS, Shape
+from drumrs.paper.shape import BASES, HEIGHTS, MARKED, RADIUS, Shape
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -4,13 +4,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from drumrs.paper.baffle.design import Plan
 from drumrs.paper.baffle.emulator import Emulator
 from drumrs.paper.baffle.evidence import Known, Observable
-from drumrs.paper.baffle.posterior import Array, Correction, Posterior, foretell
-from drumrs.paper.baffle.shape import Shape
+from drumrs.paper.baffle.posterior import Array, Corrections, Posterior, foretell
+from drumrs.paper.shape import Shape
 from drumrs.sweep import Failure
 
 if TYPE_CHECKING:
@@ -31,8 +29,8 @@ class Inference:
         An emulator of every observable with softer springs.
     bare
         The bare drum at full stiffness.
-    correction
-        Full stiffness over softer springs.
+    corrections
+        What full stiffness changes about observables with softer springs.
     posteriors
         Posterior by factor of the tolerances.
     known
@@ -47,7 +45,7 @@ class Inference:
     table: "pl.DataFrame"
     emulators: Mapping[Observable, Emulator]
     bare: Known
-    correction: Correction
+    corrections: Corrections
     posteriors: Mapping[float, Posterior]
     known: Known
     confirmed: Mapping[Shape, Known]
@@ -68,11 +66,4 @@ class Inference:
 
     def foretold_at(self, shapes: Array) -> Known:
         """Return what the emulators foretell at full stiffness, for rows of height, base and tip [m]."""
-        return foretell(self.emulators, shapes, self.bare, self.correction)
-
-    def stiffness_difference(self, one: Observable) -> tuple[float, float]:
-        """Return full stiffness less softer springs, mean and scatter over the confirmed shapes."""
-        shapes = list(self.confirmed)
-        soft, _ = self.emulators[one].predict(np.array([shape.lengths for shape in shapes]))
-        stiff = np.array([self.confirmed[shape][one][0] for shape in shapes])
-        return float((stiff - soft).mean()), float((stiff - soft).std())
+        return foretell(self.emulators, shapes, self.bare, self.corrections)

@@ -18,14 +18,14 @@ from drumrs.paper.baffle.findings import Inference
 from drumrs.paper.baffle.observations import Key, known_by_shape, observe
 from drumrs.paper.baffle.posterior import (
     foretell,
-    measured_correction,
+    measured_corrections,
     posterior,
-    provisional_correction,
+    provisional_corrections,
     round_shapes,
     spread_over,
 )
 from drumrs.paper.baffle.sentences import log_likelihood
-from drumrs.paper.baffle.shape import TRIANGLE, Shape, shapes_in_region
+from drumrs.paper.shape import TRIANGLE, Shape, shapes_in_region
 from drumrs.progress import Task
 from drumrs.sweep import Failure, Sweep
 
@@ -88,7 +88,7 @@ def infer_baffle(
     emulators = emulate(_with_springs(first, plan.softer))
     candidates = round_shapes()
     guess = foretell(
-        emulators, _rows(candidates), bare, provisional_correction(_bare(first, plan.softer), bare)
+        emulators, _rows(candidates), bare, provisional_corrections(_bare(first, plan.softer), bare)
     )
     chosen = spread_over(candidates, log_likelihood(guess), plan.confirmed)
     chosen = list(dict.fromkeys([*chosen, TRIANGLE]))
@@ -110,13 +110,17 @@ def _conclude(plan: Plan, runner: "_Runner", bare: Known) -> Inference:
     if not both:
         raise ConfigError("plan", plan, "one that leaves shapes run at both stiffnesses")
     emulators = emulate(soft)
-    stacked = {
-        one: tuple(np.array([stiff[shape][one][k] for shape in both]) for k in (0, 1))
+    rows = _rows(both)
+    measured = {
+        one: (
+            np.array([stiff[shape][one][0] for shape in both]),
+            np.array([stiff[shape][one][1] for shape in both]),
+        )
         for one in stiff[both[0]]
     }
-    correction = measured_correction(foretell(emulators, _rows(both), {}, {}), stacked)  # type: ignore[arg-type]
+    corrections = measured_corrections(foretell(emulators, rows, {}, {}), measured)
     dense = shapes_in_region(_DENSE)
-    foretold = foretell(emulators, dense, bare, correction)
+    foretold = foretell(emulators, dense, bare, corrections)
     confirmed = {shape: {**soft[shape], **bare, **stiff[shape]} for shape in both}
     ranked = sorted(both, key=lambda shape: -float(log_likelihood(confirmed[shape])))
     return Inference(
@@ -124,7 +128,7 @@ def _conclude(plan: Plan, runner: "_Runner", bare: Known) -> Inference:
         runner.table(),
         emulators,
         bare,
-        correction,
+        corrections,
         {factor: posterior(dense, foretold, factor) for factor in FACTORS},
         foretold,
         {shape: confirmed[shape] for shape in ranked},

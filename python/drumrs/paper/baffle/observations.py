@@ -9,8 +9,8 @@ import numpy as np
 from drumrs.analysis import estimate
 from drumrs.paper.baffle.evidence import Known, Observable
 from drumrs.paper.baffle.sentences import ALONG, CARRIED, CIRCULATION, MIXED, POWER, RATIO
-from drumrs.paper.baffle.shape import Shape
 from drumrs.paper.measure import measure
+from drumrs.paper.shape import Shape
 from drumrs.sweep import Case, Sweep
 
 if TYPE_CHECKING:

@@ -9,20 +9,18 @@ import numpy as np
 
 from drumrs.files import write_whole
 from drumrs.pages import provenance
+from drumrs.paper.baffle.design import QUICK
 from drumrs.paper.baffle.evidence import Known, Observable, Part, Sentence
 from drumrs.paper.baffle.posterior import Array, Posterior, posterior, weigh
 from drumrs.paper.baffle.sentences import (
     ALONG,
-    CARRIED,
-    CIRCULATION,
-    MIXED,
     POWER,
     RATIO,
     SENTENCES,
     UNWEIGHTED,
     log_likelihood,
 )
-from drumrs.paper.baffle.shape import BASES, HEIGHTS, MARKED, ROOM, TRIANGLE, Shape, shares_of_drum
+from drumrs.paper.shape import BASES, HEIGHTS, MARKED, ROOM, TRIANGLE, Shape, shares_of_drum
 from drumrs.pictures import attempt
 
 if TYPE_CHECKING:
@@ -74,7 +72,7 @@ def _opening(inference: "Inference") -> Iterator[str]:
     yield ""
     yield (
         "The drawing of the paper's baffles is lost; what its text says of them is not. Written by `drumrs reproduce "
-        f"--baffle`. drumrs {provenance.versions()['drumrs']}."
+        f"--baffle{' --quick' if inference.plan == QUICK else ''}`. drumrs {provenance.versions()['drumrs']}."
     )
     yield ""
     yield (
@@ -285,15 +283,16 @@ def _method(inference: "Inference") -> Iterator[str]:
     yield ""
     yield (
         "**Emulator.** A Gaussian process for each observable with softer springs, whose noise is the error of each "
-        "run; its lengths are fitted. Power and N/T are multiplied by full stiffness over softer springs, as measured "
-        "at the confirmed shapes, fill by fill, the scatter between shapes being a further error. N/T is that of the "
-        "gross work."
+        "run; its lengths are fitted. What full stiffness changes is measured at the confirmed shapes, observable by "
+        "observable, and applied, the scatter between shapes being a further error. N/T is that of the gross work."
     )
     yield ""
     yield (
-        "**Likelihood.** A number that should equal a target: Gaussian, with tolerance, emulator and noise added in "
-        "squares. One that should be at least a limit: the probability that it is, with the same scatter. The worst "
-        "part of a sentence counts; sentences are independent."
+        "**Likelihood.** A number that should equal a target is likely as in Student's distribution with 4 degrees of "
+        "freedom, its width from tolerance, emulator and noise in squares: tolerances are guesses themselves, and a "
+        "sentence that no shape fits should not decide among shapes. One that should be at least a limit: the "
+        "probability that it is, by the same distribution. The worst part of a sentence counts; sentences are "
+        "independent."
     )
     yield ""
     if inference.failures:
@@ -329,22 +328,22 @@ def _checks(inference: "Inference") -> Iterator[str]:
     header = ["observable", "fill", "D/d", "difference over error", "scatter over shapes", "typical error"]
     yield from _table(header, rows)
     yield (
-        "**Softer springs.** Full stiffness over softer springs, and its error with the scatter between shapes, for "
-        "what is corrected; for shares and indices of motion, which are not, full stiffness less softer springs."
+        "**Softer springs.** What full stiffness changes, as mean over the confirmed shapes, and its error with the "
+        "scatter between shapes: a factor of powers, N/T and angular momentum; so much added to shares and "
+        "indices of motion."
     )
     yield ""
-    ratios = [
-        [one.quantity.replace("_", " "), f"{100.0 * one.fill:g} %", f"{factor:.3f} ± {error:.3f}"]
-        for one, (factor, error) in sorted(inference.correction.items())
+    changes = [
+        [
+            one.quantity.replace("_", " "),
+            f"{100.0 * one.fill:g} %",
+            f"× {change.value:.3f} ± {change.error:.3f}"
+            if change.in_proportion
+            else f"{change.value:+.3f} ± {change.error:.3f}",
+        ]
+        for one, change in sorted(inference.corrections.items())
     ]
-    yield from _table(["observable", "fill", "full over soft"], ratios)
-    differences = [
-        [one.quantity.replace("_", " "), f"{100.0 * one.fill:g} %", f"{mean:+.3f} ± {scatter:.3f}"]
-        for one in sorted(inference.emulators)
-        if one.quantity in {ALONG, CARRIED, MIXED, CIRCULATION}
-        for mean, scatter in [inference.stiffness_difference(one)]
-    ]
-    yield from _table(["observable", "fill", "full less soft, mean and scatter over shapes"], differences)
+    yield from _table(["observable", "fill", "full stiffness"], changes)
 
 
 def _table(header: list[str], rows: Iterable[list[str]]) -> Iterator[str]:

@@ -2,25 +2,51 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from drumrs.paper.baffle.emulator import Emulator
 from drumrs.paper.baffle.evidence import Known, Observable, Sentence
-from drumrs.paper.baffle.sentences import POWER, RATIO, log_likelihood
-from drumrs.paper.baffle.shape import BASES, HEIGHTS, ROOM, Shape, shares_of_drum
+from drumrs.paper.baffle.sentences import CIRCULATION, POWER, RATIO, log_likelihood
+from drumrs.paper.shape import BASES, HEIGHTS, ROOM, Shape, shares_of_drum
 
 Array = NDArray[np.float64]
-Correction = Mapping[Observable, tuple[float, float]]
-"""Full stiffness over softer springs, and its error, for the observables that depend on it."""
-
-# What depends on stiffness enough to be corrected.
-_CORRECTED = (POWER, RATIO)
-# How much that may differ between the bare drum and one with baffles, as long as only the bare one is known.
+# What softer springs change in proportion; shares and indices of motion they change by so much.
+_IN_PROPORTION = (POWER, RATIO, CIRCULATION)
+# How much of that may differ between the bare drum and one with baffles, as long as only the bare one is known.
 _UNKNOWN_SPREAD = 0.05
 # Shapes that are worth a run at full stiffness, so many m apart in height, base and tip.
 _GRID = 0.005
+
+
+class Correction(NamedTuple):
+    """What full stiffness changes about an observable with softer springs.
+
+    Attributes
+    ----------
+    value
+        A factor where `in_proportion`, else what is added.
+    error
+        Its standard error, the scatter between shapes included.
+    in_proportion
+        Which of the two it is.
+    """
+
+    value: float
+    error: float
+    in_proportion: bool
+
+    def apply(self, mean: Array, error: Array) -> tuple[Array, Array]:
+        """Return mean and standard error at full stiffness."""
+        if self.in_proportion:
+            return self.value * mean, np.hypot(self.value * error, self.error * mean)
+        return mean + self.value, np.hypot(error, self.error)
+
+
+Corrections = Mapping[Observable, Correction]
+NONE = Correction(1.0, 0.0, in_proportion=True)
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,7 +116,7 @@ def weigh(shapes: Array, logarithms: Array) -> Posterior:
 
 
 def foretell(
-    emulators: Mapping[Observable, Emulator], shapes: Array, bare: Known, correction: Correction
+    emulators: Mapping[Observable, Emulator], shapes: Array, bare: Known, corrections: Corrections
 ) -> Known:
     """Return means and errors of all observables at full stiffness, those of the bare drum included.
 
@@ -102,31 +128,27 @@ def foretell(
         Rows of height, base and tip [m].
     bare
         What is known of the bare drum at full stiffness.
-    correction
-        Full stiffness over softer springs.
+    corrections
+        What full stiffness changes.
     """
     found = dict(bare)
     for one, emulator in emulators.items():
-        mean, error = emulator.predict(shapes)
-        factor, spread = correction.get(one, (1.0, 0.0))
-        found[one] = (factor * mean, np.hypot(factor * error, spread * mean))
+        found[one] = corrections.get(one, NONE).apply(*emulator.predict(shapes))
     return found
 
 
-def provisional_correction(soft: Known, stiff: Known) -> dict[Observable, tuple[float, float]]:
-    """Return full stiffness over softer springs as the bare drum has it, with what baffles may change about it."""
-    return {
-        one._replace(baffles=True): (
-            float(stiff[one][0] / soft[one][0]),
-            float(np.hypot(_relative(soft[one], stiff[one]), _UNKNOWN_SPREAD)),
-        )
-        for one in stiff
-        if one.quantity in _CORRECTED and one in soft
-    }
+def provisional_corrections(soft: Known, stiff: Known) -> dict[Observable, Correction]:
+    """Return corrections as the bare drum has them, with what baffles may change about them."""
+    before, after = (
+        {one: (np.atleast_1d(known[one][0]), np.atleast_1d(known[one][1])) for one in stiff}
+        for known in (soft, stiff)
+    )
+    bare = measured_corrections(before, after)
+    return {one._replace(baffles=True): correction for one, correction in bare.items()}
 
 
-def measured_correction(soft: Known, stiff: Known) -> dict[Observable, tuple[float, float]]:
-    """Return full stiffness over softer springs as mean over shapes, observable by observable.
+def measured_corrections(soft: Known, stiff: Known) -> dict[Observable, Correction]:
+    """Return corrections as means over shapes, observable by observable.
 
     Parameters
     ----------
@@ -136,25 +158,23 @@ def measured_correction(soft: Known, stiff: Known) -> dict[Observable, tuple[flo
     Returns
     -------
     dict
-        Mean ratio and its error: that of the mean, and the scatter between shapes beyond what noise explains.
+        The error is that of the mean with the scatter between shapes beyond what noise explains, which a single shape
+        cannot tell: it is then 5 %.
     """
     found = {}
-    for one in stiff:
-        if one.quantity in _CORRECTED and one in soft:
-            ratios = stiff[one][0] / soft[one][0]
-            noise = ratios * _relative(soft[one], stiff[one])
-            mean, scatter = float(ratios.mean()), float(ratios.var(ddof=1)) if len(ratios) > 1 else np.inf
-            beyond = (
-                max(0.0, scatter - float(np.mean(noise**2))) if np.isfinite(scatter) else _UNKNOWN_SPREAD**2
-            )
-            error = float(np.sqrt(beyond + np.mean(noise**2) / len(ratios)))
-            found[one] = (mean, error)
+    for one in stiff.keys() & soft.keys():
+        (before, before_error), (after, after_error) = soft[one], stiff[one]
+        in_proportion = one.quantity in _IN_PROPORTION
+        if in_proportion:
+            changes = after / before
+            noise = changes * np.hypot(before_error / before, after_error / after)
+        else:
+            changes, noise = after - before, np.hypot(before_error, after_error)
+        explained = float(np.mean(noise**2))
+        beyond = max(0.0, float(changes.var(ddof=1)) - explained) if len(changes) > 1 else _UNKNOWN_SPREAD**2
+        error = float(np.sqrt(beyond + explained / len(changes)))
+        found[one] = Correction(float(changes.mean()), error, in_proportion)
     return found
-
-
-def _relative(first: tuple[Array, Array], second: tuple[Array, Array]) -> Array:
-    error: Array = np.hypot(first[1] / first[0], second[1] / second[0])
-    return error
 
 
 def round_shapes() -> list[Shape]:

@@ -1,12 +1,12 @@
 """Claims about how the load moves, and the conditions of each."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from functools import partial
 
-from drumrs.analysis import Estimate, Interval
-from drumrs.paper.cases import BASELINE_FILL, THIRDS, percent
+from drumrs.analysis import Interval
+from drumrs.paper.cases import BASELINE_FILL, THIRDS
+from drumrs.paper.claims import why
 from drumrs.paper.claims.criteria import (
-    ABOUT,
     ABRUPT,
     ANSWERS,
     CENTRIFUGING,
@@ -18,32 +18,48 @@ from drumrs.paper.claims.criteria import (
     ZERO,
     Claim,
     Condition,
+    all_of,
+    at_fills,
+    band,
     claimed,
-    each_within,
     within,
 )
-from drumrs.paper.claims.power import POWER, over
+from drumrs.paper.claims.power import POWER, over, similar_above_half
 from drumrs.paper.claims.ratio import CIRCULATION
-from drumrs.paper.curves import Results
-from drumrs.paper.verdict import FAILS, HOLDS, UNDECIDED, Finding, MissingError, Number
+from drumrs.paper.curves import Curve, Results
+from drumrs.paper.verdict import FAILS, HOLDS, UNDECIDED, Band, Finding, Number
 
-_HALF = 0.5
 _FULL = 0.75
 
+Parts = Iterator[tuple[str, Condition]]
 
-def rocks_then_circulates(results: Results) -> Iterator[Condition]:
-    """Judge C9 at each fill of F9: at the smallest friction, and by the load's angular momentum over friction."""
+
+def rocks_then_circulates(results: Results) -> Parts:
+    """Judge C9 at each fill of F9: at the smallest friction, and by the load's angular momentum over friction.
+
+    Powers, not their ratio, and those dissipated: "relative bundle movement results in both normal and tangential power
+    dissipation", says the text of what is missing at small friction.
+    """
+    kinds = {
+        "normal power zero": ("normal", (-ZERO, ZERO)),
+        "tangential power small": ("sliding", (ZERO, SMALL)),
+    }
+    for name, (kind, limits) in kinds.items():
+        yield name, partial(_at_small_friction, results, kind, limits)
+    yield (
+        "circulation sets in abruptly",
+        lambda: at_fills([(fill, _sets_in(results, fill)) for fill in THIRDS]),
+    )
+
+
+def _at_small_friction(results: Results, kind: str, limits: tuple[float, float]) -> Finding:
+    found = []
     for fill in THIRDS:
-        yield partial(_at_small_friction, results, fill, "normal", (-ZERO, ZERO))
-        yield partial(_at_small_friction, results, fill, "sliding", (ZERO, SMALL))
-        yield partial(_sets_in, results, fill)
-
-
-def _at_small_friction(results: Results, fill: float, kind: str, limits: tuple[float, float]) -> Finding:
-    curve = results.curve("friction", f"dissipated_{kind}_specific_power", fill=fill)
-    least = curve.above(0.0).between(high=SMALL_FRICTION).points[0]
-    name = f"{kind.capitalize()} over usual power at μ = {least.x:g}, {curve.label}"
-    return within(name, over(least.estimate, results.usual(POWER, fill)), *limits)
+        curve = results.curve("friction", f"dissipated_{kind}_specific_power", fill=fill)
+        least = curve.above(0.0).between(high=SMALL_FRICTION).points[0]
+        name = f"{kind.capitalize()} over usual power at μ = {least.x:g}, {curve.label}"
+        found.append((fill, within(name, over(least.estimate, results.usual(POWER, fill)), *limits)))
+    return at_fills(found)
 
 
 def _sets_in(results: Results, fill: float) -> Finding:
@@ -57,13 +73,22 @@ def _sets_in(results: Results, fill: float) -> Finding:
     begins, ends = (_passes(shares, level) for level in (STILL, CIRCULATING))
     name = f"Onset of circulation, {curve.label}, width in μ"
     if begins is None or ends is None:
-        raise MissingError(f"frictions at which the load surely rests and surely circulates, {curve.label}")
+        told = f"Cases are missing: frictions at which the load surely rests and surely circulates, {curve.label}."
+        return Finding(UNDECIDED, told)
     least, most = max(0.0, ends[0] - begins[1]), ends[1] - begins[0]
     limit = ABRUPT + 1e-9
     outcome = HOLDS if most <= limit else FAILS if least > limit else UNDECIDED
     told = f"{name}: between {least:.3g} and {most:.3g} ({claimed(high=ABRUPT)}: {ANSWERS[outcome]})."
     numbers = (Number(f"{name}, at least", least, 0.0), Number(f"{name}, at most", most, 0.0))
-    return Finding(outcome, told, numbers)
+    passed = Band(
+        curve.axis,
+        curve.column,
+        curve.label,
+        (begins[0], ends[1]),
+        (STILL * usual,) * 2,
+        (CIRCULATING * usual,) * 2,
+    )
+    return Finding(outcome, told, numbers, bands=(passed,), strays=outcome == FAILS)
 
 
 def _passes(shares: Sequence[tuple[float, Interval]], level: float) -> tuple[float, float] | None:
@@ -73,60 +98,55 @@ def _passes(shares: Sequence[tuple[float, Interval]], level: float) -> tuple[flo
     return (max(below), min(over)) if over else None
 
 
-def baffles_carry_the_load_round(results: Results) -> Iterator[Condition]:
+def baffles_carry_the_load_round(results: Results) -> Parts:
     """Judge C11: carried "for most of the rotation cycle", the paper says, is a share of the time.
 
     What centrifuges goes with the drum over the top; what mixes less, neighbors part less.
     """
-    riding, carried = (
-        results.curve("fill", column, baffles=True) for column in ("along_the_rim", "carried_round")
+    riding, carried, mixed = (
+        results.curve("fill", column, drum=results.baffled)
+        for column in ("along_the_rim", "carried_round", "mixed_in_a_turn")
     )
-    mixed, bare = (results.curve("fill", "mixed_in_a_turn", baffles=baffles) for baffles in (True, False))
-    along, over_the_top = (
-        "Share of the time along the rim",
-        "Share of the load carried over the top in a turn",
-    )
-    yield lambda: within(along, riding.at(BASELINE_FILL), low=CENTRIFUGING)
-    yield lambda: within(over_the_top, carried.at(BASELINE_FILL), low=CENTRIFUGING)
+    bare = results.curve("fill", "mixed_in_a_turn")
     parted = "Mixing in a turn, with less without baffles"
-    yield lambda: within(parted, mixed.at(BASELINE_FILL) - bare.at(BASELINE_FILL), high=0.0)
+    yield "carried along the rim", partial(_most, riding, "Share of the time along the rim")
+    yield "carried over the top", partial(_most, carried, "Share of the load carried over the top in a turn")
+    yield (
+        "mixes less",
+        lambda: within(parted, mixed.at(BASELINE_FILL) - bare.at(BASELINE_FILL), high=0.0),
+    )
 
 
-def rigid_below_the_surface(results: Results) -> Iterator[Condition]:
+def _most(curve: Curve, name: str) -> Finding:
+    here = band(curve.between(BASELINE_FILL, BASELINE_FILL), CENTRIFUGING, 1.0)
+    return all_of([within(name, curve.at(BASELINE_FILL), low=CENTRIFUGING)], bands=(here,))
+
+
+def rigid_below_the_surface(results: Results) -> Parts:
     """Judge C12 by speeds relative to the turning drum, deep and at the surface."""
     deep, surface = (results.curve("fill", f"{depth}_speed") for depth in ("deep", "surface"))
-    name = "Speed relative to the drum, deep, over the rim's"
-    yield lambda: within(name, deep.at(_FULL), 0.0, LITTLE_MOTION)
-    yield lambda: within(
-        "The same at the surface over that deep", surface.at(_FULL) / deep.at(_FULL), low=2.0
-    )
+
+    def still() -> Finding:
+        found = within("Speed relative to the drum, deep, over the rim's", deep.at(_FULL), 0.0, LITTLE_MOTION)
+        return all_of([found], bands=(band(deep.between(_FULL, _FULL), 0.0, LITTLE_MOTION),))
+
+    ratio = "Speed relative to the drum at the surface over that deep"
+    yield "slow below the surface", still
+    yield "faster at the surface", lambda: within(ratio, surface.at(_FULL) / deep.at(_FULL), low=2.0)
 
 
-def baffles_matter_little_above_half(results: Results) -> Iterator[Condition]:
-    """Judge C13: "power" as such; "kinematics" by angular momentum, what passes over the top, and mixing."""
+def baffles_matter_little_above_half(results: Results) -> Parts:
+    """Judge C13: "power" as such; "kinematics" by angular momentum, what passes over the top, and mixing.
+
+    The last two are shares, and read on their own scale, from 0 to 1.
+    """
     for column, name in (("drum_power", "Power"), (CIRCULATION, "Angular momentum")):
-        ratios = partial(_above_half, results, column, Estimate.__truediv__)
-        title = f"{name} with over without baffles"
-        yield partial(_each, title, ratios, (1.0 - ABOUT, 1.0 + ABOUT))
+        yield name.lower(), partial(similar_above_half, results, column, name)
     for column, name in (
         ("carried_round", "Share carried over the top"),
         ("mixed_in_a_turn", "Mixing in a turn"),
     ):
-        differences = partial(_above_half, results, column, Estimate.__sub__)
-        yield partial(_each, f"{name}, with less without baffles", differences, (-ABOUT, ABOUT))
-
-
-_Compared = list[tuple[str, Estimate]]
-
-
-def _each(name: str, points: Callable[[], _Compared], limits: tuple[float, float]) -> Finding:
-    return each_within(name, points(), *limits)
-
-
-def _above_half(results: Results, column: str, f: Callable[[Estimate, Estimate], Estimate]) -> _Compared:
-    """Return what a function makes of both drums, at the fills above 50 % that both have."""
-    with_baffles, bare = (results.curve("fill", column, baffles=baffles) for baffles in (True, False))
-    return [(percent(x), one) for x, one in with_baffles.against(bare, f) if x > _HALF]
+        yield name.lower(), partial(similar_above_half, results, column, name, 1.0)
 
 
 CLAIMS = (
@@ -138,7 +158,9 @@ CLAIMS = (
         "tangential power from 1 to 25 % of the usual (μ = 0.5); from a tenth to half of the usual angular momentum "
         "it takes at most 0.1 in μ, as far as the frictions that were run tell.",
         "F9",
+        ("friction", CIRCULATION),
         rocks_then_circulates,
+        why.sliding_is_compared_with_little,
     ),
     Claim(
         "C11",
@@ -147,6 +169,7 @@ CLAIMS = (
         "With baffles bundles ride along the rim for more than half of the time, and more than half of the load is "
         "carried over the top in a turn; in a turn neighbors part less than without baffles.",
         "F3",
+        ("fill", "carried_round"),
         baffles_carry_the_load_round,
     ),
     Claim(
@@ -155,14 +178,17 @@ CLAIMS = (
         "Relative to the turning drum, bundles more than three diameters below the free surface are slower "
         "than a tenth of the rim, and those at the surface more than twice as fast as they.",
         "F2",
+        ("fill", "deep_speed"),
         rigid_below_the_surface,
     ),
     Claim(
         "C13",
         "Baffles have only a minor effect on power and kinematics above 50 % fill.",
-        "At each fill above 50 %, power and angular momentum with over without baffles are 1 within 10 %, "
-        "and the share carried over the top and the mixing in a turn differ by less than 0.1.",
+        "At each fill above 50 %, power and angular momentum of both drums differ by at most a tenth of the greatest "
+        "value shown, the share carried over the top and the mixing in a turn by at most 0.1.",
         "F4",
+        ("fill", "drum_power"),
         baffles_matter_little_above_half,
+        why.baffles_fill_the_drum,
     ),
 )

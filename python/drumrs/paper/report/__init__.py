@@ -5,6 +5,6 @@
 """
 
 from drumrs.paper.report.page import write
-from drumrs.paper.report.pictures import Picture
+from drumrs.paper.report.pictures import Picture, Pictures
 
-__all__ = ["Picture", "write"]
+__all__ = ["Picture", "Pictures", "write"]

@@ -4,8 +4,10 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from drumrs.analysis.drift import FALSE_ALARMS
+from drumrs.paper.cases import BASELINE_FILL, SIZE_FILL, percent
+from drumrs.paper.curves import AXES, RATIOS
 from drumrs.paper.data import StudyData
-from drumrs.paper.verdict import Number
+from drumrs.paper.verdict import MissingError, Number
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -28,7 +30,7 @@ class Run:
     power
         Specific power [W/kg] with its standard error.
     ratio
-        N/T by dissipation.
+        N/T by gross work.
     residual
         What the ledger fails to account for, relative.
     disagreement
@@ -62,7 +64,7 @@ def _run(row: "Mapping[str, Any]", config: "Config") -> Run:
         name=row["case"][:_CASE_DIGITS],
         parameters=_parameters(config),
         power=_value(row["drum_specific_power"], row["drum_specific_power_error"]),
-        ratio=_value(row["dissipation_ratio"], row["dissipation_ratio_error"]),
+        ratio=_value(row[RATIOS[0]], row[f"{RATIOS[0]}_error"]),
         residual=abs(float(row["energy_residual"])),
         disagreement=abs(float(row["power_disagreement"])),
         drifting=bool(row["drifting"]),
@@ -103,3 +105,41 @@ def _reasons(row: "Mapping[str, Any]") -> str:
         if row.get(name) is not None and row[f"{name}_significance"] < FALSE_ALARMS
     ]
     return ", ".join(told) if row["drifting"] else ""
+
+
+@dataclass(frozen=True)
+class Softness:
+    """Specific power with softer springs over that with Table 1's, at a fill in a drum.
+
+    Attributes
+    ----------
+    drum
+        Its name.
+    fill
+        The fill, in words.
+    factor
+        By how much springs are softer.
+    ratio
+        The ratio of the two, with half its 95 % interval.
+    """
+
+    drum: str
+    fill: str
+    factor: float
+    ratio: str
+
+
+def softness(data: StudyData) -> list[Softness]:
+    """Return what softer springs change wherever a point was run with both, sizes and drums apart."""
+    found = []
+    for drum in data.results.drums:
+        stiff = data.results.curve("fill", "drum_specific_power", drum=drum)
+        for axis, fill in (("size", SIZE_FILL), ("speed", BASELINE_FILL)):
+            soft = data.results.curve(axis, "drum_specific_power", drum=drum)
+            try:
+                ratio = soft.at(AXES[axis][1]) / stiff.at(fill)
+            except MissingError:
+                continue
+            if soft.softer > stiff.softer:
+                found.append(Softness(drum.name, percent(fill), soft.softer, Number.of("", ratio).text))
+    return found

@@ -1,10 +1,8 @@
 """The report's page: a study in, one HTML file out that needs nothing else."""
 
-import math
 import re
 from functools import cache
 from pathlib import Path
-from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
 from drumrs.config import baseline
@@ -12,9 +10,10 @@ from drumrs.files import write_whole
 from drumrs.pages import environment, provenance, style, text_of
 from drumrs.paper.cases import THIRDS
 from drumrs.paper.data import StudyData
+from drumrs.paper.drums import BAFFLED, baffles_are_inferred
 from drumrs.paper.figures import FIGURES
 from drumrs.paper.report import checks, facts, headline, pictures, table1
-from drumrs.paper.verdict import FAILS, HOLDS, UNDECIDED
+from drumrs.paper.verdict import FAILS, HOLDS, IN_PART, UNDECIDED
 from drumrs.registry import quantity
 from drumrs.viewer import script
 
@@ -23,7 +22,7 @@ if TYPE_CHECKING:
 
 _TITLE = "Loads tumbling in a rotating drum"
 # Classes of the style sheet.
-_OUTCOMES = {HOLDS: "holds", FAILS: "fails", UNDECIDED: "undecided"}
+_CLASSES = {HOLDS: "holds", IN_PART: "partly", FAILS: "fails", UNDECIDED: "undecided"}
 _CONTENTS = {
     "in-short": "In short",
     "claims": "The paper’s claims",
@@ -36,7 +35,7 @@ _CONTENTS = {
 _NAMES = {"speed": "Speed", "restitution": "Restitution", "drift": "Drift"}
 
 
-def write(data: StudyData, path: str | Path, figures_folder: str | Path) -> list[pictures.Picture]:
+def write(data: StudyData, path: str | Path, figures_folder: str | Path) -> pictures.Pictures:
     """Draw the figures, and write the report as one HTML file.
 
     Parameters
@@ -50,8 +49,8 @@ def write(data: StudyData, path: str | Path, figures_folder: str | Path) -> list
 
     Returns
     -------
-    list of Picture
-        The figures, with what some of them lack.
+    Pictures
+        The figures, with what some of them lack, and the pictures of claims.
 
     Raises
     ------
@@ -63,7 +62,7 @@ def write(data: StudyData, path: str | Path, figures_folder: str | Path) -> list
     return drawn
 
 
-def render(data: StudyData, drawn: list[pictures.Picture]) -> str:
+def render(data: StudyData, drawn: pictures.Pictures) -> str:
     """Return the report's page."""
     shown = [
         player.element(start=player.window[0] if player.window else None) for player in pictures.players(data)
@@ -74,9 +73,10 @@ def render(data: StudyData, drawn: list[pictures.Picture]) -> str:
         quantity=quantity,
         style=style(),
         contents=contents,
-        outcomes=_OUTCOMES,
-        pictures=drawn,
-        drawn={one.figure.number for one in drawn if one.address},
+        outcomes=_CLASSES,
+        pictures=drawn.figures,
+        thumbnails=drawn.thumbnails,
+        drawn={one.figure.number for one in drawn.figures if one.address},
         names={number: _NAMES.get(number, f"Figure {number[1:]}") for number in FIGURES},
         players=shown,
         player_script=script() if shown else "",
@@ -94,9 +94,13 @@ def _study(data: StudyData) -> dict[str, Any]:
         "table_height": data.table.height,
         "duration": configs[0].run.duration,
         "window": configs[0].run.averaging_window,
-        "seeds": len({config.run.seed for config in configs}),
+        "seeds": headline.seeds(data),
+        "half_full": headline.half_full(data),
         "verdicts": data.verdicts,
-        "counts": headline.count_of_verdicts(data),
+        "counts": headline.count_of_verdicts(data.verdicts),
+        "takeaway": headline.takeaway(data),
+        "how_judged": headline.HOW_JUDGED,
+        "evidence": headline.EVIDENCE if any(one.is_evidence for one in data.verdicts) else "",
         "sentences": headline.sentences(data),
         "headline": headline.table(data),
         "fills": THIRDS,
@@ -106,7 +110,7 @@ def _study(data: StudyData) -> dict[str, Any]:
 
 def _model() -> dict[str, Any]:
     config = baseline()
-    baffles = config.drum.baffles
+    baffles = BAFFLED.config().drum.baffles
     return {
         "table1": table1.rows(),
         "contacts": table1.contacts(config),
@@ -117,20 +121,10 @@ def _model() -> dict[str, Any]:
         "restitution": config.contact.bundle.restitution,
         "step": config.run.time_step,
         "diameter": config.load.diameter,
-        "baffle": SimpleNamespace(
-            shape=baffles.shape, base=baffles.base, height=baffles.height, share=baffles_share()
-        ),
+        "baffle": baffles,
+        "baffles_share": BAFFLED.baffles_share,
+        "baffles_are_inferred": baffles_are_inferred(),
     }
-
-
-def baffles_share(count: int = 3) -> float:
-    """Return the part of the drum's area that triangular baffles take, with what lies between base and rim."""
-    drum = baseline().drum
-    radius, half = drum.diameter / 2.0, drum.baffles.base / 2.0
-    foot = math.sqrt(radius**2 - half**2)
-    segment = radius**2 * math.asin(half / radius) - half * foot
-    triangle = half * (foot - (radius - drum.baffles.height))
-    return count * (segment + triangle) / (math.pi * radius**2)
 
 
 def _checks(data: StudyData) -> dict[str, Any]:
@@ -141,6 +135,7 @@ def _checks(data: StudyData) -> dict[str, Any]:
         "drifting": [run for run in listed if run.drifting],
         "worst_residual": max(listed, key=lambda run: run.residual, default=None),
         "worst_disagreement": max(listed, key=lambda run: run.disagreement, default=None),
+        "softness": checks.softness(data),
         "tiny": lambda value: table1.scientific(value) if value else "0",
     }
 

@@ -1,12 +1,13 @@
 """The study's figures, kept as PNG and SVG, in the page as whichever is smaller; and players of two runs."""
 
 import base64
-from collections.abc import Iterable
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from drumrs.paper.cases import BASELINE_FILL
 from drumrs.paper.data import StudyData
+from drumrs.paper.drums import BAFFLED, BARE
 from drumrs.paper.figures import FIGURES, PaperFigure
 from drumrs.paper.verdict import MissingError
 from drumrs.pictures import attempt
@@ -34,8 +35,16 @@ class Picture:
     reason: str = ""
 
 
-def draw(data: StudyData, folder: Path) -> list[Picture]:
-    """Draw every figure of the study into a folder, as PNG and SVG.
+@dataclass(frozen=True)
+class Pictures:
+    """The pictures of a study: its figures, and one of each claim as an address, by the claim's number."""
+
+    figures: tuple[Picture, ...] = ()
+    thumbnails: Mapping[str, str] = field(default_factory=dict)
+
+
+def draw(data: StudyData, folder: Path) -> Pictures:
+    """Draw every figure of the study into a folder, as PNG and SVG, and the curves of every claim.
 
     Raises
     ------
@@ -43,7 +52,9 @@ def draw(data: StudyData, folder: Path) -> list[Picture]:
         Where the folder cannot be written.
     """
     folder.mkdir(parents=True, exist_ok=True)
-    return [_draw(figure, data, folder) for figure in FIGURES.values()]
+    return Pictures(
+        tuple(_draw(figure, data, folder) for figure in FIGURES.values()), dict(_thumbnails(data, folder))
+    )
 
 
 def _draw(figure: PaperFigure, data: StudyData, folder: Path) -> Picture:
@@ -61,6 +72,20 @@ def _draw(figure: PaperFigure, data: StudyData, folder: Path) -> Picture:
     return Picture(figure, reason=f"{made.failure}.")
 
 
+def _thumbnails(data: StudyData, folder: Path) -> Iterator[tuple[str, str]]:
+    for verdict in data.verdicts:
+        path = folder / f"{verdict.claim}.png"
+        with attempt(f"the picture of claim {verdict.claim}"):
+            from drumrs import figures
+            from drumrs.paper.thumbnails import thumbnail
+
+            try:
+                figures.write(thumbnail(verdict, data.results), path)
+            except MissingError:
+                continue
+            yield verdict.claim, embedded([path])
+
+
 def embedded(paths: Iterable[Path]) -> str:
     """Return the smallest of some picture files as an address that holds the picture itself."""
     smallest = min(paths, key=lambda path: path.stat().st_size)
@@ -71,9 +96,9 @@ def embedded(paths: Iterable[Path]) -> str:
 def players(data: StudyData) -> list[Player]:
     """Return a player of the first seed without and one with baffles at 25 % fill, as far as they are finished."""
     found = []
-    for baffles in (False, True):
+    for drum in (BARE, BAFFLED):
         try:
-            case = data.cases(BASELINE_FILL, baffles=baffles)[0]
+            case = data.cases(BASELINE_FILL, drum)[0]
         except MissingError:
             continue
         config = case.config

@@ -38,7 +38,7 @@ class Shape:
 
     Examples
     --------
-    >>> from drumrs.paper.baffle import Shape
+    >>> from drumrs.paper.shape import Shape
     >>> paddle = Shape(0.035, 0.08, 0.05)
     >>> str(paddle), round(paddle.share_of_drum, 3)
     ('3.5 / 8 / 5 cm', 0.037)
@@ -95,7 +95,7 @@ def shapes_in_region(count: int, seed: int = 1) -> Array:
 
     Examples
     --------
-    >>> from drumrs.paper.baffle.shape import ROOM, shapes_in_region, shares_of_drum
+    >>> from drumrs.paper.shape import ROOM, shapes_in_region, shares_of_drum
     >>> shapes = shapes_in_region(100)
     >>> shapes.shape, bool((shares_of_drum(shapes) <= ROOM).all())
     ((100, 3), True)
