@@ -50,7 +50,7 @@ def main(cases: int) -> None:
     sys.stdout.write(f"{outcome.finished} of {cases} cases in {took:.0f} s\n")
     # Until then the allocator settles.
     settled = next(memory for done, memory in held if done >= 2 * cases // 5)
-    if outcome.finished != cases or held[-1][1] > settled + 20.0:
+    if outcome.finished != cases or held[-1][1] > settled + 10.0:
         sys.exit(f"memory grew from {settled:.1f} to {held[-1][1]:.1f} MB")
 
 
