@@ -51,10 +51,8 @@ def reproduce(
 
     if quick and full:
         raise ConfigError("--quick", problem="and --full are both given, but only one of them may be")
-    if baffle and (quick or full or retry):
-        raise ConfigError(
-            "--baffle", problem="is given with --quick, --full or --retry, but has one scale of its own"
-        )
+    if baffle and (full or retry):
+        raise ConfigError("--baffle", problem="is given with --full or --retry, which it does not have")
     check_folder(out)
     if baffle:
         return _infer_baffle(out, jobs, quick=quick)

@@ -35,7 +35,7 @@ class Plan:
     seeds
         Seeds at full stiffness.
     bare_seeds
-        Seeds of the bare drum, at either stiffness.
+        Seeds of the bare drum.
     duration
         Simulated time of every run [s].
     window
@@ -68,11 +68,8 @@ class Plan:
         return self._cases(shapes, 1.0, self.seeds)
 
     def bare(self) -> "dict[Point, Config]":
-        """Return the cases of the bare drum, with softer springs and at full stiffness."""
-        return {
-            **self._cases([None], self.softer, self.bare_seeds),
-            **self._cases([None], 1.0, self.bare_seeds),
-        }
+        """Return the cases of the bare drum, at full stiffness."""
+        return self._cases([None], 1.0, self.bare_seeds)
 
     @property
     def cost(self) -> int:

@@ -50,8 +50,8 @@ class Emulator:
         The Gaussian process, fitted to values of mean 0 and scatter 1.
     center, scale
         Mean and scatter of the values.
-    widening
-        Factor of the stated errors: the root mean square of `strays`, where that is above 1.
+    calibration
+        Factor of the stated errors: the root mean square of `strays`.
     strays
         Each value less what the others foretell, over the error of that difference: the check by leave-one-out.
     """
@@ -59,7 +59,7 @@ class Emulator:
     process: Any
     center: float
     scale: float
-    widening: float
+    calibration: float
     strays: Array
 
     @classmethod
@@ -89,7 +89,7 @@ class Emulator:
             process.fit(_scaled(np.array([shape.lengths for shape in shapes])), (means - center) / scale)
         inverse = np.linalg.inv(process.L_ @ process.L_.T)
         strays = inverse @ process.y_train_ / np.sqrt(np.diag(inverse))
-        return cls(process, center, scale, max(1.0, float(np.sqrt(np.mean(strays**2)))), strays)
+        return cls(process, center, scale, float(np.sqrt(np.mean(strays**2))), strays)
 
     @property
     def typical_error(self) -> float:
@@ -99,7 +99,7 @@ class Emulator:
     def predict(self, shapes: Array) -> tuple[Array, Array]:
         """Return mean and standard error at rows of height, base and tip [m]."""
         mean, error = self.process.predict(_scaled(shapes), return_std=True)
-        return self.center + self.scale * mean, self.widening * self.scale * error
+        return self.center + self.scale * mean, self.calibration * self.scale * error
 
 
 def _scaled(shapes: Array) -> Array:

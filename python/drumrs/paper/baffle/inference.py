@@ -84,14 +84,12 @@ def infer_baffle(
     scan = plan.scan()
     runner.run({**plan.bare(), **plan.soft(scan)})
     first = runner.known()
-    bare = _bare(first, 1.0)
+    bare = first[None, 1.0]
     emulators = emulate(_with_springs(first, plan.softer))
     candidates = round_shapes()
-    guess = foretell(
-        emulators, _rows(candidates), bare, provisional_corrections(_bare(first, plan.softer), bare)
-    )
+    guess = foretell(emulators, _rows(candidates), bare, provisional_corrections())
     chosen = spread_over(candidates, log_likelihood(guess), plan.confirmed)
-    chosen = list(dict.fromkeys([*chosen, TRIANGLE]))
+    chosen = list(dict.fromkeys([TRIANGLE, *chosen]))
 
     runner.run(plan.soft(chosen))
     for shape in chosen:
@@ -164,10 +162,6 @@ class _Runner:
 
 def _with_springs(known: Mapping[Key, Known], softer: float) -> dict[Shape, Known]:
     return {shape: one for (shape, springs), one in known.items() if shape is not None and springs == softer}
-
-
-def _bare(known: Mapping[Key, Known], softer: float) -> Known:
-    return known[None, softer]
 
 
 def _rows(shapes: "list[Shape]") -> "np.ndarray":

@@ -31,6 +31,8 @@ _CM = 100.0
 _SHOWN = 6
 # Lengths differ by this [m] for the slope of a residual.
 _STEP = 0.005
+# A base so near the least that was searched [m] is said to be.
+_EDGE = 0.01
 # A posterior this much narrower than the prior is worth the word "known"; one above is "hardly known".
 _KNOWN, _HARDLY = 0.5, 0.8
 
@@ -82,6 +84,12 @@ def _opening(inference: "Inference") -> Iterator[str]:
         f"5, base 6 cm) the likelihood is e^{_against_best(inference, TRIANGLE):.1f} of the inferred one's."
     )
     yield ""
+    if best.base < BASES[0] + _EDGE:
+        yield (
+            f"Its base is near the least that was searched, {_CM * BASES[0]:g} cm: thinner baffles, blades to a "
+            "bundle, were not looked at."
+        )
+        yield ""
     yield "![What the sentences leave, and the baffles](figures/baffle.png)"
     yield ""
     yield (
@@ -230,7 +238,8 @@ def _sensitivity(inference: "Inference") -> Iterator[str]:
     yield ""
     yield (
         "*Alone* is what a sentence tells by itself and *without it* what the others tell, in bits, of the shapes "
-        "searched. The rest is how its worst part's residual at the inferred shape changes with each length, in "
+        "searched; one that tells nothing fits all shapes alike, or none. The rest is how its worst part's residual at "
+        "the inferred shape changes with each length, in "
         "tolerances per cm, as emulated."
     )
     yield ""
@@ -277,7 +286,7 @@ def _method(inference: "Inference") -> Iterator[str]:
     yield (
         f"**Runs.** {scanned} shapes with springs softer by {plan.softer:g}, one seed: those of a Sobol sequence, "
         f"three that have names, and those that were confirmed. {len(inference.confirmed)} at full stiffness, "
-        f"{len(plan.seeds)} seeds. The bare drum with both, {len(plan.bare_seeds)} seeds. All over "
+        f"{len(plan.seeds)} seeds. The bare drum at full stiffness, {len(plan.bare_seeds)} seeds. All over "
         f"{plan.duration:g} s, averaged over {plan.window[0]:g}–{plan.window[1]:g} s."
     )
     yield ""
@@ -311,7 +320,7 @@ def _checks(inference: "Inference") -> Iterator[str]:
         "**Emulator, leaving one shape out.** What the others foretell differs from what was run by "
         f"{np.sqrt(np.mean(strays**2)):.2f} stated errors (root mean square over all observables; 1 is right): "
         f"{within[0]:.0f} % of the differences are within one error (68 % expected), {within[1]:.0f} % within two (95 "
-        "%). Where an observable's are above 1, its errors are widened by that."
+        "%). The errors of an observable are multiplied by its own."
     )
     yield ""
     rows = [

@@ -9,14 +9,14 @@ from numpy.typing import NDArray
 
 from drumrs.paper.baffle.emulator import Emulator
 from drumrs.paper.baffle.evidence import Known, Observable, Sentence
-from drumrs.paper.baffle.sentences import CIRCULATION, POWER, RATIO, log_likelihood
+from drumrs.paper.baffle.sentences import CIRCULATION, OBSERVABLES, POWER, RATIO, log_likelihood
 from drumrs.paper.shape import BASES, HEIGHTS, ROOM, Shape, shares_of_drum
 
 Array = NDArray[np.float64]
 # What softer springs change in proportion; shares and indices of motion they change by so much.
 _IN_PROPORTION = (POWER, RATIO, CIRCULATION)
-# How much of that may differ between the bare drum and one with baffles, as long as only the bare one is known.
-_UNKNOWN_SPREAD = 0.05
+# By how much, as long as no shape was run at full stiffness, and how much that may differ between shapes where one was.
+_UNKNOWN, _UNKNOWN_RATIO = 0.05, 0.10
 # Shapes that are worth a run at full stiffness, so many m apart in height, base and tip.
 _GRID = 0.005
 
@@ -137,14 +137,14 @@ def foretell(
     return found
 
 
-def provisional_corrections(soft: Known, stiff: Known) -> dict[Observable, Correction]:
-    """Return corrections as the bare drum has them, with what baffles may change about them."""
-    before, after = (
-        {one: (np.atleast_1d(known[one][0]), np.atleast_1d(known[one][1])) for one in stiff}
-        for known in (soft, stiff)
-    )
-    bare = measured_corrections(before, after)
-    return {one._replace(baffles=True): correction for one, correction in bare.items()}
+def provisional_corrections() -> dict[Observable, Correction]:
+    """Return what full stiffness may change, as long as no shape has been run with it: nothing known, errors alone."""
+    found = {}
+    for one in OBSERVABLES:
+        in_proportion = one.quantity in _IN_PROPORTION
+        error = _UNKNOWN_RATIO if one.quantity == RATIO else _UNKNOWN
+        found[one] = Correction(1.0 if in_proportion else 0.0, error, in_proportion)
+    return found
 
 
 def measured_corrections(soft: Known, stiff: Known) -> dict[Observable, Correction]:
@@ -171,7 +171,7 @@ def measured_corrections(soft: Known, stiff: Known) -> dict[Observable, Correcti
         else:
             changes, noise = after - before, np.hypot(before_error, after_error)
         explained = float(np.mean(noise**2))
-        beyond = max(0.0, float(changes.var(ddof=1)) - explained) if len(changes) > 1 else _UNKNOWN_SPREAD**2
+        beyond = max(0.0, float(changes.var(ddof=1)) - explained) if len(changes) > 1 else _UNKNOWN**2
         error = float(np.sqrt(beyond + explained / len(changes)))
         found[one] = Correction(float(changes.mean()), error, in_proportion)
     return found
