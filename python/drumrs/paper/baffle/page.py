@@ -11,7 +11,7 @@ from drumrs.files import write_whole
 from drumrs.pages import provenance
 from drumrs.paper.baffle.design import QUICK
 from drumrs.paper.baffle.evidence import Known, Observable, Part, Sentence
-from drumrs.paper.baffle.posterior import Array, Posterior, posterior, weigh
+from drumrs.paper.baffle.posterior import Array, Posterior, weigh
 from drumrs.paper.baffle.sentences import (
     ALONG,
     POWER,
@@ -246,15 +246,13 @@ def _sensitivity(inference: "Inference") -> Iterator[str]:
     one = inference.posteriors[1.0]
     best = inference.best
     rows = []
+    told = {s.name: np.broadcast_to(s.log_likelihood(inference.known), one.weights.shape) for s in SENTENCES}
+    together = np.sum(list(told.values()), axis=0)
     for sentence in SENTENCES:
-        alone = weigh(
-            one.shapes, np.broadcast_to(sentence.log_likelihood(inference.known), one.weights.shape)
-        )
-        others = posterior(one.shapes, inference.known, without=sentence)
+        own = told[sentence.name]
+        alone, others = weigh(one.shapes, own).bits, weigh(one.shapes, together - own).bits
         slopes = _slopes(inference, sentence, best)
-        rows.append(
-            [sentence.name, f"{alone.bits:.2f}", f"{others.bits:.2f}", *(f"{x:+.2f}" for x in slopes)]
-        )
+        rows.append([sentence.name, f"{alone:.2f}", f"{others:.2f}", *(f"{x:+.2f}" for x in slopes)])
     rows.sort(key=lambda row: -float(row[1]))
     yield from _table(["sentence", "alone", "without it", "height", "base", "tip"], rows)
 

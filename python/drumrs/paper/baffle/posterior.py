@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drumrs.paper.baffle.emulator import Emulator
-from drumrs.paper.baffle.evidence import Known, Observable, Sentence
+from drumrs.paper.baffle.evidence import Known, Observable
 from drumrs.paper.baffle.sentences import CIRCULATION, OBSERVABLES, POWER, RATIO, log_likelihood
 from drumrs.paper.shape import BASES, HEIGHTS, ROOM, Shape, shares_of_drum
 
@@ -92,7 +92,7 @@ class Posterior:
         return float(np.sum(some * np.log2(some * len(self.weights))))
 
 
-def posterior(shapes: Array, known: Known, factor: float = 1.0, without: Sentence | None = None) -> Posterior:
+def posterior(shapes: Array, known: Known, factor: float = 1.0) -> Posterior:
     """Weigh shapes by the likelihood of the sentences; before, all shapes of the region are equally likely.
 
     Parameters
@@ -103,10 +103,8 @@ def posterior(shapes: Array, known: Known, factor: float = 1.0, without: Sentenc
         Means and errors of all observables at these shapes.
     factor
         Multiplies all tolerances.
-    without
-        A sentence that is left out.
     """
-    return weigh(shapes, log_likelihood(known, factor, without))
+    return weigh(shapes, log_likelihood(known, factor))
 
 
 def weigh(shapes: Array, logarithms: Array) -> Posterior:

@@ -243,7 +243,7 @@ OBSERVABLES = tuple(
 )
 
 
-def log_likelihood(known: Known, factor: float = 1.0, without: Sentence | None = None) -> Array:
+def log_likelihood(known: Known, factor: float = 1.0) -> Array:
     """Return the logarithm of the likelihood of all sentences, shape by shape.
 
     Parameters
@@ -252,9 +252,7 @@ def log_likelihood(known: Known, factor: float = 1.0, without: Sentence | None =
         Means and errors of all observables.
     factor
         Multiplies all tolerances.
-    without
-        A sentence that is left out.
     """
-    logarithms = [one.log_likelihood(known, factor) for one in SENTENCES if one is not without]
+    logarithms = [one.log_likelihood(known, factor) for one in SENTENCES]
     total: Array = np.sum(np.broadcast_arrays(*logarithms), axis=0)
     return total
