@@ -19,7 +19,7 @@ _PLACES = {
     "summary": "`result.summary`, `summary.json`, and the table of a sweep: averages over the window",
     "table": "the table of a sweep, `table.parquet`, beyond the summaries: one row for each run",
     "study": "the table of `drumrs reproduce` beyond that of a sweep; all but the first with `…_error`",
-    "drums": "the table of `drumrs validate` beyond that of a sweep; all but the first with `…_error`",
+    "drums": "the table of `drumrs validate`, not in that of a sweep; all but the first with `…_error`",
     "frames": "`frames.parquet`: one row for each frame and bundle",
 }
 

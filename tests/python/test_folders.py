@@ -102,6 +102,24 @@ def test_an_unfinished_run_says_how_to_go_on(drum, tmp_path):
     assert drum("run", "--resume", tmp_path)[0] == 0
 
 
+def test_resume_takes_no_folder_of_others(drum, tmp_path):
+    simulation = drumrs.Simulation(CONFIG)
+    simulation.run(steps=10)
+    simulation.save(tmp_path / "checkpoint.bin")
+    for name, told in (
+        ("drumrs-sweep.json", "must be a new folder or one of a run: it is that of a sweep"),
+        ("config.toml", "this one has a config.toml that is not overwritten, for drumrs did not write it"),
+    ):
+        (tmp_path / name).write_text("")
+        before = contents(tmp_path)
+        status, _, complaint = drum("run", "--resume", tmp_path)
+        assert status == 2
+        assert f"--resume is {str(tmp_path)!r}" in complaint
+        assert told in complaint
+        assert contents(tmp_path) == before
+        (tmp_path / name).unlink()
+
+
 def test_save_writes_the_same_run_again_but_no_other(result, folder):
     drumrs.save(result, folder, pictures=False)
     other = drumrs.run(CONFIG, seed=2, progress=False)

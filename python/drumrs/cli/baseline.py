@@ -6,7 +6,7 @@ from typing import Annotated
 from cyclopts import Parameter
 
 import drumrs
-from drumrs.cli.options import Seed, Settings, check_folder
+from drumrs.cli.options import PATH, Seed, Settings, check_folder
 from drumrs.cli.tables import print_paths, print_table
 from drumrs.config import Config, merge, nest, parse_settings
 from drumrs.folders import claim, require_own
@@ -19,7 +19,7 @@ from drumrs.runs import run_side_by_side
 def baseline(
     *,
     fill: float = 0.25,
-    out: Path = Path("out/baseline"),
+    out: Annotated[Path, PATH] = Path("out/baseline"),
     set_: Settings = None,
     seed: Seed = None,
     force: Annotated[bool, Parameter(negative="")] = False,

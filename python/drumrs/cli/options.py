@@ -43,9 +43,17 @@ def _number(_: object, tokens: Sequence[Token]) -> float:
     return float(number)
 
 
-# The types of options that are a number, or a whole number.
+def _path(_: object, tokens: Sequence[Token]) -> Path:
+    """Read a path; an empty one, as of a variable that is not set in the shell, would be the current folder."""
+    if not tokens[0].value:
+        raise ValueError(f"{tokens[0].keyword} is '', but must be a path; the current folder is '.'")
+    return Path(tokens[0].value)
+
+
+# The types of options that are a number, a whole number, or a path.
 NUMBER = Parameter(converter=_number)
 WHOLE = Parameter(converter=_whole)
+PATH = Parameter(converter=_path)
 Seed = Annotated[int | None, WHOLE, Parameter(help="Seed of the random start, in place of run.seed.")]
 Threads = Annotated[
     int, WHOLE, Parameter(help="Threads that share a step; the result is the same for any number.")

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
-from drumrs.cli.options import Jobs, check_folder
+from drumrs.cli.options import PATH, Jobs, check_folder
 from drumrs.cli.tables import print_paths
 from drumrs.errors import ConfigError
 
@@ -24,7 +24,7 @@ def reproduce(
     quick: Flag = False,
     full: Flag = False,
     baffle: Flag = False,
-    out: Path = Path("out"),
+    out: Annotated[Path, PATH] = Path("out"),
     jobs: Jobs = None,
     retry: Flag = False,
 ) -> int:
@@ -35,7 +35,7 @@ def reproduce(
     Parameters
     ----------
     quick
-        Two seeds, short windows, few points: minutes. What that cannot decide stays undecided.
+        Short windows, few points, power by softer springs: minutes. What that cannot decide stays undecided.
     full
         Ten seeds instead of three.
     baffle

@@ -7,7 +7,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from drumrs.cli.options import NUMBER, Seed, Settings, Threads, check_folder, layered
+from drumrs.cli.options import NUMBER, PATH, Seed, Settings, Threads, check_folder, layered
 from drumrs.cli.tables import print_paths, print_table
 from drumrs.config import Config
 from drumrs.config.softening import softening
@@ -28,9 +28,9 @@ def run(
     set_: Settings = None,
     seed: Seed = None,
     threads: Threads = 1,
-    out: Path | None = None,
+    out: Annotated[Path | None, PATH] = None,
     json: Annotated[bool, Parameter(negative="")] = False,
-    resume: Path | None = None,
+    resume: Annotated[Path | None, PATH] = None,
     until: Annotated[float | None, NUMBER] = None,
     limit: Annotated[float | None, NUMBER] = None,
     softer: Annotated[float | None, NUMBER] = None,
@@ -76,6 +76,8 @@ def run(
         refuse_to_repeat(out, simulation)
         goal = _goal(until, limit, _first_duration(out, simulation.config))
         check_folder(out, "--resume")
+        # A checkpoint alone may have come from anywhere; what would be written beside it takes nobody's place.
+        require_own(out, "run", [name for name in RUN_FILES if name != "checkpoint.bin"], "--resume")
         begun.restore(simulation)
         folder: RunFolder | None = begun
     else:

@@ -8,7 +8,7 @@ from typing import Annotated, Any
 
 from cyclopts import Parameter
 
-from drumrs.cli.options import WHOLE, Jobs, check_folder
+from drumrs.cli.options import PATH, WHOLE, Jobs, check_folder
 from drumrs.cli.tables import print_paths
 from drumrs.errors import ConfigError
 from drumrs.registry import quantity
@@ -28,7 +28,7 @@ def sweep(
     file: Path,
     /,
     *,
-    out: Path,
+    out: Annotated[Path, PATH],
     jobs: Jobs = None,
     shard: str | None = None,
     retry: Annotated[bool, Parameter(negative="")] = False,

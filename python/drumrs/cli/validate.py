@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
-from drumrs.cli.options import Jobs, check_folder
+from drumrs.cli.options import PATH, Jobs, check_folder
 from drumrs.cli.tables import print_paths
 
 if TYPE_CHECKING:
@@ -23,7 +23,7 @@ def validate(
     name: Annotated[str | None, Parameter(name="NAME")] = None,
     /,
     *,
-    out: Path = Path("out"),
+    out: Annotated[Path, PATH] = Path("out"),
     jobs: Jobs = None,
     retry: Flag = False,
 ) -> int:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
-from drumrs.cli.options import Jobs, check_folder
+from drumrs.cli.options import PATH, Jobs, check_folder
 from drumrs.cli.tables import print_paths
 
 if TYPE_CHECKING:
@@ -23,7 +23,7 @@ def verify(
     only: Annotated[
         list[str] | None, Parameter(negative="", help="Name of a case to run; may be repeated.")
     ] = None,
-    html: Path | None = None,
+    html: Annotated[Path | None, PATH] = None,
     json: Annotated[bool, Parameter(negative="")] = False,
     jobs: Jobs = None,
 ) -> int:

@@ -7,6 +7,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
+from drumrs.cli.options import PATH
 from drumrs.cli.tables import print_paths
 from drumrs.errors import ConfigError
 from drumrs.pages import check_page
@@ -17,7 +18,7 @@ def view(
     /,
     *,
     case: Annotated[list[str] | None, Parameter(negative="")] = None,
-    out: Path | None = None,
+    out: Annotated[Path | None, PATH] = None,
     show: Annotated[bool, Parameter(name="--open")] = True,
 ) -> None:
     """Show a run in the browser: play it, step through it, color it by what matters.

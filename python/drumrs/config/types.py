@@ -54,10 +54,17 @@ def _number_in(value: Any) -> Any:
         return value
 
 
+def _within(least: int, most: int) -> Any:
+    return Field(strict=True, ge=least, le=most)
+
+
+def _whole(least: int, most: int) -> Limit:
+    return Limit(f"a whole number from {least} to {most}")
+
+
 _NUMBER = BeforeValidator(_float_of)
 _COUNT = BeforeValidator(_whole_of)
 _FINITE = Field(strict=True, allow_inf_nan=False)
-_WHOLE = Field(strict=True)
 
 Real = Annotated[float, _NUMBER, _FINITE, Limit("a finite number")]
 Positive = Annotated[float, _NUMBER, _FINITE, Field(gt=0), Limit("a positive finite number")]
@@ -69,44 +76,14 @@ Flag = Annotated[bool, Field(strict=True), Limit("true or false")]
 
 GREATEST_SEED = 2**63 - 1
 
-BundleCount = Annotated[
-    int,
-    _COUNT,
-    _WHOLE,
-    Field(ge=1, le=GREATEST_COUNT),
-    Limit(f"a whole number from 1 to {GREATEST_COUNT}"),
-]
-BaffleCount = Annotated[
-    int,
-    _COUNT,
-    _WHOLE,
-    Field(ge=0, le=GREATEST_BAFFLES),
-    Limit(f"a whole number from 0 to {GREATEST_BAFFLES}"),
-]
-SpeciesCount = Annotated[
-    int,
-    _COUNT,
-    _WHOLE,
-    Field(ge=1, le=GREATEST_SPECIES),
-    Limit(f"a whole number from 1 to {GREATEST_SPECIES}"),
-]
-Species = Annotated[
-    int,
-    _COUNT,
-    _WHOLE,
-    Field(ge=0, lt=GREATEST_SPECIES),
-    Limit(f"a whole number from 0 to {GREATEST_SPECIES - 1}"),
-]
+BundleCount = Annotated[int, _COUNT, _within(1, GREATEST_COUNT), _whole(1, GREATEST_COUNT)]
+BaffleCount = Annotated[int, _COUNT, _within(0, GREATEST_BAFFLES), _whole(0, GREATEST_BAFFLES)]
+SpeciesCount = Annotated[int, _COUNT, _within(1, GREATEST_SPECIES), _whole(1, GREATEST_SPECIES)]
+Species = Annotated[int, _COUNT, _within(0, GREATEST_SPECIES - 1), _whole(0, GREATEST_SPECIES - 1)]
 TwoSpecies = Annotated[
     tuple[Species, Species], BeforeValidator(_plain), Limit("a pair [species, species] of whole numbers")
 ]
-Seed = Annotated[
-    int,
-    _COUNT,
-    _WHOLE,
-    Field(ge=0, le=GREATEST_SEED),
-    Limit(f"a whole number from 0 to {GREATEST_SEED}"),
-]
+Seed = Annotated[int, _COUNT, _within(0, GREATEST_SEED), _whole(0, GREATEST_SEED)]
 
 Recordings = Annotated[tuple[Literal["gross_work"], ...], Limit("a list of 'gross_work'")]
 

@@ -49,7 +49,7 @@ def cases(scale: str | Scale = "default") -> list[Config]:
     --------
     >>> from drumrs import paper
     >>> quick = paper.cases("quick")
-    >>> {config.run.duration for config in quick} == {paper.SCALES["quick"].duration}
+    >>> {config.run.seed for config in quick} == set(paper.SCALES["quick"].seeds)
     True
     >>> len({config.digest for config in quick}) == len(quick)
     True
@@ -69,9 +69,16 @@ def cases(scale: str | Scale = "default") -> list[Config]:
                 "window": (scale.window[0], scale.half_full_duration),
             }
         for seed in seeds:
-            config = point.replace({"run": {**run, "frame_every": _pause(point, scale), "seed": seed}})
+            changes = {**run, "frame_every": _pause(point, scale), "seed": seed}
+            config = _cheaper(point, scale).replace({"run": changes})
             found.setdefault(config.digest, config)
-    return list(found.values())
+    beside = cases(scale.beside) if scale.beside else []
+    return [*found.values(), *beside]
+
+
+def _cheaper(point: Config, scale: Scale) -> Config:
+    softer = point.softer(scale.softer) if scale.softer > 1.0 else point
+    return softer.replace({"run.time_step": scale.coarser * float(softer.run.time_step)})
 
 
 def cost(configs: Iterable[Config]) -> int:
@@ -98,21 +105,16 @@ def _points(scale: Scale) -> Iterator[Config]:
             yield drum.config(fill)
     for drum, sizes in ((BARE, scale.sizes), (BAFFLED, scale.sizes), (TRIANGLES, scale.sizes_with_triangles)):
         for ratio in sizes:
-            yield _softer(drum.config(SIZE_FILL).replace(_size(ratio)), scale, "size")
+            yield drum.config(SIZE_FILL).replace(_size(ratio))
     for fill in THIRDS:
         for friction in scale.frictions:
             yield BARE.config(fill).replace(_of_both("friction", friction))
     for drum in (BARE, BAFFLED):
         at = drum.config(BASELINE_FILL)
         for rpm in scale.speeds:
-            yield _softer(at.replace({"rotation.rpm": rpm}), scale, "speed")
+            yield at.replace({"rotation.rpm": rpm})
         for restitution in scale.restitutions:
-            yield _softer(at.replace(_of_both("restitution", restitution)), scale, "restitution")
-
-
-def _softer(point: Config, scale: Scale, axis: str) -> Config:
-    factor = scale.softer.get(axis, 1.0)
-    return point if factor == 1.0 else point.softer(factor)
+            yield at.replace(_of_both("restitution", restitution))
 
 
 def _size(ratio: float) -> dict[str, Any]:
@@ -131,7 +133,9 @@ def _of_both(key: str, value: float) -> dict[str, float]:
 
 def _pause(point: Config, scale: Scale) -> float:
     """Return the time between frames: short where the motion is looked at, else first and last alone."""
-    watched = any(point == drum.config(fill) for fill in WATCHED_FILLS for drum in (BARE, BAFFLED, TRIANGLES))
+    watched = scale.softer == 1.0 and any(
+        point == drum.config(fill) for fill in WATCHED_FILLS for drum in (BARE, BAFFLED, TRIANGLES)
+    )
     return _FRAME_EVERY if watched else scale.duration
 
 

@@ -170,7 +170,15 @@ class Results:
         """The bare drum, and the one with baffles."""
         return (BARE, self.baffled)
 
-    def curve(self, axis: str, column: str, *, drum: Drum = BARE, fill: float | None = None) -> Curve:
+    def curve(
+        self,
+        axis: str,
+        column: str,
+        *,
+        drum: Drum = BARE,
+        fill: float | None = None,
+        softer: float | None = None,
+    ) -> Curve:
         """Return a quantity against a parameter.
 
         A curve is of one stiffness: that with most points, of as many the stiffest. N/T depends on it, and is taken
@@ -186,6 +194,8 @@ class Results:
             The drum.
         fill
             Fill of all points; unless given 40 % for sizes, 25 % for the rest.
+        softer
+            By how much springs are softer than Table 1's, where another stiffness is wanted.
 
         Returns
         -------
@@ -195,20 +205,21 @@ class Results:
         label = drum.name if fill is None else f"{percent(fill)} fill"
         if column not in self.table.columns:
             return Curve(label, (), axis, column)
-        own = baseline().contact.bundle.normal_stiffness
+        stiff = baseline().contact.bundle.normal_stiffness
         at: dict[float, dict[float, list[dict[str, Any]]]] = {}
         rows = self._rows(axis, drum=drum, fill=fill).drop_nulls(column)
         if column in RATIOS:
             rows = rows.filter(rows[AXES["friction"][0]] > 0.0)
         for row in rows.iter_rows(named=True):
-            alike = at.setdefault(row[_STIFFNESS] / own, {})
+            alike = at.setdefault(round(stiff / row[_STIFFNESS], 9), {})
             alike.setdefault(round(float(row[AXES[axis][0]]), 9), []).append(row)
-        stiffness = 1.0 if column in RATIOS else max(at, key=lambda one: (len(at[one]), one), default=1.0)
+        if softer is None:
+            softer = 1.0 if column in RATIOS else max(at, key=lambda one: (len(at[one]), -one), default=1.0)
         points = []
-        for x, seeds in sorted(at.get(stiffness, {}).items()):
+        for x, seeds in sorted(at.get(softer, {}).items()):
             steady = [row for row in seeds if not (self.steady_only and row["drifting"])]
             points += [_point(x, steady, column)] if steady else []
-        return Curve(label, tuple(points), axis, column, 1.0 / stiffness)
+        return Curve(label, tuple(points), axis, column, softer)
 
     def shown(self, axis: str, column: str) -> list[Curve]:
         """Return the curves that the paper's figure of a quantity against a parameter shows."""

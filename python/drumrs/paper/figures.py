@@ -11,7 +11,7 @@ from drumrs.config import baseline
 from drumrs.paper.cases import THIRDS, percent
 from drumrs.paper.curves import RATIOS
 from drumrs.paper.data import StudyData
-from drumrs.paper.drums import BAFFLED, BARE, Drum
+from drumrs.paper.drums import BAFFLED, BARE, Drum, baffles_are_inferred
 from drumrs.paper.states import two_states
 from drumrs.paper.verdict import MissingError
 
@@ -152,7 +152,10 @@ _ALL = (
         _snapshots(BARE),
     ),
     PaperFigure(
-        "F3", "Snapshots with baffles", "As F2. The baffles' size is an assumption.", _snapshots(BAFFLED)
+        "F3",
+        "Snapshots with baffles",
+        f"As F2. The baffles' shape is {'inferred' if baffles_are_inferred() else 'an assumption'}.",
+        _snapshots(BAFFLED),
     ),
     PaperFigure(
         "F4",

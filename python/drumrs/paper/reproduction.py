@@ -78,7 +78,7 @@ class Reproduction:
     --------
     >>> from drumrs.paper import Reproduction
     >>> Reproduction("quick", "somewhere")
-    <Reproduction of 41 cases, 41 to be run>
+    <Reproduction of 255 cases, 255 to be run>
     """
 
     def __init__(self, scale: str | Scale, folder: str | Path, jobs: int | None = None) -> None:

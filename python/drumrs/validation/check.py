@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from drumrs.analysis import Estimate
 
+# Stands for what a publication says where it says nothing: a number of ours, or a test of our own means.
+NOTHING = "–"
 AGREES, DIFFERS, UNDECIDED, SHOWN = "agrees", "differs", "undecided", "shown"
 
 
@@ -19,7 +21,7 @@ class Check:
     quantity
         What it is.
     published
-        What the publication says, in words or figures.
+        What the publication says, in words or figures; `NOTHING` where the check is one of our own.
     measured
         What the simulations gave.
     low, high
@@ -63,7 +65,7 @@ class Check:
     def tolerated_text(self) -> str:
         """The interval that agrees."""
         if self.verdict == SHOWN:
-            return "–"
+            return NOTHING
         unit = f" {self.unit}" if self.unit else ""
         if math.isinf(self.high):
             return f"above {self.low:.3g}{unit}"

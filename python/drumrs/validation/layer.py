@@ -20,9 +20,9 @@ from drumrs.validation.cases import (
     turning,
     with_seeds,
 )
-from drumrs.validation.check import Check
+from drumrs.validation.check import NOTHING, Check
 from drumrs.validation.drum import PublishedDrum
-from drumrs.validation.results import Results
+from drumrs.validation.results import Results, check_of_overlap
 from drumrs.validation.tracer import measures
 
 if TYPE_CHECKING:
@@ -124,7 +124,7 @@ def _checks(results: Results) -> list[Check]:
     checks += [
         Check(
             f"numbers of the series that change, lengths times {4**power}",
-            "none",
+            NOTHING,
             Estimate(_unequal(results, power), 0.0, 1),
             0.0,
             0.0,
@@ -134,8 +134,13 @@ def _checks(results: Results) -> list[Check]:
     return [
         *checks,
         Check(
-            "layer at half the stiffness, over that at all of it", "1", soft, 1.0 - _HALVING, 1.0 + _HALVING
+            "layer at half the stiffness, over that at all of it",
+            NOTHING,
+            soft,
+            1.0 - _HALVING,
+            1.0 + _HALVING,
         ),
+        check_of_overlap(results, plain),
     ]
 
 
@@ -201,7 +206,7 @@ def _draw(results: Results) -> "Figure":
             axes.set_xticks(places, [f"{place:g}" for place in places])
             axes.minorticks_off()
         low, high = sizes.get_ylim()
-        ticks = [tick for tick in (2, 3, 4, 5, 6, 8, 10, 12, 15, 20, 30) if low <= tick <= high]
+        ticks = [tick for tick in range(2, 31) if low <= tick <= high]
         sizes.set_yticks(ticks, [str(tick) for tick in ticks])
         title = f"{quantity('size_ratio').title} D/d"
         sizes.set(xlabel=title, ylabel="flowing layer, in diameters", title=f"Froude number {_FROUDE:g}")

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from drumrs.files import write_whole
 from drumrs.pages import provenance, text_of
 from drumrs.progress import format_duration
-from drumrs.validation.check import AGREES, DIFFERS, UNDECIDED, Check
+from drumrs.validation.check import AGREES, DIFFERS, NOTHING, UNDECIDED, Check
 
 if TYPE_CHECKING:
     from drumrs.validation.drum import PublishedDrum
@@ -63,12 +63,13 @@ def _opening(checks: Mapping[str, Sequence[Check]], results: "Results") -> Itera
         "fitted."
     )
     yield ""
+    yield "Of what is published:"
+    yield ""
     yield "| drum | agrees | differs | undecided |"
     yield "|---|---|---|---|"
     for name, found in checks.items():
-        counts = [
-            sum(check.verdict == verdict for check in found) for verdict in (AGREES, DIFFERS, UNDECIDED)
-        ]
+        verdicts = [check.verdict for check in found if check.published != NOTHING]
+        counts = [verdicts.count(verdict) for verdict in (AGREES, DIFFERS, UNDECIDED)]
         yield f"| [{name}](#{name}) | {' | '.join(map(str, counts))} |"
     yield ""
 

@@ -12,6 +12,7 @@ from drumrs import analysis
 from drumrs.analysis.frame_window import FrameWindow
 from drumrs.sweep import Case
 from drumrs.validation.cases import Scale
+from drumrs.validation.check import NOTHING, Check
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
@@ -24,6 +25,8 @@ if TYPE_CHECKING:
 
 # A window is cut into so many pieces, whose scatter gives the error of what is measured over all of it.
 _PIECES = 16
+# Greatest mean overlap, over the radius.
+_OVERLAP = 0.01
 
 
 @dataclass(frozen=True)
@@ -82,6 +85,12 @@ class Results:
         if found.is_empty():
             raise KeyError(case)
         return found.row(0, named=True)
+
+
+def check_of_overlap(results: Results, point: "Config") -> Check:
+    """Return the check that springs are stiff enough: the mean overlap is below 1 % of the radius."""
+    quantity = "overlap over the radius, root mean square"
+    return Check(quantity, NOTHING, results.estimate(point, "mean_overlap_ratio"), 0.0, _OVERLAP)
 
 
 def with_errors(

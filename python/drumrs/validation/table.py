@@ -15,9 +15,23 @@ if TYPE_CHECKING:
     from drumrs.config import Config
     from drumrs.sweep import Sweep
 
+# What is kept of a run's summary.
+_SUMMARY = (
+    "bundle_count",
+    "fill",
+    "time_step",
+    "steps",
+    "drum_power",
+    "drum_specific_power",
+    "drum_specific_power_error",
+    "coordination",
+    "max_overlap_ratio",
+    "energy_residual",
+)
+
 
 def measure(sweep: "Sweep", folder: Path, drums: Mapping[str, PublishedDrum]) -> "pl.DataFrame":
-    """Return the table of a study: that of its sweep, and what the frames of each case tell.
+    """Return the table of a study: by what its cases differ, and what their series and frames tell.
 
     Parameters
     ----------
@@ -30,7 +44,8 @@ def measure(sweep: "Sweep", folder: Path, drums: Mapping[str, PublishedDrum]) ->
     """
     import polars as pl
 
-    table = sweep.table(folder).collect()
+    columns = dict.fromkeys(("case", *sweep.varied(), "seed", *_SUMMARY))
+    table = sweep.table(folder).select(*columns).collect()
     finished = set(table["case"])
     rows = []
     for case in sweep.cases:

@@ -7,10 +7,10 @@ from drumrs.analysis import Estimate
 from drumrs.analysis.blocks import Array
 from drumrs.config import Config, baseline
 from drumrs.validation.cases import BED, Scale, contacts, stiffness, teeth, times, turning, with_seeds
-from drumrs.validation.check import Check
+from drumrs.validation.check import NOTHING, Check
 from drumrs.validation.drum import PublishedDrum
 from drumrs.validation.profile import Profile, profile
-from drumrs.validation.results import Results, with_errors
+from drumrs.validation.results import Results, check_of_overlap, with_errors
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -111,28 +111,29 @@ def _checks(results: Results) -> list[Check]:
         ),
         Check(
             "layer down to solid rotation, over the depth of the bed",
-            "–",
+            NOTHING,
             results.estimate(plain, "layer_to_solid_rotation") / depth,
         ),
         Check(
             "slope of the surface",
-            "–",
+            NOTHING,
             times(results.estimate(plain, "surface_slope"), 180.0 / math.pi),
             unit="°",
         ),
         Check(
             f"surface velocity with friction {_OTHER_FRICTION:g} instead of {_FRICTION:g}",
-            "–",
+            NOTHING,
             _surface(results, other),
         ),
-        Check(f"flowing layer with friction {_OTHER_FRICTION:g}", "–", _layer(results, other)),
+        Check(f"flowing layer with friction {_OTHER_FRICTION:g}", NOTHING, _layer(results, other)),
         Check(
             "surface velocity at half the stiffness, over that at all of it",
-            "1",
+            NOTHING,
             _surface(results, soft) / surface,
             *same,
         ),
-        Check("flowing layer at half the stiffness, likewise", "1", _layer(results, soft) / layer, *same),
+        Check("flowing layer at half the stiffness, likewise", NOTHING, _layer(results, soft) / layer, *same),
+        check_of_overlap(results, plain),
     ]
 
 

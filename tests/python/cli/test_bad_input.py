@@ -212,6 +212,16 @@ def test_folder_that_cannot_be_written(drum, tmp_path):
         assert complaint.count("\n") == 1
 
 
+@pytest.mark.parametrize("words", [["--out", ""], ["--out="], ["--resume", ""]])
+def test_an_empty_path_is_not_the_current_folder(drum, tmp_path, monkeypatch, words):
+    monkeypatch.chdir(tmp_path)
+    status, printed, complaint = drum("run", *words)
+    assert (status, printed) == (2, "")
+    assert complaint.count("\n") == 1
+    assert f"{words[0].rstrip('=')} is '', but must be a path; the current folder is '.'" in complaint
+    assert not list(tmp_path.iterdir())
+
+
 def test_resume_takes_no_case(drum, tmp_path):
     status, _, complaint = drum("run", "--resume", tmp_path, "--seed", "3")
     assert status == 2

@@ -8,6 +8,7 @@ import pytest
 import drumrs
 from drumrs.errors import ConfigError
 from drumrs.precision import Goal, _next_end, run_until_precise
+from drumrs.run_folder import RunFolder
 
 SHORT = ["--set", "load.count=20", "--set", "run.duration=0.2", "--set", "run.window=[0.1, 0.2]"]
 
@@ -51,11 +52,10 @@ def test_resume_ends_as_without_a_break(drum, tmp_path):
     goal = ["--until", "0.02", "--limit", "0.8"]
     assert drum("run", *SHORT, *goal, "--out", whole)[0] == 0
     # As after a power cut in a run that had gone beyond its duration.
-    broken.mkdir()
     config = drumrs.baseline().replace(
         {"load.count": 20, "run.duration": 0.2, "run.window": [0.1, 0.2], "run.seed": 1}
     )
-    (broken / "config.toml").write_text(config.to_toml())
+    RunFolder(broken).begin(config)
     simulation = drumrs.Simulation(config)
     simulation.run()
     simulation.extend_to(_next_end(simulation, Goal(0.02, 0.8)))

@@ -100,6 +100,22 @@ def test_what_is_not_defined_is_no_point():
     assert Results(world()).curve("friction", "dissipation_ratio", fill=0.25).x[0] == DEFAULT.frictions[1]
 
 
+def test_a_curve_is_of_one_stiffness():
+    stiffness, fill = "contact.bundle.normal_stiffness", pl.col("load.fill")
+    soft = world().with_columns(pl.col(stiffness) / 100.0, pl.col("drum_power") * 0.5)
+    few, many = soft.filter(fill < 0.3), soft.with_columns(fill + 0.01)
+    stiff = Results(world()).curve("fill", "drum_power")
+    # The one of more points, of as many the stiffer.
+    for other, factor in ((few, 1.0), (soft, 1.0), (pl.concat([soft, many]), 100.0)):
+        found = Results(pl.concat([world(), other])).curve("fill", "drum_power")
+        assert found.softer == factor
+        assert len(found.points[0].values) == 3
+    chosen = Results(pl.concat([world(), few])).curve("fill", "drum_power", softer=100.0)
+    assert [one.mean for one in chosen.estimates] == [
+        0.5 * one.mean for one in stiff.estimates[: len(chosen)]
+    ]
+
+
 def test_parts_of_a_curve():
     found = curve(FILLS, FILLS)
     assert found.below(0.4).x[-1] == 0.35

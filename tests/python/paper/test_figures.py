@@ -6,6 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import polars as pl
 import pytest
+from matplotlib.collections import FillBetweenPolyCollection
 
 import drumrs
 from drumrs import figures, paper
@@ -13,6 +14,7 @@ from drumrs.paper import plots
 from drumrs.paper.cases import HALF_FULL
 from drumrs.paper.curves import Results
 from drumrs.paper.figures import points
+from drumrs.paper.thumbnails import thumbnail
 from drumrs.sweep import Case
 from synthetic import made_up
 from worlds import world
@@ -210,3 +212,39 @@ def test_figures_draw_what_there_is(number, table, tmp_path):
 def test_curves_need_points():
     with pytest.raises(ValueError, match="points is empty"):
         figures.curves(pl.DataFrame({"label": [], "x": []}), figures.Labels("x", "y"))
+
+
+def bands(claim: str, table: pl.DataFrame) -> list[np.ndarray]:
+    """Return the corners of the bands in the picture of a claim."""
+    verdict = next(one for one in paper.judge(table) if one.claim == claim)
+    axes = thumbnail(verdict, Results(table)).axes[0]
+    return [
+        path.vertices
+        for one in axes.collections
+        if isinstance(one, FillBetweenPolyCollection)
+        for path in one.get_paths()
+    ]
+
+
+def test_the_picture_of_a_claim_has_the_bands_of_its_parts(table):
+    (bare, baffled) = bands("C1", table)
+    assert {tuple(sorted(set(one[:, 0]))) for one in (bare, baffled)} == {(40.0, 50.0)}
+    highest = 2.1  # of N/T in this world
+    for one in bands("C4", table):
+        assert (one[:, 1].min(), one[:, 1].max()) == pytest.approx(
+            (1.0 - 0.1 * highest, 2.0 + 0.1 * highest), rel=2e-3
+        )
+    (about_one,) = bands("C6", table)
+    assert (about_one[:, 0].min(), about_one[:, 0].max()) == (10.0, 35.0)
+    with pytest.raises(paper.MissingError):
+        bands("C4", table.clear())
+
+
+def test_the_picture_of_a_claim_has_its_curves(table):
+    for verdict in paper.judge(table):
+        axes = thumbnail(verdict, Results(table)).axes[0]
+        named = [text.get_text() for text in axes.get_legend().get_texts()]
+        by_friction = verdict.claim in {"C8", "C9", "C10"}
+        assert named == (
+            ["25 % fill", "50 % fill", "75 % fill"] if by_friction else ["without baffles", "with baffles"]
+        )

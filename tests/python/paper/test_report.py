@@ -105,22 +105,37 @@ def test_evidence_is_counted_apart(data):
     html = page.render(some, Pictures())
     assert html.count('class="evidence"') == len(EVIDENCE)
     assert headline.EVIDENCE in words(html)
-    assert headline.EVIDENCE not in words(page.render(data, Pictures()))
+    none = replace(data)
+    object.__setattr__(none, "verdicts", [replace(one, is_evidence=False) for one in told])
+    assert headline.EVIDENCE not in words(page.render(none, Pictures()))
+    assert "evidence" not in headline._counted(none.verdicts)
 
 
 def test_softer_springs_are_shown_beside_stiff_ones(data):
-    soft = data.table.filter(pl.col("contact.bundle.friction") == 0.5).with_columns(
+    soft = data.table.with_columns(
         pl.col("contact.bundle.normal_stiffness") / 100.0, pl.col("drum_specific_power") * 0.97
     )
-    more = soft.with_columns(pl.lit(80.0).alias("rotation.rpm"))
+    # The curve that has more points is the one shown.
+    more = soft.filter(pl.col("load.fill") == 0.25).with_columns(pl.lit(0.6).alias("load.fill"))
     some = replace(data, table=pl.concat([data.table, soft, more]))
-    found = checks.softness(some)
-    assert {(one.drum, one.fill, one.factor) for one in found} == {
-        (drum, "25 %", 100.0) for drum in ("without baffles", "with baffles")
-    }
-    assert all(one.ratio.startswith("0.97") for one in found)
+    found = [(one.drum, one.fill, one.factor) for one in checks.softness(some)]
+    bare, baffled = (
+        [fill for drum, fill, _ in found if drum == name] for name in ("without baffles", "with baffles")
+    )
+    assert (bare, baffled) == (["25 %", "50 %", "75 %"], ["25 %", "50 %"])
+    assert all(one.ratio.startswith("0.97") for one in checks.softness(some))
+    assert {factor for _, _, factor in found} == {100.0}
     assert "Softer springs" in words(page.render(some, Pictures()))
     assert checks.softness(data) == []
+
+
+def test_runs_with_softer_springs_are_told(data):
+    assert headline.softer(data) == ""
+    beside = replace(SMALL, duration=0.3, window=(0.2, 0.3), softer=100.0)
+    both = replace(data, sweep=Sweep.from_configs(paper.cases(replace(SMALL, beside=beside))))
+    count = len(data.sweep)
+    told = f"; {count} of the runs, for power alone, are of 0.3 s with springs softer by 100"
+    assert headline.softer(both) == told
 
 
 def test_the_headline_is_what_the_table_says(data, text):
@@ -210,7 +225,7 @@ def test_baffles_take_the_area_that_they_have_in_the_core():
     for line in frames.baffles:
         x, y = np.asarray(line).T
         covered += abs(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1))) / 2.0
-        angle = 2.0 * math.asin(0.03 / radius)
+        angle = 2.0 * math.asin(BAFFLED.config().drum.baffles.base / 2.0 / radius)
         covered += radius**2 * (angle - math.sin(angle)) / 2.0
     assert BAFFLED.baffles_share == pytest.approx(covered / (math.pi * radius**2))
 

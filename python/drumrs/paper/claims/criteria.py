@@ -294,6 +294,9 @@ def is_similar(curve: Curve, other: Curve, name: str, largest: float) -> Finding
     level = [other.at(one).mean for one in x]
     low, high = (tuple(one + way * slack for one in level) for way in (-1.0, 1.0))
     found = replace(found, bands=(Band(curve.axis, curve.column, curve.label, x, low, high),))
+    # Beside next to nothing any difference is great.
+    if min(level) <= slack:
+        return found
     return _with_relative(found, [curve.at(at).mean / one - 1.0 for at, one in zip(x, level, strict=True)])
 
 

@@ -4,10 +4,10 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from drumrs.analysis.drift import FALSE_ALARMS
-from drumrs.paper.cases import BASELINE_FILL, SIZE_FILL, percent
-from drumrs.paper.curves import AXES, RATIOS
+from drumrs.paper.cases import THIRDS, percent
+from drumrs.paper.curves import RATIOS
 from drumrs.paper.data import StudyData
-from drumrs.paper.verdict import MissingError, Number
+from drumrs.paper.verdict import Number
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -130,16 +130,15 @@ class Softness:
 
 
 def softness(data: StudyData) -> list[Softness]:
-    """Return what softer springs change wherever a point was run with both, sizes and drums apart."""
+    """Return what softer springs change, drum by drum, at the fills of the snapshots that were run with both."""
     found = []
     for drum in data.results.drums:
-        stiff = data.results.curve("fill", "drum_specific_power", drum=drum)
-        for axis, fill in (("size", SIZE_FILL), ("speed", BASELINE_FILL)):
-            soft = data.results.curve(axis, "drum_specific_power", drum=drum)
-            try:
-                ratio = soft.at(AXES[axis][1]) / stiff.at(fill)
-            except MissingError:
-                continue
-            if soft.softer > stiff.softer:
-                found.append(Softness(drum.name, percent(fill), soft.softer, Number.of("", ratio).text))
+        used = data.results.curve("fill", "drum_specific_power", drum=drum)
+        if used.softer == 1.0:
+            continue
+        stiff = data.results.curve("fill", "drum_specific_power", drum=drum, softer=1.0)
+        ratios = [(x, ratio) for x, ratio in used.against(stiff, lambda a, b: a / b) if x in THIRDS]
+        found += [
+            Softness(drum.name, percent(x), used.softer, Number.of("", ratio).text) for x, ratio in ratios
+        ]
     return found

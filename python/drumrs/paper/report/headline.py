@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from drumrs.config import baseline
 from drumrs.paper.cases import BASELINE_FILL, HALF_FULL, THIRDS, percent
 from drumrs.paper.curves import RATIOS, Curve
 from drumrs.paper.data import StudyData
@@ -141,6 +142,19 @@ def half_full(data: StudyData) -> str:
     fills = ", ".join(f"{100.0 * fill:.3g}" for fill in HALF_FULL)
     count = len({run.seed for run in runs})
     return f" (at {fills} % fill of the bare drum, {count} seeds of {runs[0].duration:g} s)"
+
+
+def softer(data: StudyData) -> str:
+    """Say how many runs, and of which length, have softer springs; nothing where none has."""
+    stiff = baseline().contact.bundle.normal_stiffness
+    runs = [one for one in data.configs.values() if one.contact.bundle.normal_stiffness < stiff]
+    if not runs:
+        return ""
+    factor = stiff / runs[0].contact.bundle.normal_stiffness
+    return (
+        f"; {len(runs)} of the runs, for power alone, are of {runs[0].run.duration:g} s with springs softer by "
+        f"{factor:g}"
+    )
 
 
 def sentences(data: StudyData) -> list[Sentence]:

@@ -95,6 +95,7 @@ def _study(data: StudyData) -> dict[str, Any]:
         "duration": configs[0].run.duration,
         "window": configs[0].run.averaging_window,
         "seeds": headline.seeds(data),
+        "softer": headline.softer(data),
         "half_full": headline.half_full(data),
         "verdicts": data.verdicts,
         "counts": headline.count_of_verdicts(data.verdicts),

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from drumrs.config import Config, baseline
+from drumrs.paper.drums import BAFFLED, baffles_are_inferred
 
 # Scanned off the paper, units as here: stiffness [N/m] and damping [N s/m] between bundles and with the drum, and the
 # time step [s].
@@ -11,7 +12,7 @@ SCANNED_DAMPING = {"bundle": 5.35e3, "drum": 7.74e3}
 SCANNED_STEP = 3.70e-6
 
 _AUTHORS = "as scanned"
-_ASSUMED = "assumed: the figure that gave it is lost"
+_LOST = "the figure that gave it is lost"
 
 
 @dataclass(frozen=True)
@@ -108,7 +109,7 @@ def rows() -> list[Row]:
             f"{scientific(SCANNED_STEP)} s",
             f"{scientific(step)} s, 1/{bundle.collision_time / step:.1f} of a collision",
         ),
-        Row("baffles", "–", _baffles(config), _ASSUMED),
+        _baffles(),
     ]
 
 
@@ -130,9 +131,12 @@ def _speed(config: Config) -> str:
     return f"Ω = {derived.angular_velocity:.4f} rad/s (Ω²R/g = {derived.froude_number:.3f})"
 
 
-def _baffles(config: Config) -> str:
-    one = config.drum.baffles
-    return f"3 {one.shape}s, {1e3 * one.height:g} mm high on a base of {1e3 * one.base:g} mm, every 120°"
+def _baffles() -> Row:
+    one = BAFFLED.config().drum.baffles
+    tip = f", {1e3 * one.tip:g} mm wide at the tip" if one.shape == "trapezoid" else ""
+    used = f"3 {one.shape}s, {1e3 * one.height:g} mm high on a base of {1e3 * one.base:g} mm{tip}, every 120°"
+    known = "inferred from the text" if baffles_are_inferred() else "assumed"
+    return Row("baffles", "–", used, f"{known}: {_LOST}")
 
 
 def scientific(value: float) -> str:
