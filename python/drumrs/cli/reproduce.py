@@ -39,8 +39,7 @@ def reproduce(
     full
         Ten seeds instead of three.
     baffle
-        Instead of the study, infer the shape of the paper's baffle, whose drawing is lost, from what the text says;
-        with --quick from fewer shapes and seeds.
+        Instead of the study, infer the shape of the paper's baffle, whose drawing is lost, from what the text says.
     out
         Folder for report.html, summary.md, table.parquet, figures/ and runs/; with --baffle for baffle.md,
         baffle.parquet, figures/ and runs/.
@@ -51,11 +50,13 @@ def reproduce(
 
     if quick and full:
         raise ConfigError("--quick", problem="and --full are both given, but only one of them may be")
-    if baffle and (full or retry):
-        raise ConfigError("--baffle", problem="is given with --full or --retry, which it does not have")
+    if baffle and (quick or full or retry):
+        raise ConfigError(
+            "--baffle", problem="is given with --quick, --full or --retry, which it does not have"
+        )
     check_folder(out)
     if baffle:
-        return _infer_baffle(out, jobs, quick=quick)
+        return _infer_baffle(out, jobs)
     reproduction = Reproduction("quick" if quick else "full" if full else "default", out, jobs)
     _announce(reproduction)
     done = reproduction.run(retry=retry)
@@ -64,14 +65,14 @@ def reproduce(
     return _tell_failures(done)
 
 
-def _infer_baffle(out: Path, jobs: int | None, *, quick: bool) -> int:
+def _infer_baffle(out: Path, jobs: int | None) -> int:
     from drumrs.jobs import effective_jobs
     from drumrs.paper import infer_baffle
-    from drumrs.paper.baffle import QUICK, Plan
+    from drumrs.paper.baffle import Plan
     from drumrs.paper.reproduction import measure_speed
     from drumrs.progress import format_duration
 
-    jobs, plan = effective_jobs(jobs), QUICK if quick else Plan()
+    jobs, plan = effective_jobs(jobs), Plan()
     spent = format_duration(plan.cost / measure_speed(jobs))
     sys.stderr.write(
         f"inference of the baffle: {plan.cost:.2g} particle-steps in all, about {spent} at most\n"

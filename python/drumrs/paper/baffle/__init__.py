@@ -5,9 +5,9 @@ is simulated, `observations` what that tells; `emulator` foretells the shapes th
 them; `findings` is what is known in the end, `page` writes it down with its `figure`, `inference` ties it together.
 """
 
-from drumrs.paper.baffle.design import QUICK, Plan
+from drumrs.paper.baffle.design import Plan
 from drumrs.paper.baffle.findings import Inference
 from drumrs.paper.baffle.inference import infer_baffle
 from drumrs.paper.shape import Shape
 
-__all__ = ["QUICK", "Inference", "Plan", "Shape", "infer_baffle"]
+__all__ = ["Inference", "Plan", "Shape", "infer_baffle"]

@@ -42,7 +42,7 @@ class Plan:
         Interval of the averages [s, s].
     """
 
-    shapes: int = 64
+    shapes: int = 32
     softer: float = 100.0
     confirmed: int = 12
     seeds: tuple[int, ...] = (1, 2, 3)
@@ -88,10 +88,6 @@ class Plan:
             for observed in _observed(with_sizes=shape is not None and softer > 1.0)
         ]
         return {point: point.config(self) for point in points}
-
-
-# Half of the shapes of the scan and one seed less take two thirds of the time.
-QUICK = Plan(shapes=32, seeds=(1, 2))
 
 
 class Point(NamedTuple):

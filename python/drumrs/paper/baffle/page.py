@@ -9,7 +9,6 @@ import numpy as np
 
 from drumrs.files import write_whole
 from drumrs.pages import provenance
-from drumrs.paper.baffle.design import QUICK
 from drumrs.paper.baffle.evidence import Known, Observable, Part, Sentence
 from drumrs.paper.baffle.posterior import Array, Posterior, weigh
 from drumrs.paper.baffle.sentences import (
@@ -74,7 +73,7 @@ def _opening(inference: "Inference") -> Iterator[str]:
     yield ""
     yield (
         "The drawing of the paper's baffles is lost; what its text says of them is not. Written by `drumrs reproduce "
-        f"--baffle{' --quick' if inference.plan == QUICK else ''}`. drumrs {provenance.versions()['drumrs']}."
+        f"--baffle`. drumrs {provenance.versions()['drumrs']}."
     )
     yield ""
     yield (
