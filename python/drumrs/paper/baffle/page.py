@@ -169,9 +169,8 @@ def _degeneracy(one: Posterior) -> str:
 def _confirmed(inference: "Inference") -> Iterator[str]:
     yield "## Shapes at full stiffness"
     yield ""
-    seeds = len(inference.plan.seeds)
     yield (
-        f"{seeds} seeds each. *Log likelihood* is that of all sentences, less that of the best; shapes whose values "
+        f"{_seeds(inference.plan.seeds)} each. *Log likelihood* is that of all sentences, less that of the best; shapes whose values "
         "are within 1 of each other fit equally well."
     )
     yield ""
@@ -284,7 +283,7 @@ def _method(inference: "Inference") -> Iterator[str]:
     yield (
         f"**Runs.** {scanned} shapes with springs softer by {plan.softer:g}, one seed: those of a Sobol sequence, "
         f"three that have names, and those that were confirmed. {len(inference.confirmed)} at full stiffness, "
-        f"{len(plan.seeds)} seeds. The bare drum at full stiffness, {len(plan.bare_seeds)} seeds. All over "
+        f"{_seeds(plan.seeds)}. The bare drum at full stiffness, {_seeds(plan.bare_seeds)}. All over "
         f"{plan.duration:g} s, averaged over {plan.window[0]:g}–{plan.window[1]:g} s."
     )
     yield ""
@@ -307,6 +306,10 @@ def _method(inference: "Inference") -> Iterator[str]:
         yield ""
         yield from (f"- {failure.case.config.title}: {failure.message}" for failure in inference.failures)
         yield ""
+
+
+def _seeds(seeds: tuple[int, ...]) -> str:
+    return f"{len(seeds)} seed{'s' if len(seeds) > 1 else ''}"
 
 
 def _checks(inference: "Inference") -> Iterator[str]:
