@@ -396,6 +396,10 @@ def test_evidence_is_judged_with_the_triangles_too(monkeypatch):
     assert found["C2"].verdict == HOLDS
     (other,) = found["C2"].others
     assert (other.verdict, other.where) == (IN_PART, "similar above 50 % fill")
+    # Nothing stands beside where they were not run.
+    alone = {one.claim: one for one in paper.judge(pl.concat([world().filter(~baffles), lower]), washer)}
+    assert alone["C2"].is_evidence
+    assert alone["C2"].others == ()
 
 
 def part(outcome: str, *pieces: str) -> Finding:
