@@ -170,8 +170,8 @@ def _confirmed(inference: "Inference") -> Iterator[str]:
     yield "## Shapes at full stiffness"
     yield ""
     yield (
-        f"{_seeds(inference.plan.seeds)} each. *Log likelihood* is that of all sentences, less that of the best; shapes whose values "
-        "are within 1 of each other fit equally well."
+        f"{_seeds(inference.plan.seeds)} each. *Log likelihood* is that of all sentences, less that of the best; "
+        "shapes whose values are within 1 of each other fit equally well."
     )
     yield ""
     names = {shape: name for name, shape in MARKED.items()}
