@@ -46,7 +46,7 @@ def _number(_: object, tokens: Sequence[Token]) -> float:
 def _path(_: object, tokens: Sequence[Token]) -> Path:
     """Read a path; an empty one, as of a variable that is not set in the shell, would be the current folder."""
     if not tokens[0].value:
-        raise ValueError(f"{tokens[0].keyword} is '', but must be a path; the current folder is '.'")
+        raise ValueError("the path is empty; the current folder is '.'")
     return Path(tokens[0].value)
 
 

@@ -218,7 +218,7 @@ def test_an_empty_path_is_not_the_current_folder(drum, tmp_path, monkeypatch, wo
     status, printed, complaint = drum("run", *words)
     assert (status, printed) == (2, "")
     assert complaint.count("\n") == 1
-    assert f"{words[0].rstrip('=')} is '', but must be a path; the current folder is '.'" in complaint
+    assert f"{words[0].rstrip('=')}: the path is empty; the current folder is '.'" in complaint
     assert not list(tmp_path.iterdir())
 
 

@@ -350,6 +350,12 @@ def test_reasons_are_given_where_something_fails_and_nowhere_else(ideal):
     usual = [measures({**BASE, "fill": x}, baffles=False)["drum_specific_power"] for x in (0.25, 0.5, 0.75)]
     assert "{:.2f}, {:.2f} and {:.2f} W/kg: a drum nearly full".format(*usual) in why["C9"]
     assert "3.00 W/kg at 25 %, 50 % and 75 % fill" in why["C9"]
+    thin = {one.claim: one.why for one in paper.judge(changed("gross_work_ratio", 0.3, ~baffles, fill < 0.2))}
+    sliding = [
+        measures({**BASE, "fill": x}, baffles=False)["dissipated_sliding_specific_power"] for x in (0.1, 0.4)
+    ]
+    assert "sliding goes from {:.2f} to {:.2f} W/kg".format(*sliding) in thin["C4"]
+    assert thin["C6"] == thin["C4"]
 
 
 def test_the_ratio_is_read_in_three_ways():
@@ -390,6 +396,10 @@ def test_evidence_is_judged_with_the_triangles_too(monkeypatch):
     assert found["C2"].verdict == HOLDS
     (other,) = found["C2"].others
     assert (other.verdict, other.where) == (IN_PART, "similar above 50 % fill")
+    # Nothing stands beside where they were not run.
+    alone = {one.claim: one for one in paper.judge(pl.concat([world().filter(~baffles), lower]), washer)}
+    assert alone["C2"].is_evidence
+    assert alone["C2"].others == ()
 
 
 def part(outcome: str, *pieces: str) -> Finding:

@@ -60,8 +60,12 @@ def _with_context(verdict: Verdict, claim: Claim, results: Results) -> Verdict:
     if claim.why and any(part.strays for part in verdict.parts):
         with suppress(MissingError, ZeroDivisionError):
             why = claim.why(results)
-    evidence = claim.number in EVIDENCE and baffles_are_inferred() and results.baffled == BAFFLED
+    evidence = claim.number in EVIDENCE and _is_inferred(results)
     return replace(verdict, others=tuple(_others(claim, results)), why=why, is_evidence=evidence)
+
+
+def _is_inferred(results: Results) -> bool:
+    return baffles_are_inferred() and results.baffled == BAFFLED
 
 
 def _others(claim: Claim, results: Results) -> Iterator[OtherReading]:
@@ -69,7 +73,8 @@ def _others(claim: Claim, results: Results) -> Iterator[OtherReading]:
     if claim.number in _OF_RATIO:
         for column in RATIOS[1:]:
             yield _other(_RATIO_NAMES[column], claim, replace(results, ratio=column))
-    if claim.number in EVIDENCE and baffles_are_inferred() and results.baffled == BAFFLED:
+    triangles_were_run = results.curve("fill", "drum_power", drum=TRIANGLES).points
+    if claim.number in EVIDENCE and _is_inferred(results) and triangles_were_run:
         yield _other(TRIANGLES.name, claim, replace(results, baffled=TRIANGLES))
 
 

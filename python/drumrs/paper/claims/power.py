@@ -227,6 +227,7 @@ CLAIMS = (
         "F8",
         ("friction", POWER),
         constant_above_some_friction,
+        why.damping_goes_on_growing,
     ),
     Claim(
         "C14",

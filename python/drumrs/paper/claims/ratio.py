@@ -118,6 +118,7 @@ CLAIMS = (
         "F6",
         ("fill", "N/T"),
         between_one_and_two,
+        why.thin_loads_slide,
     ),
     Claim(
         "C5",
@@ -136,6 +137,7 @@ CLAIMS = (
         "F6",
         ("fill", "N/T"),
         rises_steeply_without_baffles,
+        why.thin_loads_slide,
     ),
     Claim(
         "C10",

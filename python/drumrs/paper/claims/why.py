@@ -57,6 +57,52 @@ def baffles_keep_their_size(results: Results) -> str:
     )
 
 
+def thin_loads_slide(results: Results) -> str:
+    """Say for C4 and C6 which of N and T it is that changes with fill in the bare drum, up to 40 %.
+
+    Raises
+    ------
+    MissingError
+        Where there are fewer than two fills up to 40 %.
+    """
+    sliding, normal, turning = (
+        results.curve("fill", column).between(high=0.4, least=2)
+        for column in (_SLIDING, _NORMAL, "specific_angular_momentum")
+    )
+    first, last = (float(x) for x in sliding.x[[0, -1]])
+    return (
+        f"From {percent(first)} to {percent(last)} fill of the bare drum sliding goes from {_from_to(sliding)} W/kg, "
+        f"normal damping from {_from_to(normal)} W/kg, and the angular momentum of a kilogram, which says how far the "
+        f"drum takes the load along, from {_from_to(turning, 3)} m²/s."
+    )
+
+
+def _from_to(curve: Curve, digits: int = 2) -> str:
+    means = [one.mean for one in curve.estimates]
+    return f"{means[0]:.{digits}f} to {means[-1]:.{digits}f}"
+
+
+def damping_goes_on_growing(results: Results) -> str:
+    """Say for C8 what becomes of N and T from μ = 0.3 on, fill by fill.
+
+    Raises
+    ------
+    MissingError
+        Where a fill has fewer than two frictions from 0.3 on.
+    """
+    told = []
+    for fill in THIRDS:
+        normal, sliding = (
+            results.curve("friction", column, fill=fill).between(0.3, least=2)
+            for column in (_NORMAL, _SLIDING)
+        )
+        told.append(f"{_from_to(normal)} and {_from_to(sliding)} W/kg at {percent(fill)} fill")
+    return (
+        "From μ = 0.3 on, what normal damping takes and what sliding takes go from "
+        f"{', '.join(told[:-1])}, and {told[-1]}: power is constant where what one gains the other loses."
+    )
+
+
 def sliding_is_compared_with_little(results: Results) -> str:
     """Say for C9 that what sliding takes at small friction is alike at all fills, and the usual power is not.
 
