@@ -77,6 +77,8 @@ class Shape:
 TRIANGLE = Shape(0.05, 0.06, 0.0)
 PADDLE = Shape(0.035, 0.08, 0.05)
 BLOCK = Shape(0.035, 0.05, 0.05)
+# What the paper's sentences say it was, as far as they do: docs/study/baffle.md.
+INFERRED = Shape(0.04, 0.02, 0.0)
 MARKED = {"assumed triangle": TRIANGLE, "washer paddle": PADDLE, "block": BLOCK}
 
 

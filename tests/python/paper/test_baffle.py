@@ -1,5 +1,6 @@
 """The inference of the lost baffle: sentences as residuals, emulator, posterior, and all of it on a made-up truth."""
 
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -22,7 +23,7 @@ from drumrs.paper.baffle.sentences import (
     SENTENCES,
     UNWEIGHTED,
 )
-from drumrs.paper.shape import PADDLE, ROOM, TRIANGLE, Shape, shapes_in_region
+from drumrs.paper.shape import INFERRED, PADDLE, ROOM, TRIANGLE, Shape, shapes_in_region
 
 TRUTH = Shape(0.045, 0.07, 0.04)
 BARE_POWER = {
@@ -344,6 +345,12 @@ def test_the_command_has_no_other_scale(other, drum, tmp_path):
     assert status == 2
     assert told.startswith("drumrs: --baffle is given with --quick, --full or --retry")
     assert not (tmp_path / "new").exists()
+
+
+def test_the_kept_page_says_what_is_called_inferred():
+    page = (Path(__file__).parents[3] / "docs" / "study" / "baffle.md").read_text(encoding="utf-8")
+    height, base, tip = (f"{100.0 * length:.3g}" for length in INFERRED.lengths)
+    assert f"**Inferred: height {height} cm, base {base} cm, tip {tip} cm.**" in page
 
 
 def test_a_missing_library_is_named_before_anything_runs(monkeypatch, tmp_path):
