@@ -41,7 +41,7 @@ class Shape:
     >>> from drumrs.paper.shape import Shape
     >>> paddle = Shape(0.035, 0.08, 0.05)
     >>> str(paddle), round(paddle.share_of_drum, 3)
-    ('3.5 / 8 / 5 cm', 0.037)
+    ('3.5 / 8 / 5 cm', 0.038)
     """
 
     height: float
