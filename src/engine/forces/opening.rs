@@ -20,7 +20,7 @@ impl<V> ChunkStep<'_, V> {
             list.open(opened, neighbors, &self.inputs.bodies);
         }
         ended.clear(list.blocks.len());
-        (!list.is_empty()).then(|| self.totals.open())
+        (!list.is_empty()).then(|| self.totals.open::<L>())
     }
 
     /// Keeps the sums, of which depths are in units of `unit`, and takes out contacts that have ended.
@@ -32,7 +32,7 @@ impl<V> ChunkStep<'_, V> {
         sums: &Totals<F64x4>,
         unit: f64,
     ) {
-        self.totals.close(sums, unit);
+        self.totals.close::<L>(sums, unit);
         list.close(&self.scratch.ended, neighbors);
     }
 }
