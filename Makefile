@@ -40,6 +40,7 @@ check-long: develop ## what takes hours: random loads, kills, long runs, fuzzing
 	$(BIN)/python tests/endurance/kill_and_resume.py
 	$(BIN)/python tests/endurance/short_cases.py
 	$(BIN)/python tests/endurance/long_run.py
+	cargo test --test contracts fuzz -- --ignored # writes fuzz/seeds/checkpoint
 	for target in checkpoint config outline rotation; do \
 	    mkdir -p fuzz/corpus/$$target; \
 	    cargo +nightly fuzz run $$target fuzz/corpus/$$target fuzz/seeds/$$target -- -max_total_time=600 || exit 1; \

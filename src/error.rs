@@ -113,7 +113,7 @@ pub enum Value {
 impl fmt::Display for Value {
     fn fmt(&self, formatter: &mut fmt::Formatter) -> fmt::Result {
         match self {
-            // Nobody counts the zeros of 1e300.
+            // Without a power of ten 1e300 is three hundred zeros.
             Self::Number(number) if *number != 0.0 && !(1e-4..1e16).contains(&number.abs()) => {
                 write!(formatter, "{number:e}")
             }

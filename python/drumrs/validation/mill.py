@@ -10,7 +10,7 @@ from drumrs.validation.cases import BED, GRAVITY, Scale, contacts, stiffness, ti
 from drumrs.validation.check import NOTHING, Check
 from drumrs.validation.drum import PublishedDrum
 from drumrs.validation.results import Results, check_of_overlap, with_errors
-from drumrs.validation.toe import ends
+from drumrs.validation.toe import toe_and_shoulder
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -75,7 +75,7 @@ def measures(config: Config, seen: "FrameWindow") -> "Mapping[str, Mean]":
     """Return what frames tell of the charge, by name of the registry."""
 
     def of(piece: "FrameWindow") -> dict[str, float]:
-        found = ends(piece, config.load.diameter, config.drum.diameter / 2.0)
+        found = toe_and_shoulder(piece, config.load.diameter, config.drum.diameter / 2.0)
         return {"toe_angle": found.toe, "shoulder_angle": found.shoulder}
 
     return with_errors(of, seen)

@@ -19,14 +19,14 @@ _HALF = 0.5
 
 
 @dataclass(frozen=True)
-class Ends:
+class ToeAndShoulder:
     """Where the charge at the shell begins and ends [rad], within −π/2 and 3π/2; not a number where it is all round."""
 
     toe: float
     shoulder: float
 
 
-def ends(frames: FrameWindow, diameter: float, drum_radius: float) -> Ends:
+def toe_and_shoulder(frames: FrameWindow, diameter: float, drum_radius: float) -> ToeAndShoulder:
     """Return toe and shoulder of the charge in a window.
 
     The layer at the shell is what lies within one and a half diameters of it. From the direction of the load's
@@ -47,11 +47,11 @@ def ends(frames: FrameWindow, diameter: float, drum_radius: float) -> Ends:
 
     >>> import numpy as np
     >>> from drumrs.analysis.frame_window import FrameWindow
-    >>> from drumrs.validation.toe import ends
+    >>> from drumrs.validation.toe import toe_and_shoulder
     >>> angles = np.radians(np.arange(225.0, 315.5, 0.5))
     >>> shell = 0.95 * np.column_stack([np.cos(angles), np.sin(angles)])
     >>> seen = FrameWindow(np.array([shell, shell]), np.array([0.0, 0.01]), np.array([0.0, 0.01]))
-    >>> found = ends(seen, diameter=0.1, drum_radius=1.0)
+    >>> found = toe_and_shoulder(seen, diameter=0.1, drum_radius=1.0)
     >>> bool(abs(np.degrees(found.toe) - 225.0) < 3.0), bool(abs(np.degrees(found.shoulder) + 45.0) < 3.0)
     (True, True)
     """
@@ -71,7 +71,7 @@ def ends(frames: FrameWindow, diameter: float, drum_radius: float) -> Ends:
         ahead = _falls(places[half:], filled[half:], level)
         charge = filled[(places > -behind) & (places < ahead)]
         level = _HALF * float(np.median(charge)) if len(charge) else level
-    return Ends(_upright(middle - behind), _upright(middle + ahead))
+    return ToeAndShoulder(_upright(middle - behind), _upright(middle + ahead))
 
 
 def _falls(places: Array, filled: Array, level: float) -> float:

@@ -81,9 +81,9 @@ def ledger() -> Evidence:
         # From the least on, so that zero of the potential does not matter.
         traces.append(Trace(name, given - stored[0], stored + lost - stored[0]))
     given_all = np.concatenate([np.asarray(trace.x) for trace in traces])
-    ends = [float(given_all.min()), float(given_all.max())]
+    limits = [float(given_all.min()), float(given_all.max())]
     panel = Panel(
-        "work of the drum [J/m]", "gain of stored + lost [J/m]", (shared_curve(ends, ends), *traces)
+        "work of the drum [J/m]", "gain of stored + lost [J/m]", (shared_curve(limits, limits), *traces)
     )
     return Evidence(tuple(found), panel)
 

@@ -42,9 +42,9 @@ def _differing(one: Array, other: Array) -> float:
 def _diagonal(runs: Mapping[str, Array], reference: Array, of_what: str) -> Panel:
     """Draw coordinates of one run against those of others by label, thinned out."""
     pick = slice(None, None, max(1, reference.size // _MOST_DRAWN))
-    ends = [float(reference.min()), float(reference.max())]
+    limits = [float(reference.min()), float(reference.max())]
     traces = [Trace(label, reference.ravel()[pick], run.ravel()[pick]) for label, run in runs.items()]
-    return Panel("coordinates [m]", f"coordinates {of_what} [m]", (shared_curve(ends, ends), *traces))
+    return Panel("coordinates [m]", f"coordinates {of_what} [m]", (shared_curve(limits, limits), *traces))
 
 
 def _small(baffles: bool, changes: dict[str, Any] | None = None) -> Config:
@@ -156,16 +156,16 @@ def relabelling() -> Evidence:
     config, bed = _bed()
     places, speeds, turning = (np.asarray(a) for a in (bed.positions, bed.velocities, bed.angular_velocities))
 
-    def ends(at: Array, order: Any = slice(None)) -> Array:
+    def end_positions(at: Array, order: Any = slice(None)) -> Array:
         start = State(at[order], speeds[order], angular_velocities=turning[order])
         return np.asarray(_ran(config, _BED_STEPS, state=start).positions)
 
     order = (np.arange(len(places)) * 37 + 11) % len(places)
-    plain, back = ends(places), np.empty_like(places)
-    back[order] = ends(places, order)
+    plain, back = end_positions(places), np.empty_like(places)
+    back[order] = end_positions(places, order)
     draws = np.random.default_rng(1)
     ways = [draws.choice([-np.inf, np.inf], places.shape) for _ in range(4)]
-    grown = max(float(np.abs(ends(np.nextafter(places, way)) - plain).max()) for way in ways)
+    grown = max(float(np.abs(end_positions(np.nextafter(places, way)) - plain).max()) for way in ways)
     apart = float(np.abs(back - plain).max())
     found = (
         Check("greatest distance", "m", 0.0, apart, 10.0 * grown),

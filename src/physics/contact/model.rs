@@ -70,43 +70,20 @@ impl Model {
     }
 }
 
-/// Does the same with the law of any model.
+/// Does the same with the law of any model: each value of `Model` with its type.
 macro_rules! with_law {
-    ($model:expr, $law:ident => $work:expr) => {{
+    ($model:expr, $law:ident => $work:expr) => {
+        $crate::physics::contact::model::with_law!($model, $law => $work;
+            Bare BareLaw, Clipped ClippedLaw, Full FullLaw, Hertz BareHertzLaw, FullHertz FullHertzLaw,
+            ClippedGross ClippedGrossLaw, FullGross FullGrossLaw, FullHertzGross FullHertzGrossLaw)
+    };
+    ($model:expr, $law:ident => $work:expr; $($value:ident $type:ident),*) => {{
         use $crate::physics::contact::model as laws;
         match $model {
-            laws::Model::Bare => {
-                type $law = laws::BareLaw;
+            $(laws::Model::$value => {
+                type $law = laws::$type;
                 $work
-            }
-            laws::Model::Clipped => {
-                type $law = laws::ClippedLaw;
-                $work
-            }
-            laws::Model::Full => {
-                type $law = laws::FullLaw;
-                $work
-            }
-            laws::Model::Hertz => {
-                type $law = laws::BareHertzLaw;
-                $work
-            }
-            laws::Model::FullHertz => {
-                type $law = laws::FullHertzLaw;
-                $work
-            }
-            laws::Model::ClippedGross => {
-                type $law = laws::ClippedGrossLaw;
-                $work
-            }
-            laws::Model::FullGross => {
-                type $law = laws::FullGrossLaw;
-                $work
-            }
-            laws::Model::FullHertzGross => {
-                type $law = laws::FullHertzGrossLaw;
-                $work
-            }
+            })*
         }
     }};
 }

@@ -11,7 +11,7 @@ from drumrs import ConfigError, baseline, paper
 from drumrs.paper.baffle import inference, observations, sentences
 from drumrs.paper.baffle.design import Plan
 from drumrs.paper.baffle.emulator import Emulator
-from drumrs.paper.baffle.evidence import Known, Observable
+from drumrs.paper.baffle.evidence import Means, Observable
 from drumrs.paper.baffle.posterior import measured_corrections, posterior, round_shapes, spread_over
 from drumrs.paper.baffle.sentences import (
     ALONG,
@@ -71,7 +71,7 @@ def value(one: Observable, lengths: np.ndarray) -> float:
     return BARE_MOTION[one.quantity] * (1.0 if one.quantity == CIRCULATION else 1.0 + 1.5 * tip)
 
 
-def known_at(shapes: np.ndarray, error: float = 0.01) -> Known:
+def known_at(shapes: np.ndarray, error: float = 0.01) -> Means:
     shapes = np.atleast_2d(shapes)
     found = {}
     for one in sentences.OBSERVABLES:

@@ -7,7 +7,7 @@ import pytest
 
 from drumrs.analysis.frame_window import FrameWindow
 from drumrs.validation import morrell
-from drumrs.validation.toe import ends
+from drumrs.validation.toe import toe_and_shoulder
 
 BIN = 3.0
 
@@ -26,7 +26,7 @@ def test_toe_and_shoulder_of_a_segment(half, tilt):
     positions = np.array([frame[:count] for frame in chosen])
     times = np.arange(len(positions)) * 0.01
     # Discs so small that the layer at the shell lies all but beside it.
-    found = ends(FrameWindow(positions, times, times), diameter=0.02, drum_radius=1.0)
+    found = toe_and_shoulder(FrameWindow(positions, times, times), diameter=0.02, drum_radius=1.0)
     assert math.degrees(found.toe) == pytest.approx(270.0 + tilt - half, abs=BIN)
     assert math.degrees(found.shoulder) % 360.0 == pytest.approx((270.0 + tilt + half) % 360.0, abs=BIN)
 
@@ -34,7 +34,7 @@ def test_toe_and_shoulder_of_a_segment(half, tilt):
 def test_a_load_all_round_has_no_ends():
     angles = np.radians(np.arange(0.0, 360.0, 0.5))
     ring = np.column_stack([np.cos(angles), np.sin(angles)]) * 0.99 - [0.0, 1e-3]
-    found = ends(FrameWindow(np.array([ring, ring]), np.arange(2.0), np.arange(2.0)), 0.05, 1.0)
+    found = toe_and_shoulder(FrameWindow(np.array([ring, ring]), np.arange(2.0), np.arange(2.0)), 0.05, 1.0)
     assert math.isnan(found.toe)
     assert math.isnan(found.shoulder)
 

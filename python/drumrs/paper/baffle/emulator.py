@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drumrs.errors import ConfigError
-from drumrs.paper.baffle.evidence import Known, Observable
+from drumrs.paper.baffle.evidence import Means, Observable
 from drumrs.paper.baffle.sentences import OBSERVABLES
 from drumrs.paper.shape import BASES, HEIGHTS, Shape
 
@@ -107,7 +107,7 @@ def _scaled(shapes: Array) -> Array:
     return scaled
 
 
-def emulate(scanned: Mapping[Shape, Known]) -> dict[Observable, Emulator]:
+def emulate(scanned: Mapping[Shape, Means]) -> dict[Observable, Emulator]:
     """Return an emulator of every observable that a sentence is about.
 
     Parameters

@@ -25,7 +25,7 @@ class Observable(NamedTuple):
     baffles: bool = True
 
 
-Known = Mapping[Observable, tuple[Array, Array]]
+Means = Mapping[Observable, tuple[Array, Array]]
 """Means and their errors, each an array over shapes, or one number for the bare drum."""
 
 
@@ -56,7 +56,7 @@ class Part:
     expected: float
     at_least: bool = False
 
-    def estimate(self, known: Known) -> tuple[Array, Array]:
+    def estimate(self, known: Means) -> tuple[Array, Array]:
         """Return the number and its standard error, from independent errors of what it is made of."""
         means, errors = zip(*(known[one] for one in self.of), strict=True)
         center = np.asarray(self.value(*means))
@@ -66,12 +66,12 @@ class Part:
         ]
         return center, np.sqrt(sum(step**2 for step in steps))
 
-    def residual(self, known: Known) -> tuple[Array, Array]:
+    def residual(self, known: Means) -> tuple[Array, Array]:
         """Return the number less what is expected over the tolerance, and its standard error."""
         value, error = self.estimate(known)
         return (value - self.expected) / self.tolerance, error / self.tolerance
 
-    def log_likelihood(self, known: Known, factor: float = 1.0) -> Array:
+    def log_likelihood(self, known: Means, factor: float = 1.0) -> Array:
         """Return the logarithm of the likelihood, 0 at best, with the tolerance times a factor."""
         from scipy import special
 
@@ -102,13 +102,13 @@ class Sentence:
     quote: str
     parts: tuple[Part, ...]
 
-    def log_likelihood(self, known: Known, factor: float = 1.0) -> Array:
+    def log_likelihood(self, known: Means, factor: float = 1.0) -> Array:
         """Return the logarithm of the likelihood, with all tolerances times a factor."""
         parts = [part.log_likelihood(known, factor) for part in self.parts]
         worst: Array = np.min(np.broadcast_arrays(*parts), axis=0)
         return worst
 
-    def worst(self, known: Known) -> tuple[Part, float]:
+    def worst(self, known: Means) -> tuple[Part, float]:
         """Return the part that fits worst, and its residual, where each mean is one number."""
         part = min(self.parts, key=lambda part: float(np.max(part.log_likelihood(known))))
         return part, float(np.max(part.residual(known)[0]))

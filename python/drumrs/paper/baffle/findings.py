@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from drumrs.paper.baffle.design import Plan
 from drumrs.paper.baffle.emulator import Emulator
-from drumrs.paper.baffle.evidence import Known, Observable
+from drumrs.paper.baffle.evidence import Means, Observable
 from drumrs.paper.baffle.posterior import Array, Corrections, Posterior, foretell
 from drumrs.paper.shape import Shape
 from drumrs.sweep import Failure
@@ -44,11 +44,11 @@ class Inference:
     plan: Plan
     table: "pl.DataFrame"
     emulators: Mapping[Observable, Emulator]
-    bare: Known
+    bare: Means
     corrections: Corrections
     posteriors: Mapping[float, Posterior]
-    known: Known
-    confirmed: Mapping[Shape, Known]
+    known: Means
+    confirmed: Mapping[Shape, Means]
     failures: tuple[Failure, ...] = ()
 
     @property
@@ -64,6 +64,6 @@ class Inference:
             Shape(*row) for row in rows.select("height", "base", "tip").unique(maintain_order=True).rows()
         ]
 
-    def foretold_at(self, shapes: Array) -> Known:
+    def foretold_at(self, shapes: Array) -> Means:
         """Return what the emulators foretell at full stiffness, for rows of height, base and tip [m]."""
         return foretell(self.emulators, shapes, self.bare, self.corrections)

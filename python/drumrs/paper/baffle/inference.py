@@ -13,7 +13,7 @@ from drumrs.jobs import effective_jobs
 from drumrs.paper.baffle import page
 from drumrs.paper.baffle.design import Plan, Point
 from drumrs.paper.baffle.emulator import emulate, require_library
-from drumrs.paper.baffle.evidence import Known
+from drumrs.paper.baffle.evidence import Means
 from drumrs.paper.baffle.findings import Inference
 from drumrs.paper.baffle.observations import Key, known_by_shape, observe
 from drumrs.paper.baffle.posterior import (
@@ -100,7 +100,7 @@ def infer_baffle(
     return inference
 
 
-def _conclude(plan: Plan, runner: "_Runner", bare: Known) -> Inference:
+def _conclude(plan: Plan, runner: "_Runner", bare: Means) -> Inference:
     """Weigh all shapes again, with what was learned at full stiffness."""
     known = runner.known()
     soft, stiff = _with_springs(known, plan.softer), _with_springs(known, 1.0)
@@ -155,12 +155,12 @@ class _Runner:
 
         return pl.concat(self._tables).unique(maintain_order=True)
 
-    def known(self) -> dict[Key, Known]:
+    def known(self) -> dict[Key, Means]:
         """Return what is known of each shape."""
         return known_by_shape(self.table())
 
 
-def _with_springs(known: Mapping[Key, Known], softer: float) -> dict[Shape, Known]:
+def _with_springs(known: Mapping[Key, Means], softer: float) -> dict[Shape, Means]:
     return {shape: one for (shape, springs), one in known.items() if shape is not None and springs == softer}
 
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from drumrs.analysis import estimate
-from drumrs.paper.baffle.evidence import Known, Observable
+from drumrs.paper.baffle.evidence import Means, Observable
 from drumrs.paper.baffle.sentences import ALONG, CARRIED, CIRCULATION, MIXED, POWER, RATIO
 from drumrs.paper.measure import measure
 from drumrs.paper.shape import Shape
@@ -60,7 +60,7 @@ def observe(points: "Mapping[Point, Config]", folder: Path) -> "pl.DataFrame":
     return pl.DataFrame(told, schema=kinds)
 
 
-def known_by_shape(table: "pl.DataFrame") -> dict[Key, Known]:
+def known_by_shape(table: "pl.DataFrame") -> dict[Key, Means]:
     """Return means over seeds and their errors, by shape and softness; shapes that lack some are left out.
 
     The error of a single seed is that of its blocks, doubled, as everywhere (`analysis.estimate`).

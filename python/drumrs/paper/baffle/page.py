@@ -9,7 +9,7 @@ import numpy as np
 
 from drumrs.files import write_whole
 from drumrs.pages import provenance
-from drumrs.paper.baffle.evidence import Known, Observable, Part, Sentence
+from drumrs.paper.baffle.evidence import Means, Observable, Part, Sentence
 from drumrs.paper.baffle.posterior import Array, Posterior, weigh
 from drumrs.paper.baffle.sentences import (
     ALONG,
@@ -224,7 +224,7 @@ def _sentences(inference: "Inference") -> Iterator[str]:
             yield ""
 
 
-def _told(part: Part, known: Known, other: Known | None) -> str:
+def _told(part: Part, known: Means, other: Means | None) -> str:
     value, error = part.estimate(known)
     expected = f"{'at least ' if part.at_least else ''}{part.expected:.3g} ± {part.tolerance:.2g} expected"
     beside = f" [{part.estimate(other)[0]:.3g}]" if other else ""

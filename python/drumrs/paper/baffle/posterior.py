@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drumrs.paper.baffle.emulator import Emulator
-from drumrs.paper.baffle.evidence import Known, Observable
+from drumrs.paper.baffle.evidence import Means, Observable
 from drumrs.paper.baffle.sentences import CIRCULATION, OBSERVABLES, POWER, RATIO, log_likelihood
 from drumrs.paper.shape import BASES, HEIGHTS, ROOM, Shape, shares_of_drum
 
@@ -92,7 +92,7 @@ class Posterior:
         return float(np.sum(some * np.log2(some * len(self.weights))))
 
 
-def posterior(shapes: Array, known: Known, factor: float = 1.0) -> Posterior:
+def posterior(shapes: Array, known: Means, factor: float = 1.0) -> Posterior:
     """Weigh shapes by the likelihood of the sentences; before, all shapes of the region are equally likely.
 
     Parameters
@@ -114,8 +114,8 @@ def weigh(shapes: Array, logarithms: Array) -> Posterior:
 
 
 def foretell(
-    emulators: Mapping[Observable, Emulator], shapes: Array, bare: Known, corrections: Corrections
-) -> Known:
+    emulators: Mapping[Observable, Emulator], shapes: Array, bare: Means, corrections: Corrections
+) -> Means:
     """Return means and errors of all observables at full stiffness, those of the bare drum included.
 
     Parameters
@@ -145,7 +145,7 @@ def provisional_corrections() -> dict[Observable, Correction]:
     return found
 
 
-def measured_corrections(soft: Known, stiff: Known) -> dict[Observable, Correction]:
+def measured_corrections(soft: Means, stiff: Means) -> dict[Observable, Correction]:
     """Return corrections as means over shapes, observable by observable.
 
     Parameters

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from drumrs.paper.baffle.evidence import Array, Known, Observable, Part, Sentence
+from drumrs.paper.baffle.evidence import Array, Means, Observable, Part, Sentence
 
 POWER, RATIO = "drum_specific_power", "gross_work_ratio"
 ALONG, CARRIED, MIXED = "along_the_rim", "carried_round", "mixed_in_a_turn"
@@ -243,7 +243,7 @@ OBSERVABLES = tuple(
 )
 
 
-def log_likelihood(known: Known, factor: float = 1.0) -> Array:
+def log_likelihood(known: Means, factor: float = 1.0) -> Array:
     """Return the logarithm of the likelihood of all sentences, shape by shape.
 
     Parameters
