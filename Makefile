@@ -32,7 +32,7 @@ study: develop ## run the paper's study in full (about an hour and a half on two
 test: develop ## test the physics, the package and the documentation
 	@if command -v cargo-nextest >/dev/null; then cargo nextest run --no-fail-fast; else cargo test --lib --tests --no-fail-fast; fi
 	cargo test --doc
-	$(BIN)/python -m pytest --numprocesses 2 -m "not slow"
+	$(BIN)/python -m pytest --numprocesses 2 --dist loadfile -m "not slow"
 
 check-long: develop ## what takes hours: random loads, kills, long runs, fuzzing, the study in small, examples in full
 	$(BIN)/python -m pytest -m slow
