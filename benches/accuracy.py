@@ -23,6 +23,7 @@ import drumrs
 from drumrs import analysis
 from drumrs.figures import write
 from drumrs.figures.shared import drumrs_style
+from drumrs.paper.drums import BARE, TRIANGLES
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -60,7 +61,7 @@ class Setting:
             "frame_every": WINDOW[1],
             "record": RECORD,
         }
-        base = drumrs.baseline(FILL, baffles=self.baffles).replace({"run": run})
+        base = (TRIANGLES if self.baffles else BARE).config(FILL).replace({"run": run})
         collision = base.derived.bundle.collision_time
         return base.replace({"run.time_step": collision / self.steps}).softer(self.softer)
 

@@ -18,6 +18,7 @@ import drumrs
 from drumrs import analysis
 from drumrs.figures import write
 from drumrs.figures.shared import drumrs_style
+from drumrs.paper.drums import BAFFLED, BARE
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -66,7 +67,8 @@ def segment_lever(fill: float, bed: float = BED) -> float:
 def of_study(path: Path) -> Iterator[dict[str, Any]]:
     """Yield means over seeds of P / (M g R Ω) against fill and against speed, from the study's table."""
     table = pl.read_parquet(path).filter(
-        (pl.col("contact.bundle.friction") == TABLE_1.contact.bundle.friction)
+        (BARE.rows | BAFFLED.rows)
+        & (pl.col("contact.bundle.friction") == TABLE_1.contact.bundle.friction)
         & (pl.col("contact.bundle.restitution") == TABLE_1.contact.bundle.restitution)
         & (pl.col("load.diameter") == TABLE_1.load.diameter)
     )

@@ -23,6 +23,7 @@ from codes.liggghts import Liggghts
 from codes.ours import Drumrs
 from codes.program import Code, MissingError, PeerError
 from drumrs.figures import write
+from drumrs.paper.drums import BARE, TRIANGLES
 
 FILLS = (0.10, 0.25, 0.40, 0.50, 0.60, 0.75)
 FRICTIONS = (0.05, 0.1, 0.2, 0.3, 0.5, 0.7)
@@ -45,7 +46,8 @@ class Point:
         """Return the paper's drum with this fill, friction and seed."""
         both = {f"contact.{side}.friction": self.friction for side in ("bundle", "drum")}
         run = {"seed": seed, "duration": WINDOW[1], "window": WINDOW, "frame_every": WINDOW[1]}
-        return drumrs.baseline(self.fill, baffles=self.baffles).replace({**both, "run": run})
+        drum = TRIANGLES if self.baffles else BARE
+        return drum.config(self.fill).replace({**both, "run": run})
 
 
 def points() -> list[Point]:

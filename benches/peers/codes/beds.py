@@ -7,6 +7,7 @@ import numpy as np
 
 import drumrs
 from codes.case import Array, Case
+from drumrs.paper.drums import BARE, TRIANGLES
 
 # Up to here the drum is Table 1's; above, it grows with its load at this fill and one Froude number.
 _TABLE_1 = 300
@@ -31,7 +32,7 @@ def settled(count: int, folder: Path, *, baffles: bool = False) -> Case:
     folder
         Where the beds are kept.
     baffles
-        Whether the drum has three baffles.
+        Whether the drum has three baffles, triangles of 5 by 6 cm.
     """
     config = grown(count, baffles=baffles)
     path = folder / f"{config.digest}.npz"
@@ -48,7 +49,7 @@ def settled(count: int, folder: Path, *, baffles: bool = False) -> Case:
 
 def grown(count: int, *, baffles: bool = False) -> drumrs.Config:
     """Return the configuration of a drum for so many bundles, with the Froude number of Table 1."""
-    base = drumrs.baseline(baffles=baffles).replace({"load.count": count})
+    base = (TRIANGLES if baffles else BARE).config().replace({"load.count": count})
     if count <= _TABLE_1:
         return base
     diameter = base.load.diameter * math.sqrt(count / _FILL)

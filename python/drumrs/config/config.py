@@ -251,7 +251,8 @@ def baseline(fill: float = 0.25, *, baffles: bool = False) -> Config:
     fill
         Fill N d²/D² (0.25 is 100 bundles).
     baffles
-        Whether the drum has three triangular baffles. Their size is an assumption: the paper's is lost.
+        Whether the drum has three baffles. The paper's drawing of them is lost: the shape is inferred from its text
+        (docs/study/baffle.md).
 
     Examples
     --------

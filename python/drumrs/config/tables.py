@@ -34,18 +34,21 @@ def _key(default: Any, meaning: str, unit: str = "", example: Any = None) -> Any
 
 
 class Baffles(ConfigTable):
-    """Equal baffles, spread evenly round the rim; their default sizes are an assumption."""
+    """Equal baffles, spread evenly round the rim.
+
+    The paper's drawing of them is lost. The default shape is inferred from its text, which leaves others: docs/study.
+    """
 
     count: types.BaffleCount = _key(0, "Number of baffles; 0 is a bare drum")
     shape: Shape = _key("triangle", "'triangle', 'trapezoid' or 'polygon'")
-    height: Positive = _key(0.05, "Distance of the tip from the rim, along the baffle's axis", "m")
-    base: Positive = _key(0.06, "Distance (chord) of the two base corners, which lie on the rim", "m")
-    tip: Positive = _key(0.02, "Distance of the two tip corners of a trapezoid", "m")
+    height: Positive = _key(0.04, "Distance of the tip from the rim, along the baffle's axis", "m")
+    base: Positive = _key(0.02, "Distance (chord) of the two base corners, which lie on the rim", "m")
+    tip: Positive = _key(0.01, "Distance of the two tip corners of a trapezoid", "m")
     points: types.Points | None = _key(
         None,
         "Corners [x, y] of a polygon: x along the baffle's axis inwards from the rim, y across",
         "m",
-        [[0.0, -0.03], [0.05, 0.0], [0.0, 0.03]],
+        [[0.0, -0.01], [0.04, 0.0], [0.0, 0.01]],
     )
     phase: Real = _key(0.0, "Angle of the first baffle's axis at t = 0, counter-clockwise from +x", "degrees")
 

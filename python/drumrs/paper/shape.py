@@ -11,11 +11,11 @@ from drumrs.config import baseline
 
 Array = NDArray[np.float64]
 
-# Shapes that are searched, in m: heights as of washers' baffles and far beyond; bases from a bundle's diameter, below
-# which a baffle is a blade whose width no longer matters, to a quarter of the drum's diameter, beyond which it is a
-# hump; tips from 0, a triangle, to the base, an upright block. Wider tips would trap bundles behind them.
+# Shapes that are searched, in m: heights as of washers' baffles and far beyond; bases from less than a bundle's radius,
+# a blade whose width no longer matters, to a quarter of the drum's diameter, beyond which it is a hump; tips from 0, a
+# triangle, to the base, an upright block. Wider tips would trap bundles behind them.
 HEIGHTS = (0.02, 0.11)
-BASES = (0.02, 0.12)
+BASES = (0.01, 0.12)
 # Figure 3(c) shows a load of 75 % fill among the baffles. What is left to it then is packed as densely as discs that
 # move can be where three baffles take 6 % of the drum, and it does not fit where they take 7 %.
 ROOM = 0.06

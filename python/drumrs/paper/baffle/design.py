@@ -42,9 +42,9 @@ class Plan:
         Interval of the averages [s, s].
     """
 
-    shapes: int = 32
+    shapes: int = 64
     softer: float = 100.0
-    confirmed: int = 12
+    confirmed: int = 16
     seeds: tuple[int, ...] = (1, 2, 3)
     bare_seeds: tuple[int, ...] = (1, 2, 3)
     duration: float = 8.0

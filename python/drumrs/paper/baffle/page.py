@@ -31,7 +31,7 @@ _SHOWN = 6
 # Lengths differ by this [m] for the slope of a residual.
 _STEP = 0.005
 # A base so near the least that was searched [m] is said to be.
-_EDGE = 0.01
+_EDGE = 0.005
 # A posterior this much narrower than the prior is worth the word "known"; one above is "hardly known".
 _KNOWN, _HARDLY = 0.5, 0.8
 
@@ -85,8 +85,8 @@ def _opening(inference: "Inference") -> Iterator[str]:
     yield ""
     if best.base < BASES[0] + _EDGE:
         yield (
-            f"Its base is near the least that was searched, {_CM * BASES[0]:g} cm: thinner baffles, blades to a "
-            "bundle, were not looked at."
+            f"Its base is near the least that was searched, {_CM * BASES[0]:g} cm, less than the radius of a bundle: "
+            "to the load it is a blade."
         )
         yield ""
     yield "![What the sentences leave, and the baffles](figures/baffle.png)"
@@ -271,7 +271,7 @@ def _method(inference: "Inference") -> Iterator[str]:
     yield ""
     yield (
         f"**Shapes.** Three equal baffles, symmetric about their axes: heights of {_CM * HEIGHTS[0]:g} to "
-        f"{_CM * HEIGHTS[1]:g} cm; bases of {_CM * BASES[0]:g} cm, below which a baffle is thinner than a bundle, to "
+        f"{_CM * HEIGHTS[1]:g} cm; bases of {_CM * BASES[0]:g} cm, less than a bundle's radius, to "
         f"{_CM * BASES[1]:g} cm, a quarter of the drum's diameter; tips from 0, a triangle, to the base, an upright "
         f"block. Figure 3(c) shows a load of 75 % fill among them, which fits where the three take at most "
         f"{100.0 * ROOM:g} % of the drum: larger ones are not searched. Before anything is known, all of these are "
