@@ -11,6 +11,7 @@ use crate::physics::contact::linear;
 use crate::physics::contact::parameters::{Base, ContactParameters};
 use crate::physics::contact::species::{self, SpeciesTable};
 use crate::physics::drum::Drum;
+use crate::physics::load::composition::Discs;
 use crate::physics::particles::Particles;
 use crate::physics::vector::Vec2;
 
@@ -100,17 +101,18 @@ fn rounded_down(number: f64) -> String {
 
 /// Shortest collision times [s]: (between bundles, with the drum).
 pub(super) fn collision_times(table: &SpeciesTable, particles: &Particles) -> (f64, f64) {
-    let least = |values: &[f64]| values.iter().copied().fold(f64::INFINITY, f64::min);
-    table.collision_times((least(&particles.masses), least(&particles.radii)))
+    table.collision_times(&particles.lightest(table.count()))
 }
 
-/// What follows from a configuration before anything is packed: of bundles of the configured size.
+/// What follows from a configuration before anything is packed.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct DerivedParameters {
-    /// Mass of a bundle [kg/m].
+    /// Mass of a bundle, on average [kg/m].
     pub bundle_mass: f64,
     /// Mass of all bundles [kg/m].
     pub load_mass: f64,
+    /// What there is of each species.
+    pub species: Vec<DerivedSpecies>,
     /// Time step [s].
     pub time_step: f64,
     /// Angular velocity Ω [rad/s] where it is constant.
@@ -119,10 +121,23 @@ pub struct DerivedParameters {
     pub critical_angular_velocity: Option<f64>,
     /// Ω² R / g where there are all three.
     pub froude_number: Option<f64>,
-    /// A contact of two bundles.
+    /// A contact of two bundles; of several species, that which is over first.
     pub bundle: DerivedContact,
-    /// A contact of a bundle and the drum.
+    /// A contact of a bundle and the drum, likewise.
     pub drum: DerivedContact,
+}
+
+/// What there is of a species.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct DerivedSpecies {
+    /// Number of its bundles.
+    pub count: usize,
+    /// Mass of all of them [kg/m].
+    pub mass: f64,
+    /// Diameter of the smallest [m].
+    pub smallest: f64,
+    /// Diameter of the largest [m].
+    pub largest: f64,
 }
 
 /// What follows for contacts that obey one table.
@@ -145,29 +160,69 @@ impl DerivedParameters {
     ///
     /// # Errors
     /// `Error::Config` for a bad configuration.
-    pub fn new(config: &SimulationConfig) -> Result<Self, Error> {
+    pub fn new(config: &SimulationConfig, seed: u64) -> Result<Self, Error> {
         config.validate()?;
         let load = &config.load;
-        let radius = 0.5 * load.diameter;
-        let one = Particles::at_rest(vec![Vec2::zeros()], vec![radius], load.density, load.spin_locked);
-        let body = (one.masses[0], radius);
+        // A load of equal bundles is as many times one of them.
+        let (discs, times) = match load.species.len() {
+            0 => (Discs::equal(1, 0.5 * load.diameter), load.count),
+            _ => (load.discs(seed)?, 1),
+        };
+        let origin = vec![Vec2::zeros(); discs.radii.len()];
+        let density = |own| load.density_of(own);
+        let particles = Particles::at_rest(origin, discs.radii, discs.species, density, load.spin_locked);
+        let table = config.contact.table()?;
+        let load_mass = times as f64 * particles.total_mass();
+        let (bundle, drum) = quickest(&table, &particles);
         let gravity = config.gravity[0].hypot(config.gravity[1]);
         let angular_velocity = config.rotation.is_constant().then(|| config.rotation.angular_velocity(0.0));
         let rim = config.drum.radius;
         Ok(Self {
-            bundle_mass: body.0,
-            load_mass: load.count as f64 * body.0,
-            time_step: time_step(config, &config.contact.table()?, &one)?,
+            bundle_mass: load_mass / load.count as f64,
+            load_mass,
+            species: (0..load.species.len()).map(|own| DerivedSpecies::of(own, &particles)).collect(),
+            time_step: time_step(config, &table, &particles)?,
             angular_velocity,
             critical_angular_velocity: rim.map(|rim| (gravity / rim).sqrt()),
             froude_number: angular_velocity
                 .zip(rim)
                 .filter(|_| gravity > 0.0)
                 .map(|(speed, rim)| speed * speed * rim / gravity),
-            bundle: DerivedContact::new(&config.contact.bundle, BodyPair::of_equals(body)),
-            drum: DerivedContact::new(&config.contact.drum, BodyPair::at_wall(body)),
+            bundle,
+            drum,
         })
     }
+}
+
+impl DerivedSpecies {
+    fn of(species: usize, particles: &Particles) -> Self {
+        let own = || (0..particles.len()).filter(|&i| usize::from(particles.species[i]) == species);
+        let diameters = || own().map(|i| 2.0 * particles.radii[i]);
+        Self {
+            count: own().count(),
+            mass: own().map(|i| particles.masses[i]).sum(),
+            smallest: diameters().fold(f64::INFINITY, f64::min),
+            largest: diameters().fold(0.0, f64::max),
+        }
+    }
+}
+
+/// The contacts of two bundles, and of a bundle with the drum, that are over first.
+fn quickest(table: &SpeciesTable, particles: &Particles) -> (DerivedContact, DerivedContact) {
+    let lightest = particles.lightest(table.count());
+    let bodies = || (0_u16..).zip(&lightest).filter_map(|(species, body)| Some((species, (*body)?)));
+    let pairs = bodies().flat_map(|(one, body)| {
+        bodies().map(move |(other, second)| {
+            let equal = one == other;
+            let bodies = if equal { BodyPair::of_equals(body) } else { BodyPair::of_discs(body, second) };
+            DerivedContact::new(table.pair(one, other), bodies)
+        })
+    });
+    let walls = bodies().map(|(own, body)| DerivedContact::new(table.wall(own), BodyPair::at_wall(body)));
+    let first = |a: &DerivedContact, b: &DerivedContact| a.collision_time.total_cmp(&b.collision_time);
+    let found = (pairs.min_by(first), walls.min_by(first));
+    let (Some(pair), Some(wall)) = found else { unreachable!("a load of at least one bundle") };
+    (pair, wall)
 }
 
 impl DerivedContact {

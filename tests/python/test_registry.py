@@ -212,7 +212,7 @@ def test_numbers_of_a_configuration_have_units():
     kinds = columns._leaves(drumrs.Config)
     plain = {
         "drum.rim drum.baffles.count drum.baffles.shape load.count load.spin_locked run.seed run.record contact.base",
-        "contact.species contact.pairs contact.walls contact.bundle.tension contact.drum.tension",
+        "load.species load.share_by contact.pair contact.bundle.tension contact.drum.tension",
     }
     without = set(" ".join(plain).split())
     for key, field in kinds:

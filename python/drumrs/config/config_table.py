@@ -2,13 +2,14 @@
 
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
-from pydantic import BaseModel, ConfigDict, ValidationError, model_validator
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
 from drumrs.config.messages import both_given, conflict, refusal
 from drumrs.errors import ConfigError, format_value
 
 if TYPE_CHECKING:
     from pydantic._internal._model_construction import ModelMetaclass
+    from pydantic.config import JsonDict
 else:
     # The same class, by a public way.
     ModelMetaclass = type(BaseModel)
@@ -28,13 +29,25 @@ class _RaisesConfigError(ModelMetaclass):
             raise refusal(cls, error) from None
 
 
+def key(default: Any, meaning: str, unit: str = "", example: Any = None) -> Any:
+    """Describe a key; `example` is what the documented TOML shows for a key that is not set.
+
+    The unit is among the extras of the field's JSON schema, and behind the meaning wherever that is printed; a word
+    or a count has none, a plain number the unit "1".
+    """
+    examples = None if example is None else [example]
+    shown = f"{meaning} [{unit}]." if unit not in {"", "1"} else f"{meaning}."
+    extra: JsonDict | None = {"unit": unit} if unit else None
+    return Field(default=default, description=shown, examples=examples, json_schema_extra=extra)
+
+
 class ConfigTable(BaseModel, metaclass=_RaisesConfigError):
     """A frozen table of keys that refuses unknown ones."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", validate_default=True)
 
-    # Two keys of which a complete table holds exactly one.
-    pair: ClassVar[tuple[str, str] | None] = None
+    # Keys of which a complete table holds exactly one.
+    one_of: ClassVar[tuple[str, ...]] = ()
 
     def __setattr__(self, key: str, value: Any) -> None:
         """Refuse to change a key, and say how to get a copy with another value."""
@@ -46,14 +59,17 @@ class ConfigTable(BaseModel, metaclass=_RaisesConfigError):
         )
 
     @model_validator(mode="after")
-    def _has_one_of_its_pair(self) -> Self:
-        given = [key for key in self.pair or () if getattr(self, key) is not None]
+    def _has_one_of_its_alternatives(self) -> Self:
+        given = [key for key in self.one_of if getattr(self, key) is not None]
         if len(given) > 1:
             raise conflict(**both_given("{at}", given, {key: getattr(self, key) for key in given}))
-        if self.pair and not given:
-            first, second = self.pair
-            problem = f"and {{at}}{second} are both missing, but one of them must be given"
-            raise conflict(f"{{at}}{first}", limit=f"given, or {{at}}{second} instead", problem=problem)
+        if self.one_of and not given:
+            first, *others = self.one_of
+            instead = " or ".join(f"{{at}}{key}" for key in others)
+            problem = (
+                f"and {instead} are {'all' if others[1:] else 'both'} missing, but one of them must be given"
+            )
+            raise conflict(f"{{at}}{first}", limit=f"given, or {instead} instead", problem=problem)
         return self
 
     @classmethod

@@ -3,6 +3,7 @@
 import html
 import json
 import math
+from collections import Counter
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
 
@@ -108,7 +109,7 @@ class Player:
             Added to the title.
         """
         fill = math.fsum((2.0 * frames.radii) ** 2) / config.drum.diameter**2
-        title = config.title_of(frames.count, fill)
+        title = config.title_of(Counter(frames.species) or frames.count, fill)
         return cls(
             frames, series, title=f"{title}: {note}" if note else title, window=config.run.averaging_window
         )

@@ -90,7 +90,6 @@ def test_what_no_simulation_can_have_is_refused():
     ("key", "greatest"),
     [
         ("load.count", module.GREATEST_COUNT),
-        ("contact.species", module.GREATEST_SPECIES),
         ("drum.baffles.count", module.GREATEST_BAFFLES),
     ],
 )
