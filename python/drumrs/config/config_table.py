@@ -47,7 +47,7 @@ class ConfigTable(BaseModel, metaclass=_RaisesConfigError):
     model_config = ConfigDict(frozen=True, extra="forbid", validate_default=True)
 
     # Keys of which a complete table holds exactly one.
-    one_of: ClassVar[tuple[str, ...]] = ()
+    choice: ClassVar[tuple[str, ...]] = ()
 
     def __setattr__(self, key: str, value: Any) -> None:
         """Refuse to change a key, and say how to get a copy with another value."""
@@ -59,17 +59,14 @@ class ConfigTable(BaseModel, metaclass=_RaisesConfigError):
         )
 
     @model_validator(mode="after")
-    def _has_one_of_its_alternatives(self) -> Self:
-        given = [key for key in self.one_of if getattr(self, key) is not None]
+    def _has_one_of_its_choice(self) -> Self:
+        given = [key for key in self.choice if getattr(self, key) is not None]
         if len(given) > 1:
             raise conflict(**both_given("{at}", given, {key: getattr(self, key) for key in given}))
-        if self.one_of and not given:
-            first, *others = self.one_of
-            instead = " or ".join(f"{{at}}{key}" for key in others)
-            problem = (
-                f"and {instead} are {'all' if others[1:] else 'both'} missing, but one of them must be given"
-            )
-            raise conflict(f"{{at}}{first}", limit=f"given, or {instead} instead", problem=problem)
+        if self.choice and not given:
+            first, *others = (f"{{at}}{key}" for key in self.choice)
+            limit = f"given, or {' or '.join(others)} instead"
+            raise conflict(first, limit=limit, problem=f"is missing, but must be {limit}")
         return self
 
     @classmethod

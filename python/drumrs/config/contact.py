@@ -17,7 +17,7 @@ Base = Annotated[Literal["linear", "hertz"], Limit("'linear' or 'hertz'")]
 class LinearContact(ConfigTable):
     """A linear spring and dashpot with a tangential spring that Coulomb friction cuts off, and terms beside them."""
 
-    one_of: ClassVar[tuple[str, ...]] = ("restitution", "normal_damping")
+    choice: ClassVar[tuple[str, ...]] = ("restitution", "normal_damping")
 
     normal_stiffness: Positive = key(
         ..., "Stiffness of the normal spring; it does not count where contact.base is 'hertz'", "N/m"

@@ -70,7 +70,7 @@ class Drum(ConfigTable):
 class Rotation(ConfigTable):
     """How the drum turns, counter-clockwise positive: one speed, or a program."""
 
-    one_of: ClassVar[tuple[str, ...]] = ("rpm", "program")
+    choice: ClassVar[tuple[str, ...]] = ("rpm", "program")
 
     rpm: Real | None = key(None, "Constant speed", "rpm", 54.0)
     program: types.Program | None = key(

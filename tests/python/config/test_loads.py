@@ -298,7 +298,10 @@ def test_softer_springs_are_softer_for_every_pair():
         ({"load.mass": 5.0}, "drum.depth is missing, but must be given where load.mass is"),
         ({"load.mass": 5.0, "load.count": 5}, "load.count and load.mass are both given (5 and 5.0)"),
         ({"load.fill": 0.2, "load.bulk_fill": 0.2}, "load.fill and load.bulk_fill are both given"),
-        ({"load.fill": None}, "load.fill and load.bulk_fill or load.count or load.mass are all missing"),
+        (
+            {"load.fill": None},
+            "load.fill is missing, but must be given, or load.bulk_fill or load.count or load.mass instead",
+        ),
         (
             {"load.solid_fraction": 0.8},
             "load.solid_fraction is 0.8, but must be left out: it goes with load.bulk_fill",
