@@ -88,6 +88,7 @@ def run(
             _require_folder(out, case, force=force)
         with packing(config, show=True):
             simulation = Simulation(config, threads=threads, in_memory=out is None)
+        sys.stderr.write(f"drumrs: {simulation.facts}\n")
         folder = _open_folder(out, simulation)
     try:
         reached = _finish(simulation, folder, goal)
