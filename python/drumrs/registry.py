@@ -160,7 +160,7 @@ def declared() -> Mapping[str, Quantity]:
 
 @cache
 def _declared() -> Mapping[str, Quantity]:
-    rows = (*recorded(1, 1, RECORDINGS), *_ROWS, *_PUBLISHED_DRUMS, *_FACTS)
+    rows = (*recorded(1, 1, RECORDINGS), *_ROWS, *_PUBLISHED_DRUMS, *_FACTS, *_PHASES)
     return MappingProxyType({row.name: row for row in rows})
 
 
@@ -408,3 +408,19 @@ _FACTS = (
     ),
 )
 FACTS = tuple(row.name for row in _FACTS)
+
+# Table of the phases of a program, beyond the summary and the table of a sweep.
+_PHASES = (
+    _made("number", "1", "run", "how often the phase has come, from 1 on"),
+    _made("start", "s", "run", "time at which the phase begins"),
+    _made("end", "s", "run", "time at which the phase ends, or the run"),
+    _made("phase_work", "J/m", "run", "work of the drum on the load within the phase", symbol="ΔW"),
+    _made(
+        "phase_specific_work",
+        "J/kg",
+        "run",
+        "work of the drum on the load within the phase, over the mass of the load",
+        symbol="ΔW/M",
+    ),
+)
+PHASES = tuple(row.name for row in _PHASES)

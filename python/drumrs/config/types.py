@@ -103,9 +103,7 @@ Polyline = Annotated[
     Field(min_length=2),
     Limit("a list of at least 2 points [x, y]"),
 ]
-Name = Annotated[
-    str, Field(strict=True, min_length=1, max_length=60), Limit("a name of 1 to 60 characters")
-]
+Name = Annotated[str, Field(strict=True, min_length=1, max_length=60), Limit("a name of 1 to 60 characters")]
 Repeat = Annotated[int, _COUNT, _within(1, GREATEST_COUNT), _whole(1, GREATEST_COUNT)]
 Ramp = Annotated[tuple[Real, Real], BeforeValidator(_plain), Limit("a pair [from, to] of speeds")]
 Knot = Annotated[
