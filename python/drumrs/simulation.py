@@ -66,8 +66,8 @@ class Simulation(HasRecords):
     Warns
     -----
     DrumrsWarning
-        Where contacts stick for ever or make the time step "auto" much shorter, and where a value seems to be in
-        another unit than it is read in.
+        Where contacts stick for ever or make the time step "auto" much shorter, and where something may not be
+        what was meant, as `Config.hints` tells.
 
     Examples
     --------

@@ -137,7 +137,7 @@ class Config(Tables):
 
     @property
     def hints(self) -> list[str]:
-        """What may have been given in another unit than it is read in, a sentence each; a simulation warns of it.
+        """What may not have been meant, such as a value in another unit, a sentence each; a simulation warns of it.
 
         Raises
         ------

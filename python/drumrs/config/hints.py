@@ -1,4 +1,7 @@
-"""Hints at values that can be simulated, but were probably meant in another unit: a sentence each."""
+"""Hints at what can be simulated, but may not be what was meant, a sentence each.
+
+Values that were probably meant in another unit; phases that do not fit into the duration; gravity along a tilted axis.
+"""
 
 import math
 from collections.abc import Iterator
@@ -48,7 +51,7 @@ _DECIMALS = range(2, 16)
 
 
 def hints(config: "Tables", facts: "Facts") -> list[str]:
-    """Return what a configuration may have in another unit than its author meant, a sentence each."""
+    """Return what the author of a configuration may not have meant, a sentence each."""
     first = [*_lengths(config), *_GRAVITY.hint(math.hypot(*config.gravity))]
     # Where a length or gravity is wrong, the Froude number is wrong with it.
     return [*first, *([] if first else _speeds(config, facts)), *_others(config)]
@@ -93,6 +96,22 @@ def _others(config: "Tables") -> Iterator[str]:
             yield from replace(_MODULUS, key=f"contact.{side}.{_MODULUS.key}").hint(modulus)
     if config.drum.baffles.count:
         yield from _degrees("drum.baffles.phase", config.drum.baffles.phase)
+    yield from _degrees("drum.tilt", config.drum.tilt)
+    if config.drum.tilt:
+        angle = math.radians(config.drum.tilt)
+        within, along = (
+            abs(math.hypot(*config.gravity) * part) for part in (math.cos(angle), math.sin(angle))
+        )
+        yield (
+            f"drum.tilt is {config.drum.tilt:g} degrees: {within:.4g} m/s² of gravity act in the plane; {along:.4g} "
+            "m/s² along the axis are left out, and with them what the load does towards the end walls"
+        )
+    end, duration = max((each.end for each in config.rotation.intervals), default=0.0), config.run.duration
+    if end > duration * (1.0 + 1e-9):
+        yield (
+            f"rotation.phase lasts {end:.6g} s, run.duration {duration:g} s: what comes later is not simulated; for "
+            f"the whole program set run.duration = {end:.6g}"
+        )
 
 
 def _degrees(key: str, value: float) -> Iterator[str]:

@@ -1,5 +1,6 @@
-"""The tables of a configuration, in SI units but for rpm and the baffles' phase; defaults are the paper's Table 1."""
+"""The tables of a configuration, in SI units but for rpm and angles in degrees; defaults are the paper's Table 1."""
 
+import math
 from itertools import pairwise
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self
 
@@ -21,6 +22,7 @@ Base = Annotated[Literal["linear", "hertz"], Limit("'linear' or 'hertz'")]
 TimeStep = Annotated[Literal["auto"] | Positive, Limit("'auto' or a positive finite number")]
 Skin = Annotated[Literal["auto"] | NonNegative, Limit("'auto' or a finite number of at least 0")]
 
+_GRAVITY = (0.0, -9.81)
 _PHASES = Limit(
     "a list of phases: tables with name, duration, and rpm or ramp, or a group with phase and repeat"
 )
@@ -70,6 +72,11 @@ class Drum(ConfigTable):
 
     diameter: Positive = _key(0.475, "Inner diameter D", "m")
     rim: Flag = _key(default=True, meaning="Whether there is a rim; false leaves the walls alone")
+    tilt: types.Tilt = _key(
+        0.0,
+        "Angle of the axis to the horizontal; gravity along the axis is left out. Instead of gravity",
+        "degrees",
+    )
     walls: Annotated[tuple[types.Polyline, ...], Limit("a list of polylines")] = _key(
         (), "Further walls: open polylines of points [x, y] at t = 0, which turn with the drum", "m"
     )
@@ -363,5 +370,18 @@ class Tables(ConfigTable):
     rotation: Rotation = Field(default=Rotation(rpm=54.0))
     load: Load = Field(default=Load(fill=0.25))
     contact: Contact = Field(default=Contact())
-    gravity: types.Vector = _key((0.0, -9.81), "Gravity [x, y]", "m/s²")
+    gravity: types.Vector = _key(_GRAVITY, "Gravity [x, y]", "m/s²")
     run: Run = Field(default=Run())
+
+    @property
+    def plane_gravity(self) -> tuple[float, float]:
+        """Gravity in the plane of the drum, [x, y] in m/s²: g cos τ where the axis is tilted by τ."""
+        part = math.cos(math.radians(self.drum.tilt))
+        return self.gravity[0] * part, self.gravity[1] * part
+
+    @model_validator(mode="after")
+    def _gravity_or_tilt(self) -> Self:
+        if self.drum.tilt and self.gravity != _GRAVITY:
+            hint = "drum.tilt takes its part of 9.81 m/s²; other gravity is given as gravity = [x, y] in the plane"
+            raise conflict("drum.tilt", self.drum.tilt, "left out where gravity is given", hint=hint)
+        return self

@@ -14,7 +14,7 @@ def core_config(config: "Tables", bundle_count: int) -> dict[str, Any]:
         "rotation": {"knots": _knots(config.rotation)},
         "load": {**config.load.model_dump(exclude={"fill"}), "count": bundle_count},
         "contact": _contact(config.contact),
-        "gravity": list(config.gravity),
+        "gravity": list(config.plane_gravity),
         "run": _run(config.run),
     }
 

@@ -56,6 +56,7 @@ phase = st.recursive(
 VALUES = {
     "drum.diameter": st.floats(0.2, 2.0),
     "drum.rim": st.booleans(),
+    "drum.tilt": st.floats(-89.0, 89.0),
     "drum.walls": st.lists(st.lists(point, min_size=2, max_size=4).map(tuple), max_size=3).map(tuple),
     "drum.baffles.count": st.just(0),
     "drum.baffles.shape": st.sampled_from(["triangle", "trapezoid"]),

@@ -58,6 +58,16 @@ HINTS = {
         "contact.drum.young_modulus is 210 Pa, below 1000: write 2.1e+08 where MPa were meant or 2.1e+11 where GPa "
         "were meant",
     ),
+    "phases": (
+        {"rotation.phase": [{"duration": 20.0, "rpm": 54.0}] * 2},
+        "rotation.phase lasts 40 s, run.duration 30 s: what comes later is not simulated; for the whole program set "
+        "run.duration = 40",
+    ),
+    "tilt": (
+        {"drum.tilt": 30.0},
+        "drum.tilt is 30 degrees: 8.496 m/s² of gravity act in the plane; 4.905 m/s² along the axis are left out, and "
+        "with them what the load does towards the end walls",
+    ),
     "phase": (
         {"drum.baffles.phase": -1.047},
         "drum.baffles.phase is -1.047 degrees: write -60 where radians were meant",
@@ -89,6 +99,7 @@ def test_lengths_in_millimeters_are_told_once_each_and_nothing_of_what_follows()
         {"rotation.program": [[0.0, 0.0], [5.0, 54.0], [10.0, 800.0]]},
         {"load.diameter": 0.1, "load.count": 2},
         {"drum.baffles.phase": 1.0},
+        {"rotation.phase": [{"duration": 0.1, "rpm": 54.0}] * 300},
         {"drum.baffles.phase": 30.0},
         {"drum.baffles.count": 0, "drum.baffles.phase": 1.57},
         {"gravity": [0.0, 0.0]},
@@ -99,6 +110,13 @@ def test_lengths_in_millimeters_are_told_once_each_and_nothing_of_what_follows()
 )
 def test_ordinary_values_are_not_told(changes):
     assert BASE.replace(changes).hints == []
+
+
+def test_a_tilt_in_radians():
+    assert (
+        BASE.replace({"drum.tilt": 0.26}).hints[0]
+        == "drum.tilt is 0.26 degrees: write 15 where radians were meant"
+    )
 
 
 def test_radians_to_the_last_digit_and_to_two():
