@@ -206,7 +206,8 @@ def draw(
     def draw_time_series(path: Path) -> None:
         from drumrs import figures
 
-        figures.write(figures.time_series(series, window=window), path)
+        starts = [each.start for each in config.rotation.intervals]
+        figures.write(figures.time_series(series, window=window, starts=starts), path)
 
     def draw_snapshots(path: Path) -> None:
         from drumrs import figures

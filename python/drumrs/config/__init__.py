@@ -2,8 +2,8 @@
 
 Imports nothing else of drumrs but its errors. `types` holds the types of values and their limits in words, `tables`
 the tables of keys, `program` the phases of a program, `config` the whole configuration; `layers` merges tables,
-`messages` words what is refused, `hints` tells of values in other units, `toml_writer` writes TOML with comments,
-`to_core` translates for the compiled core, `derived` asks it what follows.
+`messages` words what is refused, `hints` tells of what may not be meant, `toml_writer` writes TOML with comments,
+`schema` a JSON schema for editors, `to_core` translates for the compiled core, `derived` asks it what follows.
 """
 
 from drumrs.config.config import Config, baseline, read_layer, require_config
