@@ -1,12 +1,17 @@
-"""`drumrs config`: every key of a case, as a file to start from, with the laws of its species."""
+"""`drumrs config`: every key of a case as a file, with the laws of its species; or a schema for editors."""
 
+import json
 import sys
 import textwrap
 from pathlib import Path
+from typing import Annotated
+
+from cyclopts import Parameter
 
 import drumrs
 from drumrs.cli.options import layered
 from drumrs.config import Config, laws
+from drumrs.config.schema import editor_schema
 
 # Keys that do not count with a base law.
 _OF_OTHER_BASES = {
@@ -15,7 +20,7 @@ _OF_OTHER_BASES = {
 }
 
 
-def config(case: Path | None = None) -> None:
+def config(case: Path | None = None, *, schema: Annotated[bool, Parameter(negative="")] = False) -> None:
     """Print every key with its value, unit and meaning, as TOML: `drumrs config > case.toml`.
 
     Of a load of several species, how much there is of each and what acts between any two of them, and between each and
@@ -25,20 +30,21 @@ def config(case: Path | None = None) -> None:
     ----------
     case
         TOML file with some keys; the baseline's values without it.
+    schema
+        Print a JSON schema of the keys instead: `drumrs config --schema > drumrs.schema.json`. With the first line
+        `#:schema drumrs.schema.json` of a case file beside it, editors that know TOML (Even Better TOML in VS Code,
+        Taplo, Tombi) complete keys, show meanings and units, and mark mistakes.
     """
-    if case is None:
-        sys.stdout.write(
-            "# The baseline of drumrs, the paper's Table 1. Keep what differs, delete the rest.\n\n"
-        )
-        sys.stdout.write(drumrs.baseline().to_toml())
-        return
-    whole = layered(case, None, None)
-    sys.stdout.write(whole.to_toml())
-    if whole.load.species:
-        lines = [*_species(whole), "", *_laws(whole)]
-        sys.stdout.write(
-            "\n" + textwrap.indent("\n".join(lines), "# ", lambda _: True).replace("# \n", "#\n") + "\n"
-        )
+    if schema:
+        _print(json.dumps(editor_schema(Config), ensure_ascii=False, indent=2) + "\n")
+    elif case is None:
+        opening = "# The baseline of drumrs, the paper's Table 1. Keep what differs, delete the rest.\n\n"
+        _print(opening + drumrs.baseline().to_toml())
+    else:
+        whole = layered(case, None, None)
+        tables = [_species(whole), _laws(whole)] if whole.load.species else []
+        comments = "".join("\n" + textwrap.indent("\n".join(rows), "# ") + "\n" for rows in tables)
+        _print(whole.to_toml() + comments)
 
 
 def _species(config: Config) -> list[str]:
@@ -73,3 +79,13 @@ def _table(rows: list[tuple[str, ...]]) -> list[str]:
     return [
         "  ".join(text.ljust(width) for text, width in zip(row, widths, strict=True)).rstrip() for row in rows
     ]
+
+
+def _print(text: str) -> None:
+    """Print what is to become a file in UTF-8, whatever the system writes to its terminals."""
+    if sys.stdout.isatty():
+        sys.stdout.write(text)
+    else:
+        sys.stdout.flush()
+        sys.stdout.buffer.write(text.encode())
+        sys.stdout.flush()

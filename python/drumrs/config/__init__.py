@@ -1,9 +1,10 @@
 """Validated, frozen configurations: keys and defaults, layers, TOML and JSON in and out.
 
 Imports nothing else of drumrs but its errors. `types` holds the types of values and their limits in words; `tables`,
-`load` and `contact` the tables of keys; `laws` what acts between two species; `config` the whole configuration.
-`layers` merges tables, `messages` words what is refused, `toml_writer` writes TOML with comments, `to_core` translates
-for the compiled core, `derived` asks it what follows.
+`load` and `contact` the tables of keys; `program` the phases of a program; `laws` what acts between two species;
+`config` the whole configuration. `layers` merges tables, `messages` words what is refused, `hints` tells of what may
+not be meant, `toml_writer` writes TOML with comments, `schema` a JSON schema for editors, `to_core` translates for the
+compiled core, `derived` asks it what follows.
 """
 
 from drumrs.config.config import Config, baseline, read_layer, require_config
@@ -13,7 +14,7 @@ from drumrs.config.laws import Law, laws
 from drumrs.config.layers import merge, nest, parse_settings
 from drumrs.config.load import Load, Sizes, Species
 from drumrs.config.messages import dotted_keys
-from drumrs.config.tables import Baffles, Drum, Rotation, Run
+from drumrs.config.tables import Baffles, Drum, Phase, Rotation, Run
 
 __all__ = [
     "Baffles",
@@ -28,6 +29,7 @@ __all__ = [
     "Load",
     "PairContact",
     "PartialContact",
+    "Phase",
     "Rotation",
     "Run",
     "Sizes",

@@ -3,7 +3,7 @@
 import json
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Self
 
 from drumrs import _core
 
@@ -37,6 +37,47 @@ class DerivedContact:
 
 
 @dataclass(frozen=True)
+class Facts:
+    """What places a case among others.
+
+    Attributes
+    ----------
+    load_mass
+        Mass of all bundles per meter of drum depth [kg/m].
+    steps_per_collision
+        Time steps in the shortest collision.
+    critical_angular_velocity
+        √(g/(R − r)) [rad/s], from which on a bundle stays on the rim all the way round; `None` without a rim.
+    critical_share
+        The drum's greatest speed over the critical one; `None` without a rim or gravity.
+    froude_number
+        Ω² R / g at the drum's greatest speed; `None` likewise.
+    """
+
+    load_mass: float
+    steps_per_collision: float
+    critical_angular_velocity: float | None
+    critical_share: float | None
+    froude_number: float | None
+
+    @classmethod
+    def read(cls, core_json: str) -> Self:
+        """Read what the core tells of a simulation."""
+        return cls(**json.loads(core_json))
+
+    def line(self, *, changing: bool) -> str:
+        """Say them in a line; where the drum's speed is changing, the numbers of the greatest one are limits."""
+        limit = "up to " if changing else ""
+        words = []
+        if self.froude_number is not None:
+            words.append(f"Froude number {limit}{self.froude_number:.3g}")
+        if self.critical_share is not None:
+            words.append(f"{limit}{100.0 * self.critical_share:.3g} % of the critical speed")
+        words.append(f"load {self.load_mass:.3g} kg per m of depth")
+        return ", ".join([*words, f"{self.steps_per_collision:.3g} steps per collision"])
+
+
+@dataclass(frozen=True)
 class DerivedSpecies:
     """What there is of one species.
 
@@ -57,34 +98,27 @@ class DerivedSpecies:
 
 
 @dataclass(frozen=True)
-class Derived:
+class Derived(Facts):
     """What follows from a configuration; see `Config.derived`.
 
     Attributes
     ----------
-    bundle_mass, load_mass
-        Mass of one bundle, on average, and of all of them, per meter of drum depth, with their water [kg/m].
+    bundle_mass
+        Mass of a bundle per meter of drum depth, on average, with its water [kg/m].
     species
         What there is of each species of ``load.species``, by name.
     time_step
         Time step [s], also where ``run.time_step`` is "auto".
     angular_velocity
         Angular velocity Ω of the drum [rad/s]; `None` where it changes.
-    critical_angular_velocity
-        √(g/R) [rad/s], from which on a bundle stays on the rim all the way round; `None` without a rim.
-    froude_number
-        Ω² R / g; `None` without a rim, a constant speed or gravity.
     bundle, drum
         The contacts of two bundles, and of a bundle with the drum; of several species, those that are over first.
     """
 
     bundle_mass: float
-    load_mass: float
     species: dict[str, DerivedSpecies]
     time_step: float
     angular_velocity: float | None
-    critical_angular_velocity: float | None
-    froude_number: float | None
     bundle: DerivedContact
     drum: DerivedContact
 

@@ -19,7 +19,7 @@ def core_config(config: "Tables", bundle_count: int) -> dict[str, Any]:
         "rotation": {"knots": _knots(config.rotation)},
         "load": _load(config.load, bundle_count),
         "contact": _contact(config.contact, config.load),
-        "gravity": list(config.gravity),
+        "gravity": list(config.plane_gravity),
         "run": _run(config.run),
     }
 
@@ -69,8 +69,7 @@ def _contact(contact: "Contact", load: "Load") -> dict[str, Any]:
 
 
 def _knots(rotation: "Rotation") -> list[tuple[float, float]]:
-    program = rotation.program or ((0.0, rotation.rpm or 0.0),)
-    return [(time, rpm * 2.0 * math.pi / 60.0) for time, rpm in program]
+    return [(time, rpm * 2.0 * math.pi / 60.0) for time, rpm in rotation.knots]
 
 
 def _run(run: "Run") -> dict[str, Any]:

@@ -105,8 +105,8 @@ def _flat(values: dict[str, Any], kinds: "Mapping[str, Any]", at: str = "") -> I
 
 
 def _plain(value: Any, kind: Any) -> Any:
-    if _is_table(_element(kind)):
-        return None if value is None else [json.dumps(table) for table in value]
+    if value is not None and _is_table(_element(kind)):
+        return [json.dumps(table) for table in value]
     return None if isinstance(value, str) and get_origin(_bare(kind)) is not Literal else value
 
 
