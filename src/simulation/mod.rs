@@ -22,7 +22,7 @@ use crate::error::Error;
 use crate::io::config::SimulationConfig;
 use crate::physics::drum::Drum;
 use crate::physics::energy::{EnergyLedger, MomentBalance};
-use crate::physics::load::insertion::pack_mixed;
+use crate::physics::load::packing::pack_mixed;
 use crate::physics::particles::Particles;
 use crate::physics::vector::Rotation;
 

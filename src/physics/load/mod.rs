@@ -2,7 +2,6 @@
 
 pub mod composition;
 pub mod formulas;
-pub mod insertion;
 pub mod packing;
 pub mod shares;
 pub mod sizes;
