@@ -60,6 +60,9 @@ def hints(config: "Tables", facts: "Facts") -> list[str]:
 def _lengths(config: "Tables") -> Iterator[str]:
     drum = config.drum
     yield from _BUNDLE.hint(config.load.diameter)
+    for index, species in enumerate(config.load.species or ()):
+        if species.diameter is not None:
+            yield from replace(_BUNDLE, key=f"load.species[{index}].diameter").hint(species.diameter)
     if drum.rim:
         yield from _DRUM.hint(drum.diameter)
     # Walls stand within the rim, or are a machine of their own.
@@ -90,6 +93,9 @@ def _speeds(config: "Tables", facts: "Facts") -> Iterator[str]:
 
 def _others(config: "Tables") -> Iterator[str]:
     yield from _DENSITY.hint(config.load.density)
+    for index, species in enumerate(config.load.species or ()):
+        if species.density is not None:
+            yield from replace(_DENSITY, key=f"load.species[{index}].density").hint(species.density)
     if config.contact.base == "hertz":
         for side in ("bundle", "drum"):
             modulus = getattr(config.contact, side).young_modulus

@@ -2,14 +2,17 @@
 
 import json
 import math
+from collections import Counter
 
 import numpy as np
+import polars as pl
 import pytest
 
 import drumrs
 from drumrs.config import Config, LinearContact, laws
 from drumrs.config.laws import mixed
 from drumrs.errors import ConfigError
+from drumrs.frames import Frames
 
 STEEL = {"name": "steel-ball", "share": 0.2, "density": 7800.0, "diameter": 0.02}
 ORE = {
@@ -136,6 +139,42 @@ def test_files_hold_species_as_lists_of_tables():
     assert '[[load.species]]\nname = "steel-ball"\nshare = 0.2\n' in text
     assert '[[contact.pair]]\nfriction = 0.9\nbetween = ["ore", "drum"]' in text
     assert Config.from_toml(text) == config
+
+
+def test_the_table_of_laws_is_printed(drum, tmp_path):
+    config = with_contacts({"friction": 0.1}, {}, {"between": ["ore", "drum"], "friction": 0.9})
+    path = tmp_path / "mill.toml"
+    path.write_text(config.to_toml(comments=False))
+    status, printed, _ = drum("config", path)
+    assert status == 0
+    assert Config.from_toml(printed) == config
+    rows = [line.split() for line in printed.splitlines() if line.startswith("# ")]
+    (names,) = (row for row in rows if row[1] == "between")
+    place = names.index("friction") + 2  # "a - b" is three words
+    mean = f"{math.sqrt(0.1 * 0.5):.4g}"
+    found = {(row[1], row[3]): (row[place], row[-1]) for row in rows if row[2:3] == ["-"]}
+    assert found["steel-ball", "ore"][0] == mean
+    assert found["ore", "drum"] == ("0.9", "contact.pair[0]")
+    counts = config.species_counts
+    assert ["#", "ore", str(counts["ore"])] in [row[:3] for row in rows]
+
+
+def test_frames_know_the_species(tmp_path):
+    config = load(**{"load.count": 20})
+    simulation = drumrs.Simulation(config)
+    frames = simulation.frames
+    assert Counter(frames.species) == config.species_counts
+    frames.save(tmp_path / "frames.parquet")
+    assert Frames.load(tmp_path / "frames.parquet").species == frames.species == simulation.species
+    table = frames.table()
+    assert set(table.filter(pl.col("species") == "steel-ball")["radius"]) == {0.01}
+    assert "species" not in drumrs.Simulation(drumrs.baseline(0.05)).frames.table().columns
+
+
+def test_densities_in_other_units_are_told():
+    with_typo = [{"name": "steel-ball", "density": 2.7}]
+    (hint,) = drumrs.baseline().replace({"load.species": with_typo, "run.time_step": "auto"}).hints
+    assert hint.startswith("load.species[0].density is 2.7 kg/m³, below 5: write 2700 where g/cm³ were meant")
 
 
 def test_unlike_laws_are_mixed():
