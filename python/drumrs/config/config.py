@@ -166,8 +166,8 @@ class Config(Tables):
         Parameters
         ----------
         changes
-            Dotted keys, such as ``"contact.bundle.friction"``, or nested tables. One of an either–or pair
-            (fill/count, restitution/normal_damping, rpm/program) takes the place of the other; `None` unsets.
+            Dotted keys, such as ``"contact.bundle.friction"``, or nested tables. One of an either–or choice
+            (fill/count, restitution/normal_damping, rpm/program/phase) takes the place of the others; `None` unsets.
 
         Raises
         ------

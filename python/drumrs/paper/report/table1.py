@@ -96,7 +96,11 @@ def rows() -> list[Row]:
             "1000 kg/m³",
             f"{load.density:g} kg/m³, {config.derived.bundle_mass:.4f} kg per m",
         ),
-        Row("number of bundles N", "100 (25 %)", f"{config.bundle_count} at fill N d²/D² = {load.fill:.0%}"),
+        Row(
+            "number of bundles N",
+            "100 (25 %)",
+            f"{config.bundle_count} at fill N d²/D² = {load.fill:.0%}, {config.derived.load_mass:.1f} kg per m",
+        ),
         Row("friction μ, both", "0.5 (symbol lost)", f"{law.friction:g}", "the other of the two rows"),
         Row(
             "restitution e, both", "0.1 (symbol lost)", f"{law.restitution:g}", "fits the damping, see below"
@@ -128,7 +132,8 @@ def _stiffness_rows(contact: Contact, name: str) -> tuple[Row, Row]:
 
 def _speed(config: Config) -> str:
     derived = config.derived
-    return f"Ω = {derived.angular_velocity:.4f} rad/s (Ω²R/g = {derived.froude_number:.3f})"
+    critical = f"{derived.critical_share:.1%} of the critical speed"
+    return f"Ω = {derived.angular_velocity:.4f} rad/s (Ω²R/g = {derived.froude_number:.3f}, {critical})"
 
 
 def _baffles() -> Row:
