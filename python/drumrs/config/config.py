@@ -9,7 +9,8 @@ from typing import Any, Self
 
 from pydantic import model_validator
 
-from drumrs.config.derived import GREATEST_COUNT, Derived, derive
+from drumrs.config.derived import GREATEST_COUNT, Derived, Facts, derive
+from drumrs.config.hints import hints
 from drumrs.config.layers import merge, nest, read_json, read_toml
 from drumrs.config.messages import conflict
 from drumrs.config.softening import layer, softening
@@ -112,6 +113,46 @@ class Config(Tables):
         many = "no baffles" if baffles == 0 else f"{baffles} baffle{'s' if baffles > 1 else ''}"
         turning = f"{self.rotation.rpm:g} rpm" if self.rotation.rpm is not None else "a program of speeds"
         return f"{load}, {many}, {turning}, seed {self.run.seed}"
+
+    @property
+    def facts(self) -> str:
+        """A line that places this case among others: Froude number, critical speed, load, resolution.
+
+        Raises
+        ------
+        ConfigError
+            Where no simulation can have this configuration.
+
+        Examples
+        --------
+        >>> import drumrs
+        >>> print(drumrs.baseline().facts)
+        Froude number 0.774, 85.8 % of the critical speed, load 44.3 kg per m of depth, 51.5 steps per collision
+        """
+        return self.facts_line(self.derived)
+
+    def facts_line(self, facts: Facts) -> str:
+        """Return the line of a simulation, whose load may have been given as a `State`."""
+        return facts.line(changing=self.rotation.rpm is None)
+
+    @property
+    def hints(self) -> list[str]:
+        """What may not have been meant, such as a value in another unit, a sentence each; a simulation warns of it.
+
+        Raises
+        ------
+        ConfigError
+            Where no simulation can have this configuration.
+
+        Examples
+        --------
+        >>> import drumrs
+        >>> drumrs.baseline().hints
+        []
+        >>> drumrs.baseline().replace({"load.density": 1.0}).hints
+        ['load.density is 1 kg/m³, below 5: write 1000 where g/cm³ were meant']
+        """
+        return hints(self, self.derived)
 
     @property
     def digest(self) -> str:

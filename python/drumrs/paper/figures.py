@@ -111,7 +111,8 @@ def _draw_states(data: StudyData) -> "Figure":
 def _draw_speed(data: StudyData) -> "Figure":
     from drumrs.paper import plots
 
-    centrifuging = (baseline().derived.critical_angular_velocity or 0.0) * 30.0 / math.pi
+    config = baseline()
+    centrifuging = (config.rotation.rpm or 0.0) / math.sqrt(config.derived.froude_number or math.inf)
     shown = data.results.shown("speed", _POWER)
     figure = plots.specific_power_against_speed(points(shown), centrifuging)
     _say_softer(figure, shown)
