@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from drumrs.config import Config, baseline
-from drumrs.paper.drums import BAFFLED, baffles_are_inferred
+from drumrs.paper.drums import BAFFLED
 
 # Scanned off the paper, units as here: stiffness [N/m] and damping [N s/m] between bundles and with the drum, and the
 # time step [s].
@@ -140,8 +140,7 @@ def _baffles() -> Row:
     one = BAFFLED.config().drum.baffles
     tip = f", {1e3 * one.tip:g} mm wide at the tip" if one.shape == "trapezoid" else ""
     used = f"3 {one.shape}s, {1e3 * one.height:g} mm high on a base of {1e3 * one.base:g} mm{tip}, every 120°"
-    known = "inferred from the text" if baffles_are_inferred() else "assumed"
-    return Row("baffles", "–", used, f"{known}: {_LOST}")
+    return Row("baffles", "–", used, f"inferred from the text: {_LOST}")
 
 
 def scientific(value: float) -> str:
