@@ -234,8 +234,9 @@ class Config(Tables):
         Parameters
         ----------
         changes
-            Dotted keys, such as ``"contact.bundle.friction"``, or nested tables. One of several that stand for each
-            other (fill/count/mass, restitution/normal_damping, rpm/program) takes their place; `None` unsets.
+            Dotted keys, such as ``"contact.bundle.friction"``, or nested tables. One of an either–or choice
+            (fill/bulk_fill/count/mass, restitution/normal_damping, rpm/program/phase) takes the place of the others;
+            `None` unsets.
 
         Raises
         ------

@@ -122,7 +122,7 @@ def _others(config: "Tables") -> Iterator[str]:
 
 def _degrees(key: str, value: float) -> Iterator[str]:
     """Give a hint at an angle in degrees that is a fraction of π, as angles in radians are."""
-    part = round(abs(value) / math.tau * _PARTS_OF_A_TURN)
+    part = round(min(abs(value) / math.tau, 2.0) * _PARTS_OF_A_TURN)
     written = {round(part * math.tau / _PARTS_OF_A_TURN, decimals) for decimals in _DECIMALS}
     if 0 < part <= _PARTS_OF_A_TURN and round(abs(value), _DECIMALS[-1]) in written:
         meant = math.copysign(360.0 * part / _PARTS_OF_A_TURN, value)

@@ -3,13 +3,42 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import chain
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from drumrs.config.tables import Phase
+from typing import Protocol
 
 # The most phases that a program may unroll to: three hours of a washer that reverses every tenth of a second.
 MOST_PHASES = 100_000
+
+
+class Phase(Protocol):
+    """What is read of a phase or group, as the table of keys has it."""
+
+    @property
+    def name(self) -> str | None:
+        """Its name."""
+
+    @property
+    def duration(self) -> float | None:
+        """Its duration [s]; none of a group."""
+
+    @property
+    def rpm(self) -> float | None:
+        """Its speed [rpm]."""
+
+    @property
+    def ramp(self) -> tuple[float, float] | None:
+        """Its speeds at both ends [rpm], instead of one."""
+
+    @property
+    def phase(self) -> "Sequence[Phase] | None":
+        """The phases of a group."""
+
+    @property
+    def repeat(self) -> int:
+        """How often a group is gone through."""
+
+    @property
+    def reversing(self) -> bool:
+        """Whether every second time it turns the other way round."""
 
 
 @dataclass(frozen=True)
@@ -32,12 +61,12 @@ class Interval:
     speeds: tuple[float, float]
 
 
-def count_phases(phases: "Sequence[Phase]") -> int:
+def count_phases(phases: Sequence[Phase]) -> int:
     """Return the number of phases that a program unrolls to."""
     return sum(phase.repeat * count_phases(phase.phase) if phase.phase else 1 for phase in phases)
 
 
-def unrolled(phases: "Sequence[Phase]") -> list[Interval]:
+def unrolled(phases: Sequence[Phase]) -> list[Interval]:
     """Return the phases of a program in the order of time."""
     intervals: list[Interval] = []
     time = 0.0
@@ -55,7 +84,7 @@ def knots_of(intervals: Sequence[Interval]) -> tuple[tuple[float, float], ...]:
 
 
 def _in_order(
-    phases: "Sequence[Phase]", sign: float, at: str = ""
+    phases: Sequence[Phase], sign: float, at: str = ""
 ) -> Iterator[tuple[str, float, tuple[float, float]]]:
     for number, phase in enumerate(phases, 1):
         name = phase.name or f"{at}{number}"

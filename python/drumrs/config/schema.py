@@ -39,5 +39,5 @@ def _tidy(part: Any) -> Any:
         elif key == "minLength" and part.get("type") == "array":
             tidy["minItems"] = value
         elif key not in {"title", "default"} or (key == "default" and not isinstance(value, dict | None)):
-            tidy[_LIMITS.get(key, key)] = _tidy(value) if key not in {"default", "examples"} else value
+            tidy[str(_LIMITS.get(key, key))] = _tidy(value) if key not in {"default", "examples"} else value
     return tidy

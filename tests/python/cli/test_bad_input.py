@@ -86,7 +86,7 @@ BAFFLES = [
     (["height=0.3"], "drum.baffles"),
     (["height=0.2375"], "drum.baffles"),
     (["base=0.6"], "drum.baffles"),
-    (["count=60"], "drum.baffles"),
+    (["count=80"], "drum.baffles"),
     (["shape=polygon"], "drum.baffles.points"),
     (["shape=polygon", "points=[[0, -0.03], [0.05, 0.03], [0.05, -0.03], [0, 0.03]]"], "drum.baffles.points"),
     (["shape=polygon", "points=[[0, -0.03], [0, -0.03], [0.05, 0], [0, 0.03]]"], "drum.baffles.points"),

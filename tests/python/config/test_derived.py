@@ -1,10 +1,12 @@
 """What follows from a configuration is what its simulation has, and what formulas written down here say."""
 
+import dataclasses
 import math
 
 import pytest
 
 import drumrs
+from drumrs import registry
 from drumrs.config import derived as module
 
 BASE = drumrs.baseline()
@@ -67,6 +69,11 @@ def test_speeds():
     program = BASE.replace({"rotation.program": [[0.0, 10.0], [1.0, -54.0], [2.0, 20.0]]}).derived
     assert program.angular_velocity is None
     assert (program.froude_number, program.critical_share) == (derived.froude_number, derived.critical_share)
+
+
+def test_what_places_a_case_is_in_the_registry():
+    names = [field.name for field in dataclasses.fields(module.Facts)]
+    assert names == list(registry.FACTS)
 
 
 def test_steps_in_a_collision():

@@ -83,7 +83,8 @@ struct Disc {
     index: usize,
 }
 
-/// Discs that are free of each other and of the drum at a part of their size.
+/// Discs that are free of each other at a part of their size. Of the drum they are always free at full size: otherwise they
+/// would be caught where there is no room for them to swell, such as between two baffles.
 struct Bed<'a> {
     drum: &'a Drum,
     bound: f64,
@@ -114,7 +115,8 @@ impl<'a> Bed<'a> {
         let mut grid = self.grid(self.scale);
         let mut tries = self.discs.len().saturating_mul(TRIES_PER_DISC).saturating_add(TRIES);
         for index in 0..self.discs.len() {
-            let radius = self.discs[index].radius * self.scale * (1.0 + GAP);
+            let full_radius = self.discs[index].radius * (1.0 + GAP);
+            let radius = full_radius * self.scale;
             let is_far = |other: u32, center: Vec2| {
                 let other = self.discs[other as usize];
                 let (apart, reach) =
@@ -126,9 +128,9 @@ impl<'a> Bed<'a> {
                     return false;
                 }
                 tries -= 1;
-                let center = in_square(self.bound - radius, random);
+                let center = in_square(self.bound - full_radius, random);
                 if grid.near(center, radius).all(|other| is_far(other, center))
-                    && self.drum.is_clear(center, radius)
+                    && self.drum.is_clear(center, full_radius)
                 {
                     break center;
                 }
@@ -173,7 +175,7 @@ impl<'a> Bed<'a> {
         }
     }
 
-    /// Pushes the discs apart until none overlaps another or a solid at this size, and tells whether that came about.
+    /// Pushes the discs apart until none overlaps another at this size, or a solid; tells whether that came about.
     fn get_free(&mut self, scale: f64) -> bool {
         if self.area * scale * scale > self.bound * self.bound {
             return false;
@@ -206,10 +208,11 @@ impl<'a> Bed<'a> {
         }
         for (index, before) in before.into_iter().enumerate() {
             let disc = self.discs[index];
-            let (center, overlap) = self.out_of_solids(disc.center, disc.radius * scale);
+            let radius = disc.radius * (1.0 + MARGIN);
+            let (center, overlap) = self.out_of_solids(disc.center, radius);
             let is_inside = self.drum.solid_at(center).is_some();
             self.discs[index].center = if is_inside { before } else { center };
-            deepest = deepest.max(if is_inside { 1.0 } else { overlap / (disc.radius * scale) });
+            deepest = deepest.max(if is_inside { 1.0 } else { overlap / radius });
         }
         deepest < 0.5 * MARGIN
     }
@@ -232,7 +235,7 @@ impl<'a> Bed<'a> {
         (center, deepest)
     }
 
-    /// Whether no disc overlaps another or a solid at this size.
+    /// Whether no disc overlaps another at this size, or a solid.
     fn is_free(&self, scale: f64, grid: &mut Grid) -> bool {
         let scale = scale * (1.0 + GAP);
         self.list(scale, grid);
@@ -242,7 +245,7 @@ impl<'a> Bed<'a> {
             dot(apart, apart) >= reach * reach
         };
         grid.pairs().all(are_apart)
-            && self.discs.iter().all(|disc| self.drum.is_clear(disc.center, disc.radius * scale))
+            && self.discs.iter().all(|disc| self.drum.is_clear(disc.center, disc.radius * (1.0 + GAP)))
     }
 
     /// Lists all discs in the grid.
