@@ -94,15 +94,16 @@ class State:
 def _species(value: ArrayLike, names: Sequence[str]) -> NDArray[np.uint16]:
     given = np.asarray(value)
     if given.dtype.kind in "OU":
-        strange = next((k for k, name in enumerate(given.ravel()) if name not in names), None)
+        named = given.ravel().tolist()
+        strange = next((k for k, name in enumerate(named) if name not in names), None)
         if strange is not None:
             limit = (
                 f"a name of load.species: {', '.join(names)}"
                 if names
                 else "a name of load.species, which has none"
             )
-            raise ConfigError(f"state.species[{strange}]", given.ravel()[strange], limit)
-        value = np.reshape([names.index(name) for name in given.ravel()], given.shape)
+            raise ConfigError(f"state.species[{strange}]", named[strange], limit)
+        value = np.reshape([names.index(name) for name in named], given.shape)
     whole = _floats("state.species", value)
     if not ((whole >= 0) & (whole < GREATEST_SPECIES) & (whole == np.floor(whole))).all():
         limit = f"of whole numbers from 0 to {GREATEST_SPECIES - 1}"

@@ -222,9 +222,11 @@ class Config(Tables):
     def digest(self) -> str:
         """32 hexadecimal digits that name this configuration: equal values, equal digest."""
         said = self.model_dump(mode="json", exclude_none=True)
+        # Equal bundles in a level drum: keys that say no more do not rename the results that lie on disk.
         if not self.load.species:
-            # A load of equal bundles keeps the name under which its results lie on disk.
             said["contact"] |= {"species": 1, "pairs": [], "walls": []}
+        if not self.drum.tilt:
+            del said["drum"]["tilt"]
         canonical = json.dumps(said, sort_keys=True)
         return hashlib.sha256(canonical.encode()).hexdigest()[:32]
 
