@@ -218,7 +218,7 @@ impl DerivedParameters {
         let facts = Facts::new(config, &table, &particles, time_step);
         let (bundle, drum) = quickest(&table, &particles);
         Ok(Self {
-            bundle_mass: load_mass / load.count as f64,
+            bundle_mass: particles.total_mass() / particles.len() as f64,
             species: (0..load.species.len()).map(|own| DerivedSpecies::of(own, &particles)).collect(),
             time_step,
             angular_velocity,

@@ -249,7 +249,7 @@ fn shares_of_species_are_met_to_one_disc() {
         };
         let each =
             || discs.species.iter().zip(&discs.radii).map(|(&own, &radius)| (own, weight(own, radius)));
-        let of = |species: u16| each().filter(|disc| disc.0 == species).map(|disc| disc.1);
+        let of = |species: u16| each().filter(move |disc| disc.0 == species).map(|disc| disc.1);
         let (steel, all): (f64, f64) = (of(0).sum(), each().map(|disc| disc.1).sum());
         let largest = of(0).chain(of(1)).fold(0.0, f64::max);
         assert!((steel - 0.25 * all).abs() < largest, "{share_by:?}: {steel} of {all}");

@@ -104,7 +104,7 @@ class Species(ConfigTable):
 class Load(ConfigTable):
     """The load: discs that stand for bundles of fabric, balls, grains; equal ones unless there are species."""
 
-    choice: ClassVar[tuple[str, ...]] = ("fill", "bulk_fill", "count", "mass")
+    choice: ClassVar[tuple[str, ...]] = ("fill", "count", "bulk_fill", "mass")
 
     diameter: Positive = key(0.02375, "Diameter d of a bundle", "m")
     density: Positive = key(

@@ -339,7 +339,7 @@ def test_softer_springs_are_softer_for_every_pair():
         ({"load.fill": 0.2, "load.bulk_fill": 0.2}, "load.fill and load.bulk_fill are both given"),
         (
             {"load.fill": None},
-            "load.fill is missing, but must be given, or load.bulk_fill or load.count or load.mass instead",
+            "load.fill is missing, but must be given, or load.count or load.bulk_fill or load.mass instead",
         ),
         (
             {"load.solid_fraction": 0.8},
