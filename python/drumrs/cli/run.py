@@ -39,9 +39,9 @@ def run(
 ) -> None:
     """Run a case: the paper's baseline, a TOML file laid over it, settings laid over the file.
 
-    The last word wins: baseline, CASE.toml, `--set`, `--seed`. One of a pair (`load.fill` or `load.count`,
-    `restitution` or `normal_damping`, `rotation.rpm`, `.program` or `.phase`) takes the place of the other from a
-    lower layer. `drumrs config` lists the keys.
+    The last word wins: baseline, CASE.toml, `--set`, `--seed`. One of a choice (`load.fill`, `.count`,
+    `.bulk_fill` or `.mass`, `restitution` or `normal_damping`, `rotation.rpm`, `.program` or `.phase`) takes the place
+    of the others from a lower layer. `drumrs config` lists the keys.
 
     Parameters
     ----------
