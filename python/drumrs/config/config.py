@@ -149,7 +149,7 @@ class Config(Tables):
         >>> import drumrs
         >>> drumrs.baseline().hints
         []
-        >>> drumrs.baseline().replace({"load.density": 1.0}).hints
+        >>> drumrs.baseline().replace({"load.density": 1.0, "run.time_step": "auto"}).hints
         ['load.density is 1 kg/m³, below 5: write 1000 where g/cm³ were meant']
         """
         return hints(self, self.derived)
