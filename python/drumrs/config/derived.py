@@ -1,6 +1,7 @@
 """What the compiled core says of a configuration: what follows from it, and the greatest counts it may have."""
 
 import json
+import math
 from dataclasses import dataclass
 from typing import Any, Self
 
@@ -62,7 +63,7 @@ class Facts:
     @classmethod
     def read(cls, core_json: str) -> Self:
         """Read what the core tells of a simulation."""
-        return cls(**json.loads(core_json))
+        return cls(**_numbers(core_json))
 
     def line(self, *, changing: bool) -> str:
         """Say them in a line; where the drum's speed is changing, the numbers of the greatest one are limits."""
@@ -99,6 +100,12 @@ class Derived(Facts):
     drum: DerivedContact
 
 
+def _numbers(core_json: str) -> dict[str, Any]:
+    """Read numbers of the core; a mass beyond all numbers, which JSON cannot hold, is infinite."""
+    values: dict[str, Any] = json.loads(core_json)
+    return values | ({"load_mass": math.inf} if values["load_mass"] is None else {})
+
+
 def derive(core_json: str) -> Derived:
     """Return what follows from a configuration as the core reads it.
 
@@ -107,6 +114,6 @@ def derive(core_json: str) -> Derived:
     ConfigError
         Where no simulation can have this configuration.
     """
-    values: dict[str, Any] = json.loads(_core.derived(core_json))
+    values = _numbers(_core.derived(core_json))
     values |= {side: DerivedContact(**values[side]) for side in ("bundle", "drum")}
     return Derived(**values)
