@@ -90,8 +90,8 @@ def run(
             _require_folder(out, case, force=force)
         with packing(config, show=True):
             simulation = Simulation(config, threads=threads, in_memory=out is None)
-        sys.stderr.write(f"drumrs: {simulation.facts}\n")
         folder = _open_folder(out, simulation)
+        sys.stderr.write(f"drumrs: {simulation.facts}\n")
     try:
         reached = _finish(simulation, folder, goal)
     except UnstableError as error:

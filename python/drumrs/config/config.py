@@ -44,12 +44,13 @@ class Config(Tables):
         if self.load.mass is not None and self.drum.depth is None:
             limit = "given where load.mass is: a mass is that of a whole drum"
             raise conflict("drum.depth", limit=limit, problem=f"is missing, but must be {limit}")
-        try:
-            self._mean_bundle()
-        except ConfigError as error:
-            raise conflict(
-                error.key, error.value, error.limit, hint=error.hint, problem=error.problem
-            ) from None
+        if self.load.species:
+            try:
+                self._mean_bundle()
+            except ConfigError as error:
+                raise conflict(
+                    error.key, error.value, error.limit, hint=error.hint, problem=error.problem
+                ) from None
         return self
 
     @model_validator(mode="after")
@@ -213,7 +214,7 @@ class Config(Tables):
         >>> import drumrs
         >>> drumrs.baseline().hints
         []
-        >>> drumrs.baseline().replace({"load.density": 1.0}).hints
+        >>> drumrs.baseline().replace({"load.density": 1.0, "run.time_step": "auto"}).hints
         ['load.density is 1 kg/m³, below 5: write 1000 where g/cm³ were meant']
         """
         return hints(self, self.derived)

@@ -1,6 +1,7 @@
 """What the compiled core says of a configuration: what follows from it, and the greatest counts it may have."""
 
 import json
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Self
@@ -63,7 +64,7 @@ class Facts:
     @classmethod
     def read(cls, core_json: str) -> Self:
         """Read what the core tells of a simulation."""
-        return cls(**json.loads(core_json))
+        return cls(**_numbers(core_json))
 
     def line(self, *, changing: bool) -> str:
         """Say them in a line; where the drum's speed is changing, the numbers of the greatest one are limits."""
@@ -123,6 +124,12 @@ class Derived(Facts):
     drum: DerivedContact
 
 
+def _numbers(core_json: str) -> dict[str, Any]:
+    """Read numbers of the core; a mass beyond all numbers, which JSON cannot hold, is infinite."""
+    values: dict[str, Any] = json.loads(core_json)
+    return values | ({"load_mass": math.inf} if values["load_mass"] is None else {})
+
+
 def derive(core_json: str, seed: int, names: Sequence[str]) -> Derived:
     """Return what follows from a configuration as the core reads it, with the seed and the names of its species.
 
@@ -131,7 +138,7 @@ def derive(core_json: str, seed: int, names: Sequence[str]) -> Derived:
     ConfigError
         Where no simulation can have this configuration.
     """
-    values: dict[str, Any] = json.loads(_core.derived(core_json, seed))
+    values = _numbers(_core.derived(core_json, seed))
     species = [DerivedSpecies(**own) for own in values["species"]]
     values["species"] = dict(zip(names, species, strict=True))
     values |= {side: DerivedContact(**values[side]) for side in ("bundle", "drum")}
