@@ -4,6 +4,7 @@ use drumrs::physics::load::composition::{Composition, SpeciesParameters};
 use drumrs::physics::load::formulas::{CUT, Formula};
 use drumrs::physics::load::shares::Measure;
 use drumrs::physics::load::sizes::{SizeDistribution, SizeLaw};
+use libm::{erf, exp, log, pow};
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
 
@@ -32,24 +33,27 @@ fn share_below(diameters: &[f64], by: Measure, diameter: f64) -> f64 {
     diameters.iter().filter(|&&d| d < diameter).map(weight).sum::<f64>() / all
 }
 
-/// Each formula, written out anew, between its ends.
-fn formulas() -> Vec<(Formula, Option<f64>, Box<dyn Fn(f64) -> f64>)> {
-    let normal = |z: f64| 0.5 * (1.0 + libm::erf(z / 2.0_f64.sqrt()));
+/// The share below a diameter.
+type Share = Box<dyn Fn(f64) -> f64>;
+
+/// Each formula, written out anew, with its smallest diameter where that must be given.
+fn formulas() -> Vec<(Formula, Option<f64>, Share)> {
+    let normal = |z: f64| 0.5 * (1.0 + erf(z / 2.0_f64.sqrt()));
     vec![
         (
             Formula::GaudinSchuhmann { top_size: 0.1, modulus: 0.6 },
             Some(0.02),
-            Box::new(|d: f64| (d / 0.1).powf(0.6)),
+            Box::new(|d: f64| pow(d / 0.1, 0.6)),
         ),
         (
             Formula::RosinRammler { size_63: 0.05, modulus: 1.4 },
             Some(0.01),
-            Box::new(|d: f64| 1.0 - (-(d / 0.05).powf(1.4)).exp()),
+            Box::new(|d: f64| 1.0 - exp(-pow(d / 0.05, 1.4))),
         ),
         (
             Formula::Lognormal { median: 0.03, sigma: 0.4 },
             None,
-            Box::new(move |d: f64| normal((d / 0.03).ln() / 0.4)),
+            Box::new(move |d: f64| normal(log(d / 0.03) / 0.4)),
         ),
         (
             Formula::Normal { mean: 0.03, sigma: 0.005 },
@@ -84,7 +88,7 @@ fn numbers_go_as_mass_over_the_square() {
     for m in [0.5, 1.0, 2.0, 3.5] {
         let law = gaudin(Measure::Mass, m, Some(a));
         let diameters = drawn(&law, MANY, 2);
-        let power = |d: f64| if m == 2.0 { d.ln() } else { d.powf(m - 2.0) / (m - 2.0) };
+        let power = |d: f64| if m == 2.0 { log(d) } else { pow(d, m - 2.0) / (m - 2.0) };
         for d in [0.011, 0.02, 0.05, 0.09] {
             let expected = (power(d) - power(a)) / (power(k) - power(a));
             assert!(
@@ -92,7 +96,7 @@ fn numbers_go_as_mass_over_the_square() {
                 "m = {m}, d = {d}"
             );
         }
-        let inverse = m * (power(k) - power(a)) / (k.powf(m) - a.powf(m));
+        let inverse = m * (power(k) - power(a)) / (pow(k, m) - pow(a, m));
         assert!((distribution(&law).mean_square() * inverse - 1.0).abs() < 1e-6, "m = {m}");
         let drawn: f64 = diameters.iter().map(|d| d * d).sum::<f64>() / MANY as f64;
         assert!((drawn * inverse - 1.0).abs() < 1e-4, "m = {m}");
@@ -105,7 +109,7 @@ fn medians_by_mass_and_by_number_differ() {
     let formula = Formula::Lognormal { median: 0.03, sigma: 0.4 };
     let diameters = drawn(&law(Measure::Mass, formula, Some(1e-3), Some(0.9)), MANY, 3);
     let median = diameters[MANY / 2];
-    assert!((median / (0.03 * (-0.32_f64).exp()) - 1.0).abs() < 1e-3, "{median}");
+    assert!((median / (0.03 * exp(-0.32)) - 1.0).abs() < 1e-3, "{median}");
 }
 
 #[test]

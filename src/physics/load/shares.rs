@@ -33,7 +33,9 @@ pub fn require_whole(key: &str, shares: &[f64]) -> Result<(), Error> {
 /// Numbers over their sum.
 pub fn normalized(mut numbers: Vec<f64>) -> Vec<f64> {
     let sum: f64 = numbers.iter().sum();
-    numbers.iter_mut().for_each(|number| *number /= sum);
+    for number in &mut numbers {
+        *number /= sum;
+    }
     numbers
 }
 
