@@ -6,11 +6,11 @@ use drumrs::io::config::SimulationConfig;
 use drumrs::observe::summary::summarize;
 use drumrs::simulation::Simulation;
 
-/// Table 1 of Park & Wassgren (the baffles' size is an assumption), SI, 54 rpm.
+/// Table 1 of Park & Wassgren (the baffles' shape is inferred), SI, 54 rpm.
 const CONFIG: &str = r#"{
   "drum": {
     "radius": 0.2375,
-    "baffles": {"count": 3, "shape": "triangle", "height": 0.05, "base": 0.06, "tip": 0.02, "points": null, "phase": 0.0},
+    "baffles": {"count": 3, "shape": "triangle", "height": 0.04, "base": 0.02, "tip": 0.01, "points": null, "phase": 0.0},
     "walls": []
   },
   "rotation": {"knots": [[0.0, 5.6548667764616276]]},
