@@ -1,27 +1,20 @@
 """Validated, frozen configurations: keys and defaults, layers, TOML and JSON in and out.
 
-Imports nothing else of drumrs but its errors. `types` holds the types of values and their limits in words, `tables`
-the tables of keys, `program` the phases of a program, `config` the whole configuration; `layers` merges tables,
-`messages` words what is refused, `hints` tells of what may not be meant, `toml_writer` writes TOML with comments,
-`schema` a JSON schema for editors, `to_core` translates for the compiled core, `derived` asks it what follows.
+Imports nothing else of drumrs but its errors. `types` holds the types of values and their limits in words; `tables`,
+`load` and `contact` the tables of keys; `program` the phases of a program; `laws` what acts between two species;
+`config` the whole configuration. `layers` merges tables, `messages` words what is refused, `hints` tells of what may
+not be meant, `toml_writer` writes TOML with comments, `schema` a JSON schema for editors, `to_core` translates for the
+compiled core, `derived` asks it what follows.
 """
 
 from drumrs.config.config import Config, baseline, read_layer, require_config
-from drumrs.config.derived import Derived, DerivedContact
+from drumrs.config.contact import Contact, LinearContact, PairContact, PartialContact
+from drumrs.config.derived import Derived, DerivedContact, DerivedSpecies
+from drumrs.config.laws import Law, laws
 from drumrs.config.layers import merge, nest, parse_settings
+from drumrs.config.load import Load, Sizes, Species
 from drumrs.config.messages import dotted_keys
-from drumrs.config.tables import (
-    Baffles,
-    Contact,
-    Drum,
-    LinearContact,
-    Load,
-    PairContact,
-    Phase,
-    Rotation,
-    Run,
-    WallContact,
-)
+from drumrs.config.tables import Baffles, Drum, Phase, Rotation, Run
 
 __all__ = [
     "Baffles",
@@ -29,16 +22,21 @@ __all__ = [
     "Contact",
     "Derived",
     "DerivedContact",
+    "DerivedSpecies",
     "Drum",
+    "Law",
     "LinearContact",
     "Load",
     "PairContact",
+    "PartialContact",
     "Phase",
     "Rotation",
     "Run",
-    "WallContact",
+    "Sizes",
+    "Species",
     "baseline",
     "dotted_keys",
+    "laws",
     "merge",
     "nest",
     "parse_settings",

@@ -3,13 +3,14 @@
 from itertools import combinations
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
-from pydantic import BaseModel, ConfigDict, ValidationError, model_validator
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
 from drumrs.config.messages import both_given, conflict, refusal
 from drumrs.errors import ConfigError, format_value
 
 if TYPE_CHECKING:
     from pydantic._internal._model_construction import ModelMetaclass
+    from pydantic.config import JsonDict
 else:
     # The same class, by a public way.
     ModelMetaclass = type(BaseModel)
@@ -27,6 +28,18 @@ class _RaisesConfigError(ModelMetaclass):
             return ModelMetaclass.__call__(cls, **values)
         except ValidationError as error:
             raise refusal(cls, error) from None
+
+
+def key(default: Any, meaning: str, unit: str = "", example: Any = None) -> Any:
+    """Describe a key; `example` is what the documented TOML shows for a key that is not set.
+
+    The unit is among the extras of the field's JSON schema, and behind the meaning wherever that is printed; a word
+    or a count has none, a plain number the unit "1".
+    """
+    examples = None if example is None else [example]
+    shown = f"{meaning} [{unit}]." if unit not in {"", "1"} else f"{meaning}."
+    extra: JsonDict | None = {"unit": unit} if unit else None
+    return Field(default=default, description=shown, examples=examples, json_schema_extra=extra)
 
 
 def _say_choice(schema: dict[str, Any], table: type[Any]) -> None:

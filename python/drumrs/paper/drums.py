@@ -58,4 +58,3 @@ BARE = Drum("without baffles")
 # The configuration's defaults, inferred from the paper's text: docs/study/baffle.md.
 BAFFLED = Drum("with baffles", MappingProxyType({f"{_BAFFLES}.count": 3}))
 TRIANGLES = Drum("with triangles", MappingProxyType(TRIANGLE.keys))
-

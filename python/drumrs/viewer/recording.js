@@ -6,10 +6,11 @@
 
 export class Recording extends EventTarget {
   // `reach` is half the width [m] of a square about the axis that holds everything; `window` is the interval of the
-  // averages [s] or null; `facts` is a line below the title; `speedScale` is the speed [m/s] at the end of the color scale; there is at least one frame.
-  constructor({ title = "", facts = "", radii, drumRadius, reach, baffles = [], walls = [], window = null, speedScale = 1, panels = [], frames }) {
+  // averages [s] or null; `facts` is a line below the title; `speedScale` is the speed [m/s] at the end of the color scale;
+  // there is at least one frame; `species` is null or { names, of }, of[k] being the place of bundle k's name.
+  constructor({ title = "", facts = "", radii, drumRadius, reach, baffles = [], walls = [], window = null, speedScale = 1, panels = [], species = null, frames }) {
     super();
-    Object.assign(this, { title, facts, radii, drumRadius, reach, baffles, walls, window, speedScale, panels, frames });
+    Object.assign(this, { title, facts, radii, drumRadius, reach, baffles, walls, window, speedScale, panels, species, frames });
   }
 
   get count() {
@@ -112,8 +113,9 @@ export function unpack(data) {
     times: decode(panel.times, Float32Array),
     lines: panel.lines.map((line) => ({ ...line, values: decode(line.values, Float32Array) })),
   }));
+  const species = data.species && { ...data.species, of: decode(data.species.of, Uint16Array) };
   const { title, facts, reach, baffles, walls, window, drum_radius: drumRadius, speed_scale: speedScale } = data;
-  return new Recording({ title, facts, radii, drumRadius, reach, baffles, walls, window, speedScale, panels, frames });
+  return new Recording({ title, facts, radii, drumRadius, reach, baffles, walls, window, speedScale, panels, species, frames });
 }
 
 // Typed arrays follow the machine's byte order, which is little-endian wherever a browser runs.

@@ -177,8 +177,8 @@ def test_softer_springs_judge_no_ratio():
 
 def test_evidence_is_judged_with_the_triangles_too():
     mine = changed("drum_power", pl.col("drum_power") * 1.2, baffles, fill < 0.5)
-    shape = [pl.lit(value).alias(key) for key, value in TRIANGLES.changes.items()]
-    triangles = mine.filter(baffles).with_columns(shape)
+    shape = {key: pl.lit(TRIANGLES.changes[key]) for key in ("drum.baffles.height", "drum.baffles.base")}
+    triangles = mine.filter(baffles).with_columns(**shape)
     found = {one.claim: one for one in paper.judge(pl.concat([world(), triangles]))}
     assert {
         claim for claim, one in found.items() if any(other.name == TRIANGLES.name for other in one.others)
