@@ -10,7 +10,7 @@
 //! | offset       | twice the number of a particle: where its vectors are in flat arrays (`motion`)                    |
 //! | chunk        | 512 particles in a row in memory, and the contacts that they own (`parallel`)                      |
 //! | pair list    | pairs that may touch before any particle has moved half the skin (`pair_list`)                     |
-//! | skin         | the margin of the pair list, 0.8 radii of the largest particle unless `run.skin` is set            |
+//! | skin         | the margin of the pair list, 0.8 mean radii of the particles unless `run.skin` is set               |
 //! | slack        | how far any particle may still move before the pair list has to be checked                         |
 //! | near list    | those pairs of the pair list that may touch within the next 32 steps                               |
 //! | horizon      | for how long a near list holds: 32 steps, or until changes of displacements use up its budget      |

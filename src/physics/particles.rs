@@ -125,6 +125,11 @@ impl Particles {
         self.radii.iter().copied().fold(0.0, f64::max)
     }
 
+    /// The mean radius [m], 0 without particles.
+    pub fn mean_radius(&self) -> f64 {
+        self.radii.iter().sum::<f64>() / self.len().max(1) as f64
+    }
+
     /// The first particle whose state is not finite.
     pub fn first_non_finite(&self) -> Option<usize> {
         (0..self.len()).find(|&i| {

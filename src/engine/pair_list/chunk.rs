@@ -30,13 +30,13 @@ pub struct ChunkNeighbors {
     pub horizon: Horizon,
     /// No particle of the chunk moves farther in a step, as seen from the drum [m].
     pub longest_displacement: f64,
-    /// 1 / (distance + reach) for the farthest and largest pair of the list of neighbors, and slightly less [1/m].
-    inverse_sum: f64,
+    /// The margin of the list of neighbors [m].
+    skin: f64,
 }
 
 impl ChunkNeighbors {
     /// For chunk `index` of `count` particles.
-    pub fn new(index: usize, count: usize, inverse_sum: f64) -> Self {
+    pub fn new(index: usize, count: usize, skin: f64) -> Self {
         let first = (index * CHUNK) as u32;
         let particles = first..(count.min((index + 1) * CHUNK)) as u32;
         Self {
@@ -46,7 +46,7 @@ impl ChunkNeighbors {
             watched: Vec::new(),
             horizon: Horizon::of(STEPS),
             longest_displacement: f64::INFINITY,
-            inverse_sum,
+            skin,
             particles,
         }
     }
@@ -56,12 +56,7 @@ impl ChunkNeighbors {
     pub fn refresh(&mut self, motion: impl MotionView, inputs: &StepInputs) {
         self.horizon.restart();
         let time = f64::from(self.horizon.steps()) * inputs.time[0];
-        let reach = Reach {
-            bodies: inputs.bodies,
-            inverse_sum: F64x4::splat(self.inverse_sum),
-            time: F64x4::splat(time),
-            budget: F64x4::splat(self.horizon.budget()),
-        };
+        let reach = Reach::new(inputs.bodies, self.skin, time, self.horizon.budget());
         self.pairs.find_near_pairs(motion, &reach);
         self.longest_displacement = self.measure_displacement(motion, inputs);
         self.fill_near_rim(motion, inputs, time);

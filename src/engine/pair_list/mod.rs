@@ -7,13 +7,14 @@
 mod cells;
 mod chunk;
 mod horizon;
+mod levels;
 mod near;
 mod neighbors;
 mod search;
 
-use cells::CellGrid;
 pub use chunk::ChunkNeighbors;
 use horizon::Horizon;
+use levels::Levels;
 pub use near::{NearBlock, Opened};
 pub use neighbors::Neighbors;
 use search::Search;
@@ -31,7 +32,6 @@ pub struct PairList {
     /// By chunk.
     pub chunks: Vec<ChunkNeighbors>,
     skin: f64,
-    largest_radius: f64,
     /// Positions when the list was built, in the drum's frame.
     anchors: Vec<Vec2>,
     /// Greatest distance from the axis at that time [m].
@@ -40,24 +40,21 @@ pub struct PairList {
     slack: f64,
     /// The angle by which the drum turned in the last step [rad].
     last_turn: f64,
-    grid: CellGrid,
+    levels: Levels,
 }
 
 impl PairList {
     /// A list for `count` particles with the margin `skin` [m] that asks to be built at once.
     pub fn new(count: usize, skin: f64, largest_radius: f64) -> Self {
-        // Within the list, a distance is at most the reach and the skin when it was built, and one skin more since.
-        let inverse_sum = ROUND_OFF / (4.0 * largest_radius + 2.0 * skin);
-        let chunk = |index| ChunkNeighbors::new(index, count, inverse_sum);
+        let chunk = |index| ChunkNeighbors::new(index, count, skin);
         Self {
             chunks: (0..chunk_count(count)).map(chunk).collect(),
             skin,
-            largest_radius,
             anchors: Vec::new(),
             farthest: 0.0,
             slack: -1.0,
             last_turn: 0.0,
-            grid: CellGrid::default(),
+            levels: Levels::new(largest_radius),
         }
     }
 
@@ -149,9 +146,9 @@ impl PairList {
         self.anchors.resize(positions.len(), Vec2::zeros());
         threads.set_each(&mut self.anchors, |i| inputs.rotation.apply_inverse(positions[i]));
         let bounds = (Vec2::new(-left, -low), Vec2::new(right, high));
-        self.grid.fill(positions, bounds, 2.0 * self.largest_radius + self.skin, threads);
-        let Self { chunks, grid, anchors, skin, .. } = self;
-        let search = Search { grid, anchors, positions, skin: *skin };
+        self.levels.fill(positions, &inputs.bodies, bounds, self.skin, threads);
+        let Self { chunks, levels, anchors, skin, .. } = self;
+        let search = Search { levels, anchors, positions, skin: *skin };
         threads.for_each(positions.len(), chunks.iter_mut(), |chunk| search.run(chunk, inputs));
     }
 }

@@ -6,6 +6,7 @@
 //! prunes its outer list to an inner one in the same way). No result depends on it, since a pair that is left out cannot
 //! touch before the list ends (`horizon`).
 
+use super::chunk::ROUND_OFF;
 use crate::engine::contacts::NOT_LISTED;
 use crate::engine::forces::Bodies;
 use crate::engine::motion::{MotionView, at_offset, offset};
@@ -97,16 +98,44 @@ impl NearList {
 #[derive(Debug, Clone, Copy)]
 pub struct Reach<'a> {
     /// What the particles are.
-    pub bodies: Bodies<'a>,
-    /// 1 / (distance + reach) for the farthest and largest pair of the list of neighbors, and slightly less [1/m].
-    pub inverse_sum: F64x4,
+    bodies: Bodies<'a>,
+    /// The margin of the list of neighbors [m].
+    skin: F64x4,
+    /// Of equal particles, what a pair's are.
+    equal: Option<PairReach>,
     /// The time for which the list is made [s].
-    pub time: F64x4,
+    time: F64x4,
     /// What changes of displacements may add to the approach [m].
-    pub budget: F64x4,
+    budget: F64x4,
 }
 
-impl Reach<'_> {
+/// The reach of four pairs, and what follows from it.
+#[derive(Debug, Clone, Copy)]
+struct PairReach {
+    /// Sum of the radii [m].
+    reach: F64x4,
+    /// 1 / (distance + reach) for the farthest pair in the list of neighbors, and slightly less [1/m].
+    inverse_sum: F64x4,
+}
+
+impl PairReach {
+    #[inline(always)]
+    fn new(reach: F64x4, skin: F64x4) -> Self {
+        // In the list, a distance is at most the reach and the skin when it was built, and one skin more since.
+        let sum = (reach + skin) * 2.0;
+        Self { reach, inverse_sum: F64x4::splat(ROUND_OFF) / sum }
+    }
+}
+
+impl<'a> Reach<'a> {
+    /// For a list of neighbors of the margin `skin` [m], of which the near ones are wanted for so long [s]; `budget` is what
+    /// changes of displacements may add to the approach [m].
+    pub fn new(bodies: Bodies<'a>, skin: f64, time: f64, budget: f64) -> Self {
+        let [skin, time, budget] = [skin, time, budget].map(F64x4::splat);
+        let equal = bodies.radius.map(|radius| PairReach::new(F64x4::splat(radius + radius), skin));
+        Self { bodies, skin, equal, time, budget }
+    }
+
     /// Which of four pairs may touch, as bits.
     #[inline(always)]
     pub fn near(&self, pairs: &[(u32, u32); LANES], motion: impl MotionView) -> u32 {
@@ -114,14 +143,14 @@ impl Reach<'_> {
         let apart = differences(|lane| motion.position(own(lane)), |lane| motion.position(other(lane)));
         let velocity = differences(|lane| motion.velocity(own(lane)), |lane| motion.velocity(other(lane)));
         let radius = |particle| self.bodies.radius_of(particle);
-        let distance = match self.bodies.radius {
-            Some(radius) => F64x4::splat(radius + radius),
-            None => lanes(|lane| radius(pairs[lane].0) + radius(pairs[lane].1)),
-        };
+        let PairReach { reach, inverse_sum } = self.equal.unwrap_or_else(|| {
+            let reach = lanes(|lane| radius(pairs[lane].0) + radius(pairs[lane].1));
+            PairReach::new(reach, self.skin)
+        });
         // The gap is (d² − reach²) / (d + reach). The approach is over d, which is no less than the reach.
-        let excess = apart.dot(apart) - distance * distance;
-        let gap = excess.larger(F64x4::ZERO) * self.inverse_sum;
-        let approach = -(apart.dot(velocity)) * (self.time / distance);
+        let excess = apart.dot(apart) - reach * reach;
+        let gap = excess.larger(F64x4::ZERO) * inverse_sum;
+        let approach = -(apart.dot(velocity)) * (self.time / reach);
         !gap.exceeds(approach.larger(F64x4::ZERO) + self.budget).to_bitmask() & ALL_LANES
     }
 }

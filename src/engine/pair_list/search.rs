@@ -1,7 +1,7 @@
 //! The search of the cells: which bodies are near each particle of a chunk.
 
-use super::cells::CellGrid;
 use super::chunk::ChunkNeighbors;
+use super::levels::Levels;
 use crate::engine::forces::StepInputs;
 use crate::engine::parallel::CHUNK;
 use crate::physics::drum::RIM;
@@ -10,7 +10,7 @@ use crate::physics::vector::{Vec2, dot};
 /// Where a search looks.
 #[derive(Debug, Clone, Copy)]
 pub struct Search<'a> {
-    pub grid: &'a CellGrid,
+    pub levels: &'a Levels,
     /// Positions in the drum's frame.
     pub anchors: &'a [Vec2],
     pub positions: &'a [Vec2],
@@ -49,10 +49,12 @@ impl Search<'_> {
         let (own, radius) =
             (self.positions[particle as usize], inputs.bodies.radius_of(particle) + self.skin);
         let start = chunk.pairs.pairs().len();
-        for &(other, position) in self.grid.around(particle as usize) {
-            let (apart, reach) = (position - own, radius + inputs.bodies.radius_of(other));
-            if other > particle && dot(apart, apart) < reach * reach {
-                chunk.pairs.push(particle, other);
+        for level in self.levels.iter() {
+            for &(other, position) in level.grid.around(own, radius + level.largest) {
+                let (apart, reach) = (position - own, radius + inputs.bodies.radius_of(other));
+                if other > particle && dot(apart, apart) < reach * reach {
+                    chunk.pairs.push(particle, other);
+                }
             }
         }
         chunk.pairs.sort_from(start);
