@@ -45,6 +45,8 @@ class Frames:
         Radii of the bundles [m], shape (n,).
     drum_radius
         Radius of the rim [m], or `None` for a scene without one.
+    shell
+        The closed outline of a drum that is not round, in the drum's own frame [m], of shape (k, 2), or `None`.
     baffles, walls
         Closed baffles and open walls in the drum's own frame [m], each of shape (k, 2).
     """
@@ -56,6 +58,7 @@ class Frames:
     speeds: NDArray[np.float32]
     radii: NDArray[np.float64]
     drum_radius: float | None = None
+    shell: NDArray[np.float64] | None = None
     baffles: tuple[NDArray[np.float64], ...] = ()
     walls: tuple[NDArray[np.float64], ...] = ()
 
@@ -67,6 +70,11 @@ class Frames:
     def count(self) -> int:
         """Number of bundles n."""
         return len(self.radii)
+
+    @property
+    def reach(self) -> float | None:
+        """Radius of the rim, or of the shell's farthest corner [m]; `None` for a scene without either."""
+        return self.drum_radius if self.shell is None else float(np.hypot(*self.shell.T).max())
 
     def nearest(self, time: float) -> int:
         """Return the index of the frame nearest to `time` [s]."""
@@ -120,6 +128,7 @@ class Frames:
         """Return the drum's outline in plain numbers."""
         return {
             "drum_radius": self.drum_radius,
+            "shell": None if self.shell is None else self.shell.tolist(),
             "baffles": [line.tolist() for line in self.baffles],
             "walls": [line.tolist() for line in self.walls],
         }
@@ -238,6 +247,7 @@ class FramesFile:
             speeds=np.empty(shape, speed),
             radii=np.empty(self.count),
             drum_radius=scene["drum_radius"],
+            shell=None if scene.get("shell") is None else np.array(scene["shell"]),
             baffles=tuple(np.array(line) for line in scene["baffles"]),
             walls=tuple(np.array(line) for line in scene["walls"]),
         )

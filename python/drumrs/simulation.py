@@ -108,7 +108,7 @@ class Simulation(HasRecords):
     def _start(self, config: Config, core: _core.Simulation) -> None:
         self._config = config
         self._core = core
-        columns = recorded(config.drum.baffles.count, len(config.drum.walls), config.run.record)
+        columns = recorded(core.parts(), config.run.record)
         self._records = Records(core, config, [column.name for column in columns])
         self._stop = threading.Event()
         self._running = threading.Lock()

@@ -21,7 +21,7 @@ use crate::simulation::{Records, Simulation};
 
 const MAGIC: &[u8; 8] = b"DRUMRS\r\n";
 /// Version of the layout below; a checkpoint of another one is refused.
-pub const FORMAT_VERSION: u32 = 6;
+pub const FORMAT_VERSION: u32 = 7;
 /// Beyond this, step × time step is no longer exact to a step.
 const MOST_STEPS: u64 = 1 << 53;
 const HEADER: usize = MAGIC.len() + 4 + 32;
@@ -146,7 +146,7 @@ fn check(state: &State, engine: &EngineState, config: &SimulationConfig) -> Resu
     ensure(is_run, "it holds no bundle, or more steps than a run can have")?;
     let is_there = |&species: &u16| usize::from(species) < table.count();
     ensure(particles.species.iter().all(is_there), "a bundle is of a species that is not there")?;
-    let fits = drum.radius().is_none_or(|rim| particles.largest_radius() < rim);
+    let fits = drum.bounding_radius().is_none_or(|rim| particles.largest_radius() < rim);
     ensure(fits, "a bundle is larger than its drum")?;
     let has_accounts = state.ledger.surfaces.len() == drum.surface_count();
     ensure(has_accounts, "its accounts are not those of its drum")?;

@@ -160,7 +160,7 @@ impl SimulationConfig {
     pub fn validate(&self) -> Result<(), Error> {
         self.drum.validate()?;
         self.rotation.validate()?;
-        self.load.validate(self.drum.radius)?;
+        self.load.validate(self.drum.bounding_radius())?;
         self.contact.validate()?;
         for component in self.gravity {
             require_finite("gravity", component)?;

@@ -76,7 +76,7 @@ impl Simulation {
         let mut near = (0..particles.len()).filter(is_near);
         match near.find_map(|place| Some((place, inside(place)?))) {
             Some((place, surface)) => {
-                Err(Error::Escaped { incident: self.incident(place), surface: drum.surface_name(surface) })
+                Err(Error::Escaped { incident: self.incident(place), surface: drum.surface_name(surface).to_owned() })
             }
             None => Ok(()),
         }

@@ -6,7 +6,7 @@ use drumrs::physics::drum::{Drum, DrumParameters};
 use drumrs::physics::load::packing::pack;
 use drumrs::physics::vector::{Rotation, Vec2, cross, dot};
 
-use crate::common::{DRUM_RADIUS, RADIUS, baffles};
+use crate::common::{DRUM_RADIUS, RADIUS, baffles, drum_with};
 
 /// The drum of the paper with so many triangular baffles, all lengths times a scale.
 fn scaled(scale: f64, baffle_count: usize) -> Drum {
@@ -14,7 +14,7 @@ fn scaled(scale: f64, baffle_count: usize) -> Drum {
     let (height, base) = (scale * baffles.height, scale * baffles.base);
     let radius = Some(scale * DRUM_RADIUS);
     let baffles = BaffleParameters { height, base, ..baffles };
-    Drum::new(&DrumParameters { radius, baffles, walls: vec![] }).unwrap()
+    Drum::new(&DrumParameters { radius, shell: None, baffles: vec![baffles], walls: vec![] }).unwrap()
 }
 
 /// The bare drum and the one with baffles.
@@ -213,7 +213,7 @@ fn nothing_is_placed_where_nothing_is_asked_for() {
 
 #[test]
 fn a_drum_without_bounds_and_a_disc_without_size_are_refused() {
-    let without_rim = DrumParameters { radius: None, baffles: baffles(0), walls: vec![] };
+    let without_rim = DrumParameters { radius: None, ..drum_with(baffles(0)) };
     let error = pack(&Drum::new(&without_rim).unwrap(), 1, RADIUS, 1).unwrap_err();
     assert_eq!(error.to_string(), "drum.diameter is none, but must be given when no initial state is");
     for radius in [0.0, -1.0, f64::NAN] {

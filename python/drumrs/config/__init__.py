@@ -1,18 +1,19 @@
 """Validated, frozen configurations: keys and defaults, layers, TOML and JSON in and out.
 
-Imports nothing else of drumrs but its errors. `types` holds the types of values and their limits in words, `tables`
-the tables of keys, `config` the whole configuration; `layers` merges tables, `messages` words what is refused,
+Imports nothing else of drumrs but its errors and the reader of drawings. `types` holds the types of values and their
+limits in words, `tables` and `drum_tables` the tables of keys, `config` the whole configuration, `liner` where a liner
+is read; `layers` merges tables, `messages` words what is refused,
 `toml_writer` writes TOML with comments, `to_core` translates for the compiled core, `derived` asks it what follows.
 """
 
 from drumrs.config.config import Config, baseline, read_layer, require_config
 from drumrs.config.derived import Derived, DerivedContact
+from drumrs.config.drum_tables import Baffles, Drum, Liner, Outline, Rail
 from drumrs.config.layers import merge, nest, parse_settings
+from drumrs.config.liner import anchored
 from drumrs.config.messages import dotted_keys
 from drumrs.config.tables import (
-    Baffles,
     Contact,
-    Drum,
     LinearContact,
     Load,
     PairContact,
@@ -29,11 +30,15 @@ __all__ = [
     "DerivedContact",
     "Drum",
     "LinearContact",
+    "Liner",
     "Load",
+    "Outline",
     "PairContact",
+    "Rail",
     "Rotation",
     "Run",
     "WallContact",
+    "anchored",
     "baseline",
     "dotted_keys",
     "merge",

@@ -7,10 +7,11 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Self
 
-from pydantic import model_validator
+from pydantic import ModelWrapValidatorHandler, model_validator
 
 from drumrs.config.derived import GREATEST_COUNT, Derived, derive
 from drumrs.config.layers import merge, nest, read_json, read_toml
+from drumrs.config.liner import anchored, with_drawing
 from drumrs.config.messages import conflict
 from drumrs.config.softening import layer, softening
 from drumrs.config.tables import Tables
@@ -34,16 +35,24 @@ class Config(Tables):
     (0.3, 160)
     """
 
+    @model_validator(mode="wrap")
+    @classmethod
+    def _drawing_is_read(cls, values: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
+        config = handler(values)
+        return config if config.drum.liner.file is None else handler(with_drawing(config))
+
     @model_validator(mode="after")
     def _bundles_are_smaller_than_the_drum(self) -> Self:
         if self.drum.rim and self.load.diameter >= self.drum.diameter:
             limit = f"smaller than drum.diameter = {self.drum.diameter}"
             raise conflict("load.diameter", self.load.diameter, limit)
+        if self.drum.liner.file is not None:
+            return self  # How large the drum is, the drawing tells.
         least, one, greatest = (self.fill_of(count) for count in (0.5, 1, GREATEST_COUNT))
         if self.load.fill is not None and not least < self.load.fill <= greatest:
             limit = (
                 f"between {least:.4g} and {greatest:.4g}: one bundle of diameter {self.load.diameter} fills {one:.4g} "
-                f"of a drum of diameter {self.drum.diameter}"
+                f"of a drum of diameter {self.drum.area_diameter:.4g}"
             )
             raise conflict("load.fill", self.load.fill, limit)
         return self
@@ -53,16 +62,16 @@ class Config(Tables):
         """Number of bundles N: given, or the whole number nearest to fill · D²/d²."""
         if self.load.count is not None:
             return self.load.count
-        return round((self.load.fill or 0.0) * (self.drum.diameter / self.load.diameter) ** 2)
+        return round((self.load.fill or 0.0) * (self.drum.area_diameter / self.load.diameter) ** 2)
 
     @property
     def fill(self) -> float:
-        """Fill N d²/D² of the whole number of bundles N."""
+        """Fill N d²/D² of the whole number of bundles N; in a drum that is not round D is that of an equal circle."""
         return self.fill_of(self.bundle_count)
 
     def fill_of(self, count: float) -> float:
         """Return the fill N d²/D² of so many bundles of the configured size."""
-        return count * (self.load.diameter / self.drum.diameter) ** 2
+        return count * (self.load.diameter / self.drum.area_diameter) ** 2
 
     @property
     def derived(self) -> Derived:
@@ -107,11 +116,9 @@ class Config(Tables):
         >>> drumrs.baseline().title_of(1, 0.0025)
         '1 bundle (0.25 % fill), no baffles, 54 rpm, seed 1'
         """
-        baffles = self.drum.baffles.count
         load = f"{bundle_count} bundle{'s' if bundle_count != 1 else ''} ({100.0 * fill:.3g} % fill)"
-        many = "no baffles" if baffles == 0 else f"{baffles} baffle{'s' if baffles > 1 else ''}"
         turning = f"{self.rotation.rpm:g} rpm" if self.rotation.rpm is not None else "a program of speeds"
-        return f"{load}, {many}, {turning}, seed {self.run.seed}"
+        return f"{load}, {self.drum.fittings}, {turning}, seed {self.run.seed}"
 
     @property
     def digest(self) -> str:
@@ -240,7 +247,7 @@ def read_layer(path: str | Path) -> dict[str, Any]:
         problem = f"cannot be read as a file of configuration keys: {reason}"
         raise ConfigError(Path(path), problem=problem, hint=_WRITE_ONE) from None
     read = read_json if Path(path).suffix == ".json" else read_toml
-    return read(text, Path(path))
+    return anchored(read(text, Path(path)), Path(path).parent)
 
 
 def baseline(fill: float = 0.25, *, baffles: bool = False) -> Config:

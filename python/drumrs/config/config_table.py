@@ -1,17 +1,30 @@
-"""`ConfigTable`: what every table of a configuration has in common."""
+"""`ConfigTable`: what every table of a configuration has in common; `described`: a key with its meaning and unit."""
 
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
-from pydantic import BaseModel, ConfigDict, ValidationError, model_validator
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
 from drumrs.config.messages import both_given, conflict, refusal
 from drumrs.errors import ConfigError, format_value
 
 if TYPE_CHECKING:
     from pydantic._internal._model_construction import ModelMetaclass
+    from pydantic.config import JsonDict
 else:
     # The same class, by a public way.
     ModelMetaclass = type(BaseModel)
+
+
+def described(default: Any, meaning: str, unit: str = "", example: Any = None) -> Any:
+    """Describe a key; `example` is what the documented TOML shows for a key that is not set.
+
+    The unit is among the extras of the field's JSON schema, and behind the meaning wherever that is printed; a word
+    or a count has none, a plain number the unit "1".
+    """
+    examples = None if example is None else [example]
+    shown = f"{meaning} [{unit}]." if unit not in {"", "1"} else f"{meaning}."
+    extra: JsonDict | None = {"unit": unit} if unit else None
+    return Field(default=default, description=shown, examples=examples, json_schema_extra=extra)
 
 
 class _RaisesConfigError(ModelMetaclass):

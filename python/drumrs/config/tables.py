@@ -1,80 +1,22 @@
-"""The tables of a configuration, in SI units but for rpm and the baffles' phase; defaults are the paper's Table 1."""
+"""The tables of a configuration, in SI units but for rpm and degrees; defaults are the paper's Table 1."""
 
 from itertools import pairwise
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self
+from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import Field, model_validator
 
 from drumrs.config import types
 from drumrs.config.config_table import ConfigTable
+from drumrs.config.config_table import described as _key
+from drumrs.config.drum_tables import Drum
 from drumrs.config.layers import merge
 from drumrs.config.messages import both_given, conflict
 from drumrs.config.types import Flag, Limit, NonNegative, Positive, Real
 
-if TYPE_CHECKING:
-    from pydantic.config import JsonDict
-
-Shape = Annotated[Literal["triangle", "trapezoid", "polygon"], Limit("'triangle', 'trapezoid' or 'polygon'")]
 Tension = Annotated[Literal["allowed", "clipped"], Limit("'allowed' or 'clipped'")]
 Base = Annotated[Literal["linear", "hertz"], Limit("'linear' or 'hertz'")]
 TimeStep = Annotated[Literal["auto"] | Positive, Limit("'auto' or a positive finite number")]
 Skin = Annotated[Literal["auto"] | NonNegative, Limit("'auto' or a finite number of at least 0")]
-
-
-def _key(default: Any, meaning: str, unit: str = "", example: Any = None) -> Any:
-    """Describe a key; `example` is what the documented TOML shows for a key that is not set.
-
-    The unit is among the extras of the field's JSON schema, and behind the meaning wherever that is printed; a word
-    or a count has none, a plain number the unit "1".
-    """
-    examples = None if example is None else [example]
-    shown = f"{meaning} [{unit}]." if unit not in {"", "1"} else f"{meaning}."
-    extra: JsonDict | None = {"unit": unit} if unit else None
-    return Field(default=default, description=shown, examples=examples, json_schema_extra=extra)
-
-
-class Baffles(ConfigTable):
-    """Equal baffles, spread evenly round the rim.
-
-    The paper's drawing of them is lost. The default shape is inferred from its text, which leaves others: docs/study.
-    """
-
-    count: types.BaffleCount = _key(0, "Number of baffles; 0 is a bare drum")
-    shape: Shape = _key("triangle", "'triangle', 'trapezoid' or 'polygon'")
-    height: Positive = _key(0.04, "Distance of the tip from the rim, along the baffle's axis", "m")
-    base: Positive = _key(0.02, "Distance (chord) of the two base corners, which lie on the rim", "m")
-    tip: Positive = _key(0.01, "Distance of the two tip corners of a trapezoid", "m")
-    points: types.Points | None = _key(
-        None,
-        "Corners [x, y] of a polygon: x along the baffle's axis inwards from the rim, y across",
-        "m",
-        [[0.0, -0.01], [0.04, 0.0], [0.0, 0.01]],
-    )
-    phase: Real = _key(0.0, "Angle of the first baffle's axis at t = 0, counter-clockwise from +x", "degrees")
-
-    @model_validator(mode="after")
-    def _polygon_has_points(self) -> Self:
-        if self.shape == "polygon" and self.points is None:
-            limit = "given where {at}shape is 'polygon'"
-            raise conflict("{at}points", limit=limit, problem=f"is missing, but must be {limit}")
-        return self
-
-
-class Drum(ConfigTable):
-    """The drum: rim, baffles and straight walls, one rigid body that turns about the origin."""
-
-    diameter: Positive = _key(0.475, "Inner diameter D", "m")
-    rim: Flag = _key(default=True, meaning="Whether there is a rim; false leaves the walls alone")
-    walls: Annotated[tuple[types.Polyline, ...], Limit("a list of polylines")] = _key(
-        (), "Further walls: open polylines of points [x, y] at t = 0, which turn with the drum", "m"
-    )
-    baffles: Baffles = Field(default=Baffles())
-
-    @model_validator(mode="after")
-    def _baffles_stand_on_a_rim(self) -> Self:
-        if self.baffles.count and not self.rim:
-            raise conflict("{at}baffles.count", self.baffles.count, "0 where {at}rim is false")
-        return self
 
 
 class Rotation(ConfigTable):

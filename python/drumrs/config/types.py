@@ -72,12 +72,16 @@ NonNegative = Annotated[float, _NUMBER, _FINITE, Field(ge=0), Limit("a finite nu
 Restitution = Annotated[float, _NUMBER, _FINITE, Field(gt=0, le=1), Limit("above 0 and at most 1")]
 PoissonRatio = Annotated[float, _NUMBER, _FINITE, Field(ge=0, le=0.5), Limit("at least 0 and at most 0.5")]
 OpenFraction = Annotated[float, _NUMBER, _FINITE, Field(gt=0, lt=1), Limit("between 0 and 1")]
+FaceAngle = Annotated[
+    float, _NUMBER, Field(strict=True, gt=-90, lt=90), Limit("above -90 and below 90 degrees")
+]
 Flag = Annotated[bool, Field(strict=True), Limit("true or false")]
 
 GREATEST_SEED = 2**63 - 1
 
 BundleCount = Annotated[int, _COUNT, _within(1, GREATEST_COUNT), _whole(1, GREATEST_COUNT)]
 BaffleCount = Annotated[int, _COUNT, _within(0, GREATEST_BAFFLES), _whole(0, GREATEST_BAFFLES)]
+RepeatCount = Annotated[int, _COUNT, _within(1, GREATEST_BAFFLES), _whole(1, GREATEST_BAFFLES)]
 SpeciesCount = Annotated[int, _COUNT, _within(1, GREATEST_SPECIES), _whole(1, GREATEST_SPECIES)]
 Species = Annotated[int, _COUNT, _within(0, GREATEST_SPECIES - 1), _whole(0, GREATEST_SPECIES - 1)]
 TwoSpecies = Annotated[
@@ -85,6 +89,11 @@ TwoSpecies = Annotated[
 ]
 Seed = Annotated[int, _COUNT, _within(0, GREATEST_SEED), _whole(0, GREATEST_SEED)]
 
+PartName = Annotated[
+    str,
+    Field(strict=True, pattern=r"^[a-z]\w*$"),
+    Limit("a name that begins with a small letter, then letters, digits and _, such as 'lifter'"),
+]
 Recordings = Annotated[tuple[Literal["gross_work"], ...], Limit("a list of 'gross_work'")]
 
 Vector = Annotated[tuple[Real, Real], BeforeValidator(_plain), Limit("a pair [x, y] of finite numbers")]

@@ -66,6 +66,14 @@ export class Stage {
       this.drawTicks(recording.drumRadius + 2 * pixel);
       context.fillStyle = theme.steel;
     }
+    if (recording.shell) {
+      this.trace(recording.shell);
+      context.closePath();
+      context.fillStyle = theme.inside;
+      context.fill();
+      context.stroke();
+      context.fillStyle = theme.steel;
+    }
     for (const line of recording.baffles) {
       this.trace(line);
       context.closePath();

@@ -32,7 +32,7 @@ const GAP: f64 = 1e-9;
 /// `Error::Packing` if no pattern found has `count` sites; `Error::Config` for a drum without a rim and for a
 /// radius that is not positive.
 pub fn pack(drum: &Drum, count: usize, radius: f64, seed: u64) -> Result<Vec<Vec2>, Error> {
-    let Some(bound) = drum.radius() else {
+    let Some(bound) = drum.bounding_radius() else {
         return Err(Error::config("drum.diameter", "none", "given when no initial state is"));
     };
     require_positive("load.diameter", 2.0 * radius)?;
