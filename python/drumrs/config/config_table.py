@@ -46,8 +46,8 @@ class ConfigTable(BaseModel, metaclass=_RaisesConfigError):
 
     model_config = ConfigDict(frozen=True, extra="forbid", validate_default=True)
 
-    # Two keys of which a complete table holds exactly one.
-    pair: ClassVar[tuple[str, str] | None] = None
+    # Keys of which a complete table holds exactly one.
+    choice: ClassVar[tuple[str, ...]] = ()
 
     def __setattr__(self, key: str, value: Any) -> None:
         """Refuse to change a key, and say how to get a copy with another value."""
@@ -59,14 +59,14 @@ class ConfigTable(BaseModel, metaclass=_RaisesConfigError):
         )
 
     @model_validator(mode="after")
-    def _has_one_of_its_pair(self) -> Self:
-        given = [key for key in self.pair or () if getattr(self, key) is not None]
+    def _has_one_of_its_choice(self) -> Self:
+        given = [key for key in self.choice if getattr(self, key) is not None]
         if len(given) > 1:
             raise conflict(**both_given("{at}", given, {key: getattr(self, key) for key in given}))
-        if self.pair and not given:
-            first, second = self.pair
-            problem = f"and {{at}}{second} are both missing, but one of them must be given"
-            raise conflict(f"{{at}}{first}", limit=f"given, or {{at}}{second} instead", problem=problem)
+        if self.choice and not given:
+            first, *others = (f"{{at}}{key}" for key in self.choice)
+            limit = f"given, or {' or '.join(others)} instead"
+            raise conflict(first, limit=limit, problem=f"is missing, but must be {limit}")
         return self
 
     @classmethod

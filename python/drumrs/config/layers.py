@@ -13,8 +13,8 @@ from drumrs.config.messages import both_given, table_type
 from drumrs.errors import ConfigError, format_value
 
 
-class _Paired(Protocol):
-    pair: ClassVar[tuple[str, str] | None]
+class _Choosing(Protocol):
+    choice: ClassVar[tuple[str, ...]]
 
 
 def nest(dotted: Mapping[str, Any]) -> dict[str, Any]:
@@ -43,18 +43,18 @@ def nest(dotted: Mapping[str, Any]) -> dict[str, Any]:
 def merge(
     model: type[BaseModel], lower: Mapping[str, Any], upper: Mapping[str, Any], prefix: str = ""
 ) -> dict[str, Any]:
-    """Merge two layers, `upper` over `lower`; one of an either–or pair takes the place of the other.
+    """Merge two layers, `upper` over `lower`; a key of an either–or choice takes the place of the others.
 
     Raises
     ------
     ConfigError
-        If `upper` holds both of a pair.
+        If `upper` holds two of a choice.
     """
-    pair = cast("_Paired", model).pair or ()
-    chosen = [key for key in pair if upper.get(key) is not None]
+    choice = cast("_Choosing", model).choice
+    chosen = [key for key in choice if upper.get(key) is not None]
     if len(chosen) > 1:
         raise ConfigError(**both_given(prefix, chosen, upper))
-    merged = {key: value for key, value in lower.items() if not (chosen and key in pair)}
+    merged = {key: value for key, value in lower.items() if not (chosen and key in choice)}
     for key, value in upper.items():
         table = table_type(model, key)
         below = merged.get(key)

@@ -45,13 +45,13 @@ def conflict(
     return PydanticCustomError(_CONFLICT, "keys that do not go together", {"fields": fields})
 
 
-def both_given(table: str, pair: Sequence[str], values: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the fields of the error that both keys of an either–or pair are given in one layer."""
-    first, second = (f"{table}{key}" for key in pair)
-    one, other = (format_value(values[key]) for key in pair)
+def both_given(table: str, keys: Sequence[str], values: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the fields of the error that two keys, of which only one may be, are given in one layer."""
+    first, second = (f"{table}{key}" for key in keys[:2])
+    one, other = (format_value(values[key]) for key in keys[:2])
     return {
         "key": first,
-        "value": values[pair[0]],
+        "value": values[keys[0]],
         "limit": f"left out where {second} is given",
         "problem": f"and {second} are both given ({one} and {other}), but only one of them may be",
     }

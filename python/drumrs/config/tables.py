@@ -22,7 +22,7 @@ Skin = Annotated[Literal["auto"] | NonNegative, Limit("'auto' or a finite number
 class Rotation(ConfigTable):
     """How the drum turns, counter-clockwise positive: one speed, or a program."""
 
-    pair: ClassVar[tuple[str, str] | None] = ("rpm", "program")
+    choice: ClassVar[tuple[str, ...]] = ("rpm", "program")
 
     rpm: Real | None = _key(None, "Constant speed", "rpm", 54.0)
     program: types.Program | None = _key(
@@ -50,7 +50,7 @@ class Rotation(ConfigTable):
 class Load(ConfigTable):
     """The load: equal discs that stand for bundles of fabric."""
 
-    pair: ClassVar[tuple[str, str] | None] = ("fill", "count")
+    choice: ClassVar[tuple[str, ...]] = ("fill", "count")
 
     diameter: Positive = _key(0.02375, "Diameter d of a bundle", "m")
     density: Positive = _key(
@@ -65,7 +65,7 @@ class Load(ConfigTable):
 class LinearContact(ConfigTable):
     """A linear spring and dashpot with a tangential spring that Coulomb friction cuts off, and terms beside them."""
 
-    pair: ClassVar[tuple[str, str] | None] = ("restitution", "normal_damping")
+    choice: ClassVar[tuple[str, ...]] = ("restitution", "normal_damping")
 
     normal_stiffness: Positive = _key(
         ..., "Stiffness of the normal spring; it does not count where contact.base is 'hertz'", "N/m"

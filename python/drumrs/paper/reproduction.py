@@ -1,24 +1,22 @@
 """The paper's study in one go: cases, runs, table, verdicts, figures, report; taken up again after any break."""
 
-import io
 import time
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
 from drumrs.config import baseline
-from drumrs.files import write_whole
-from drumrs.folders import claim, require_own
-from drumrs.jobs import effective_jobs
 from drumrs.paper.cases import cases
 from drumrs.paper.data import StudyData
 from drumrs.paper.measure import measure
 from drumrs.paper.report import Picture, summary, write
 from drumrs.paper.scales import Scale
 from drumrs.progress import Task
+from drumrs.registry import known, metadata
 from drumrs.simulation import Simulation
-from drumrs.sweep import Case, Failure, Sweep
-from drumrs.sweep.store import Store
+from drumrs.sweep import Failure
+from drumrs.sweep.study_folder import StudyFolder
+from drumrs.tables import write_table
 
 # What the speed is measured on: a load that costs as much a particle-step as those of the study on average, once it
 # has fallen and lies in contact.
@@ -26,7 +24,7 @@ _TRIAL_FILL = 0.5
 _SETTLING = 0.3  # simulated seconds
 _TRIAL = 0.25  # seconds of the wall clock
 # What a reproduction writes into its folder.
-_FILES = ("report.html", "summary.md", "table.parquet", "figures", "runs")
+_FILES = ("report.html", "summary.md", "table.parquet", "figures")
 # Reading results, drawing and writing the report: so long at least, and so long for each case [s].
 _WRITING, _WRITING_CASE = 6.0, 0.1
 
@@ -56,7 +54,7 @@ class ReproductionResult:
     pictures: tuple[Picture, ...]
 
 
-class Reproduction:
+class Reproduction(StudyFolder):
     """A study that is to be run into a folder.
 
     Parameters
@@ -83,29 +81,11 @@ class Reproduction:
 
     def __init__(self, scale: str | Scale, folder: str | Path, jobs: int | None = None) -> None:
         self.scale = scale if isinstance(scale, str) else "own"
-        self.folder = Path(folder)
-        self.jobs = effective_jobs(jobs)
-        self.sweep = Sweep.from_configs(cases(scale))
-        require_own(self.folder, "reproduction", _FILES)
-        store = Store(self.runs_folder)
-        store.check_format()
-        self.waiting: tuple[Case, ...] = tuple(
-            case for case in self.sweep.cases if not store.is_settled(case)
-        )
+        super().__init__(folder, cases(scale), jobs, kind="reproduction", files=_FILES)
 
     def __repr__(self) -> str:
         """Say how much there is to do."""
         return f"<Reproduction of {len(self.sweep)} cases, {len(self.waiting)} to be run>"
-
-    @property
-    def runs_folder(self) -> Path:
-        """Where the results of the cases are."""
-        return self.folder / "runs"
-
-    @property
-    def cost(self) -> float:
-        """Particle-steps still to be done."""
-        return sum(case.cost for case in self.waiting)
 
     def expected_time(self) -> float:
         """Return how long it is going to take [s], from the speed that this machine shows in a fraction of a second."""
@@ -137,17 +117,14 @@ class Reproduction:
             After Ctrl-C; finished cases are kept, and the same call goes on.
         """
         began = time.perf_counter()
-        claim(self.folder, "reproduction", f"the paper's study ({self.scale})", "")
-        outcome = self.sweep.run(self.runs_folder, jobs=self.jobs, retry=retry, progress=progress)
+        outcome = self.run_cases(f"the paper's study ({self.scale})", retry=retry, progress=progress)
         with Task("measures, figures and report", 0, show=progress):
             return self._report(outcome.failures, began)
 
     def _report(self, failures: tuple[Failure, ...], began: float) -> ReproductionResult:
         """Measure, judge, draw and write."""
         table = measure(self.sweep, self.runs_folder)
-        buffer = io.BytesIO()
-        table.write_parquet(buffer)
-        write_whole(self.folder / "table.parquet", buffer.getvalue())
+        write_table(self.folder / "table.parquet", table, metadata(known(table.columns)))
         taken = time.perf_counter() - began
         data = StudyData(table, self.sweep, self.runs_folder, self.scale, failures, taken)
         page, text = self.folder / "report.html", self.folder / "summary.md"

@@ -3,7 +3,7 @@
 `case` names a case, `design` turns axes and rows into cases, `store` keeps their results in a folder, in `sealed` files
 that know whose they are. `worker` runs one case anywhere, `executors` says where, `scheduler` hands the cases out.
 `columns` and `table` put the results side by side, `sweep_file` reads what `drumrs sweep` is given, and `sweep` is what
-users see of all this. Nothing here knows what is made of the results.
+users see of all this; a `study_folder` keeps the cases of a study. Nothing here knows what is made of the results.
 """
 
 from drumrs.sweep.case import Case

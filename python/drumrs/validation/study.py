@@ -6,13 +6,11 @@ from pathlib import Path
 from types import MappingProxyType
 
 from drumrs.errors import ConfigError
-from drumrs.folders import claim, require_own
-from drumrs.jobs import effective_jobs
 from drumrs.pictures import attempt
 from drumrs.progress import Task
 from drumrs.registry import known, metadata
-from drumrs.sweep import Case, Failure, Sweep
-from drumrs.sweep.store import Store
+from drumrs.sweep import Case, Failure
+from drumrs.sweep.study_folder import StudyFolder
 from drumrs.tables import write_table
 from drumrs.validation import layer, mill, page, tracer
 from drumrs.validation.cases import Scale
@@ -25,7 +23,7 @@ DRUMS: Mapping[str, PublishedDrum] = MappingProxyType(
     {drum.name: drum for drum in (tracer.DRUM, layer.DRUM, mill.DRUM)}
 )
 # What a validation writes into its folder.
-_FILES = ("README.md", "table.parquet", "figures", "runs")
+_FILES = ("README.md", "table.parquet", "figures")
 
 
 @dataclass(frozen=True)
@@ -48,7 +46,7 @@ class ValidationResult:
     table: Path
 
 
-class Validation:
+class Validation(StudyFolder):
     """The study of published drums in a folder.
 
     Parameters
@@ -91,32 +89,16 @@ class Validation:
         for name in names:
             if name not in DRUMS:
                 raise ConfigError("NAME", name, f"one of {', '.join(DRUMS)}")
-        self.folder, self.jobs, self.scale = Path(folder), effective_jobs(jobs), scale or Scale()
+        self.scale = scale or Scale()
         self.drums = [drum for drum in DRUMS.values() if not names or drum.name in names]
-        require_own(self.folder, "validation", _FILES)
-        cases = {drum.name: [Case(config) for config in drum.cases(self.scale)] for drum in self.drums}
-        self._drum_of = {case.id: drum for drum in self.drums for case in cases[drum.name]}
-        self.sweep = Sweep.from_configs(case.config for group in cases.values() for case in group)
-        store = Store(self.runs_folder)
-        store.check_format()
-        self.waiting: tuple[Case, ...] = tuple(
-            case for case in self.sweep.cases if not store.is_settled(case)
-        )
+        configs = [(config, drum) for drum in self.drums for config in drum.cases(self.scale)]
+        self._drum_of = {Case(config).id: drum for config, drum in configs}
+        super().__init__(folder, (config for config, _ in configs), jobs, kind="validation", files=_FILES)
 
     def __repr__(self) -> str:
         """Say how much there is to do."""
         names = ", ".join(drum.name for drum in self.drums)
         return f"<Validation of {names}: {len(self.sweep)} cases, {len(self.waiting)} to be run>"
-
-    @property
-    def runs_folder(self) -> Path:
-        """Where the results of the cases are."""
-        return self.folder / "runs"
-
-    @property
-    def cost(self) -> float:
-        """Particle-steps still to be done."""
-        return sum(case.cost for case in self.waiting)
 
     def run(self, *, retry: bool = False, progress: bool = True) -> ValidationResult:
         """Run what is not finished, then compare, draw and write.
@@ -135,8 +117,7 @@ class Validation:
         KeyboardInterrupt
             After Ctrl-C; finished cases are kept, and the same call goes on.
         """
-        claim(self.folder, "validation", "published drums", "")
-        outcome = self.sweep.run(self.runs_folder, jobs=self.jobs, retry=retry, progress=progress)
+        outcome = self.run_cases("published drums", retry=retry, progress=progress)
         with Task("measures, figures and page", 0, show=progress):
             return self._report(outcome.failures)
 

@@ -106,24 +106,19 @@ def _exchanged(data: StudyData) -> Sentence:
 
 
 HOW_JUDGED = (
-    "A claim is judged part by part, by 95 % intervals: over seeds where there are several, over blocks of time where "
-    "there is one. A part that does not hold as a whole may hold over a range of the parameter, between the "
-    "outermost of "
-    "neighboring points, two at least, at each of which it surely does. A claim holds in part where something surely "
-    "holds and something surely does not, however the rest comes out. Undecided is what an interval reaches across, "
-    "what "
-    "lacks runs, what only drifting loads would decide, and what depends on how finely a figure is read: where the "
-    "text "
-    "compares by eye (“about”, “nearly”, “similar”), limits are widened by a tenth of the largest value that the "
-    "figure "
-    "shows, and what a twentieth and three twentieths would say is told, too. N/T is read as gross work; the other two "
-    "readings stand beside."
+    "A claim is judged part by part, by 95 % intervals: over seeds where there are several, over blocks of time "
+    "where there is one. A part that does not hold as a whole may hold over a range of the parameter, between the "
+    "outermost of neighboring points, two at least, at each of which it surely does. A claim holds in part where "
+    "something surely holds and something surely does not, however the rest comes out. Undecided is what an interval "
+    "reaches across, what lacks runs, what only drifting loads would decide, and what depends on how finely a figure "
+    "is read: where the text compares by eye (“about”, “nearly”, “similar”), limits are widened by a tenth of the "
+    "largest value that the figure shows, and what a twentieth and three twentieths would say is told, too. N/T is "
+    "read as gross work; the other two readings stand beside."
 )
 EVIDENCE = (
     "The shape of the baffles was inferred from the claims that speak of them. That these agree with it is no "
     "confirmation: they are marked as evidence and counted apart, and what they come to with the triangles once "
-    "assumed "
-    "stands beside."
+    "assumed stands beside."
 )
 
 
