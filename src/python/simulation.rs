@@ -294,7 +294,8 @@ impl Simulation {
     fn outlines<'py>(
         &self,
         py: Python<'py>,
-    ) -> (Option<Bound<'py, PyArray2<f64>>>, Vec<Bound<'py, PyArray2<f64>>>, Vec<Bound<'py, PyArray2<f64>>>) {
+    ) -> (Option<Bound<'py, PyArray2<f64>>>, Vec<Bound<'py, PyArray2<f64>>>, Vec<Bound<'py, PyArray2<f64>>>)
+    {
         let drum = self.with(py, |core| core.drum().clone());
         let mut baffles: Vec<_> = drum.outlines().map(|outline| arrays::vectors(py, outline)).collect();
         let walls = baffles.split_off(drum.baffle_count());

@@ -39,7 +39,9 @@ def test_both_of_a_pair_in_one_layer_are_refused(path):
 @pytest.mark.parametrize("path", PAIRS)
 def test_neither_of_a_pair_is_refused(path):
     first, _, second, _ = PAIRS[path]
-    with pytest.raises(ConfigError, match=rf"^{path}\.{first} is missing, but must be given, or {path}\.{second}"):
+    with pytest.raises(
+        ConfigError, match=rf"^{path}\.{first} is missing, but must be given, or {path}\.{second}"
+    ):
         drumrs.baseline().replace({f"{path}.{first}": None})
 
 

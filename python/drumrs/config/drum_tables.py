@@ -145,7 +145,8 @@ class Liner(ConfigTable):
         if self.rail.count and (self.file or self.outlines):
             given = "file" if self.file else "outlines"
             problem = f"and {{at}}{given} are both given, but only one of them may be"
-            raise conflict("{at}rail", limit=f"left out where {{at}}{given} is given", problem=problem)
+            limit = f"left out where {{at}}{given} is given"
+            raise conflict("{at}rail", limit=limit, hint="{at}rail.count = 0 is none", problem=problem)
         for key in ("scale", "mirror", "units") if self.file is None else ():
             if (value := getattr(self, key)) != type(self).model_fields[key].default:
                 hint = "a drawing that has been read is in {at}outlines: give its file again to read it otherwise"

@@ -1,5 +1,6 @@
-"""Lines of a DXF file: whatever of its model space ezdxf can turn into a path, blocks resolved."""
+"""Lines of a DXF file: what is drawn in its model space, blocks resolved, points of curves exactly on them."""
 
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -10,7 +11,6 @@ from drumrs.errors import ConfigError
 
 # Codes of the header's $INSUNITS.
 _CODES = {1: "in", 4: "mm", 5: "cm", 6: "m"}
-_DRAWN = {"LINE", "LWPOLYLINE", "POLYLINE", "ARC", "CIRCLE", "ELLIPSE", "SPLINE"}
 
 
 def lines(path: Path, frame: Frame) -> tuple[list[Line], float | None]:
@@ -26,14 +26,25 @@ def lines(path: Path, frame: Frame) -> tuple[list[Line], float | None]:
     unit = UNITS.get(_CODES.get(int(document.header.get("$INSUNITS", 0)), ""))
     accuracy = frame.accuracy / frame.meters(unit)
     entities = recursive_decompose(document.modelspace())
-    drawn = [entity for entity in entities if entity.dxftype() in _DRAWN]
-    return [line for entity in drawn for line in _of(entity, accuracy)], unit
+    return [line for entity in entities for line in _of(entity, accuracy)], unit
 
 
-def _of(entity: Any, error: float) -> list[Line]:
-    """Return the polylines of an entity, its curves broken into chords with an error in the file's unit."""
-    from ezdxf.path import make_path
+def _of(entity: Any, error: float) -> Iterator[Line]:
+    """List the polylines of an entity, its curves broken into chords with an error in the file's unit."""
+    kind = entity.dxftype()
+    if kind == "LINE":
+        yield _line(entity, [entity.dxf.start, entity.dxf.end])
+    elif kind in {"ARC", "CIRCLE"}:
+        yield _line(entity, entity.flattening(min(error, 0.1 * entity.dxf.radius)))
+    elif kind in {"ELLIPSE", "SPLINE"}:
+        yield _line(entity, entity.flattening(error))
+    elif kind in {"LWPOLYLINE", "POLYLINE"} and entity.has_arc:
+        for part in entity.virtual_entities():
+            yield from _of(part, error)
+    elif kind in {"LWPOLYLINE", "POLYLINE"}:
+        corners = list(entity.vertices_in_wcs() if kind == "LWPOLYLINE" else entity.points_in_wcs())
+        yield _line(entity, [*corners, *corners[:1]] if entity.is_closed else corners)
 
-    paths = [path for path in make_path(entity).sub_paths() if len(path)]
-    points = [np.array([(point.x, point.y) for point in path.flattening(error)]) for path in paths]
-    return [Line(entity.dxf.layer, line) for line in points]
+
+def _line(entity: Any, points: Iterable[Any]) -> Line:
+    return Line(entity.dxf.layer, np.array([(point[0], point[1]) for point in points]))

@@ -28,7 +28,7 @@ def lines(path: Path, _: Frame) -> tuple[list[Line], float | None]:
             continue
         if not fields or (number == 1 and not _is_number(fields[0])):
             continue
-        part = fields[2] if len(fields) > 2 else ""  # noqa: PLR2004 - x, y, part
+        part = " ".join(fields[2:])
         if is_new or part != found[-1][0]:
             found.append((part, []))
         found[-1][1].append(_point(path, number, row, fields))

@@ -5,8 +5,9 @@
 // logarithmic, times, lines: [{ name, color, values }] }.
 
 export class Recording extends EventTarget {
-  // `reach` is half the width [m] of a square about the axis that holds everything; `window` is the interval of the
-  // averages [s] or null; `speedScale` is the speed [m/s] at the end of the color scale; there is at least one frame.
+  // `reach` is half the width [m] of a square about the axis that holds everything; `shell` is the outline of a drum that is
+  // not round, or null; `window` is the interval of the averages [s] or null; `speedScale` is the speed [m/s] at the end of
+  // the color scale; there is at least one frame.
   constructor({ title = "", radii, drumRadius, shell = null, reach, baffles = [], walls = [], window = null, speedScale = 1, panels = [], frames }) {
     super();
     Object.assign(this, { title, radii, drumRadius, shell, reach, baffles, walls, window, speedScale, panels, frames });
@@ -14,6 +15,11 @@ export class Recording extends EventTarget {
 
   get count() {
     return this.radii.length;
+  }
+
+  // Radius of the rim, or of the farthest corner of a shell [m]; null without either.
+  get outerRadius() {
+    return this.shell ? Math.max(...this.shell.map(([x, y]) => Math.hypot(x, y))) : this.drumRadius;
   }
 
   get greatestRadius() {

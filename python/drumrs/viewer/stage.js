@@ -164,8 +164,9 @@ export class Stage {
   // An arc over the top of the drum with a head: which way the drum turns.
   drawArrow({ spin }) {
     const { context, recording, theme, width, height } = this;
-    if (!recording.drumRadius || spin === 0) return;
-    const radius = ARROW * recording.drumRadius * (1 / this.pixel);
+    const outer = recording.outerRadius;
+    if (!outer || spin === 0) return;
+    const radius = ARROW * outer * (1 / this.pixel);
     const sense = Math.sign(spin);
     const point = (degrees, r) => {
       const angle = ((90 + sense * degrees) * Math.PI) / 180;

@@ -70,7 +70,7 @@ impl BaffleParameters {
     /// Number of corners of one baffle.
     pub(super) fn corner_count(&self, radius: Option<f64>) -> usize {
         match self.shape {
-            _ if self.corner_radius > 0.0 => self.profile(radius).len(),
+            _ if self.count > 0 && self.corner_radius > 0.0 => self.profile(radius).len(),
             BaffleShape::Triangle => 3,
             BaffleShape::Trapezoid => 4,
             BaffleShape::Polygon | BaffleShape::Outline => self.corners().len(),
@@ -79,7 +79,7 @@ impl BaffleParameters {
 
     /// The outlines of all baffles in the body frame, each counter-clockwise, for a rim of this radius [m].
     pub(super) fn outlines(&self, radius: Option<f64>) -> Vec<Vec<Vec2>> {
-        let profile = self.profile(radius);
+        let profile = if self.count > 0 { self.profile(radius) } else { Vec::new() };
         (0..self.count).map(|index| self.copy(&profile, index)).collect()
     }
 

@@ -73,7 +73,12 @@ impl DrumParameters {
         for coordinate in shell.iter().flatten() {
             require_finite(key, *coordinate)?;
         }
-        require(self.radius.is_none(), "drum.rim", "true", "false where a closed outline is the drum itself")?;
+        require(
+            self.radius.is_none(),
+            "drum.rim",
+            "true",
+            "false where a closed outline is the drum itself",
+        )?;
         let found = format!("an outline of {} corners", corners.len());
         require(corners.len() >= 3, key, found, "an outline of at least 3 corners")?;
         let sides = simple_polygon(key, &corners)?;
@@ -91,7 +96,8 @@ impl DrumParameters {
     /// Refuses outlines of so many corners that they would take memory and time without bound.
     fn validate_size(&self) -> Result<(), Error> {
         let (each, all) = MOST_CORNERS;
-        let sizes: Vec<_> = self.baffles.iter().map(|set| (set.count, set.corner_count(self.radius))).collect();
+        let sizes: Vec<_> =
+            self.baffles.iter().map(|set| (set.count, set.corner_count(self.radius))).collect();
         let corners = sizes.iter().map(|&(_, corners)| corners).max().unwrap_or(0);
         let of_baffles = sizes.iter().map(|&(count, corners)| count.saturating_mul(corners)).sum::<usize>();
         let count: usize = sizes.iter().map(|&(count, _)| count).sum();

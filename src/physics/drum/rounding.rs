@@ -6,6 +6,9 @@ use crate::physics::vector::{Rotation, Vec2, cross, dot};
 /// A corner is on the rim, and stays sharp, from this fraction of its radius outwards.
 const ON_RIM: f64 = 1.0 - 1e-9;
 
+/// The most chords of an arc, beyond those that a baffle may have.
+const MOST_CHORDS: f64 = 1001.0;
+
 /// A corner with the directions of its two sides.
 struct Corner {
     point: Vec2,
@@ -50,7 +53,7 @@ pub(super) fn rounded(points: &[Vec2], (radius, error): (f64, f64), rim: f64) ->
         let center = first + Vec2::new(-corner.back.y, corner.back.x) * (side * radius);
         let turn = 2.0 * libm::atan2(reach, radius);
         let per_chord = 2.0 * libm::acos((1.0 - error / radius).max(0.0));
-        let chords = (turn / per_chord).ceil().max(1.0) as usize;
+        let chords = (turn / per_chord).ceil().clamp(1.0, MOST_CHORDS) as usize;
         round.push(first);
         for chord in 1..chords {
             let angle = -side * turn * chord as f64 / chords as f64;
@@ -78,8 +81,7 @@ mod tests {
 
     #[test]
     fn arcs_touch_both_sides_and_chords_stay_close_to_them() {
-        let square: Vec<Vec2> =
-            [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(Vec2::from).to_vec();
+        let square: Vec<Vec2> = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(Vec2::from).to_vec();
         assert!((greatest_radius(&square, 9.0) - 0.5).abs() < 1e-15);
         let round = rounded(&square, (0.25, 1e-3), 9.0);
         let center = Vec2::new(0.25, 0.25);

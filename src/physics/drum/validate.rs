@@ -91,7 +91,8 @@ impl BaffleParameters {
         let (axis, covered) = (Vec2::zeros(), "a polygon that covers the drum's axis");
         let covers = contains(&segments, axis) || segments.iter().any(|segment| segment.holds(axis));
         require(!covers, key, covered, "a polygon beside the axis")?;
-        let reaches = segments.iter().any(|side| length(side.project(axis).point) < radius.unwrap_or(f64::INFINITY));
+        let reaches =
+            segments.iter().any(|side| length(side.project(axis).point) < radius.unwrap_or(f64::INFINITY));
         require(reaches, key, "a polygon outside the rim", "a polygon that reaches into the drum")
     }
 
@@ -100,7 +101,8 @@ impl BaffleParameters {
             return Ok(());
         }
         let most = greatest_radius(&self.sharp_profile(radius), radius.unwrap_or(f64::INFINITY));
-        let limit = format!("smaller than {most}, so that rounded corners leave a part of every side straight");
+        let limit =
+            format!("smaller than {most}, so that rounded corners leave a part of every side straight");
         require(self.corner_radius < most, "drum.baffles.corner_radius", self.corner_radius, limit)
     }
 }
@@ -124,15 +126,21 @@ pub(super) fn validate_spacing(sets: &[BaffleParameters], radius: Option<f64>) -
             require(are_apart(first, second), key, set.count, limit)?;
         }
         let known = earlier.len();
-        for (name, copy) in names.by_ref().zip(copies) {
+        for (copy, name) in copies.into_iter().zip(names.by_ref()) {
             let bounds = Bounds::of_segments(&copy);
             let meets = |(_, other, around): &&(String, Vec<Segment>, Bounds)| {
                 bounds.overlaps(around)
-                    && (!are_apart(&copy, other) || contains(other, copy[0].start) || contains(&copy, other[0].start))
+                    && (!are_apart(&copy, other)
+                        || contains(other, copy[0].start)
+                        || contains(&copy, other[0].start))
             };
             if let Some((other, ..)) = earlier[..known].iter().find(meets) {
                 let found = format!("a drum in which {other} and {name} touch or overlap");
-                return Err(Error::config("drum.baffles", found, "a drum of baffles and lifters that are apart"));
+                return Err(Error::config(
+                    "drum.baffles",
+                    found,
+                    "a drum of baffles and lifters that are apart",
+                ));
             }
             earlier.push((name, copy, bounds));
         }

@@ -236,7 +236,8 @@ fn several_sets_stand_in_one_drum() {
     let mut parameters = high_and_low(TAU / 8.0);
     (parameters.baffles[2].count, parameters.baffles[2].phase) = (1, TAU / 16.0);
     let drum = drum(&parameters);
-    let names = ["rim", "high 1", "high 2", "high 3", "high 4", "low 1", "low 2", "low 3", "low 4", "baffle 1"];
+    let names =
+        ["rim", "high 1", "high 2", "high 3", "high 4", "low 1", "low 2", "low 3", "low 4", "baffle 1"];
     assert_eq!(drum.surface_names(), names);
     let first = drum.outlines().next().unwrap();
     assert_eq!(first[0], Vec2::new(0.17, -0.01));
@@ -248,7 +249,10 @@ fn several_sets_stand_in_one_drum() {
 fn sets_that_meet_are_refused_by_the_names_of_the_two() {
     let found = |parameters: &DrumParameters| parameters.validate().unwrap_err().to_string();
     let limit = "touch or overlap, but must be a drum of baffles and lifters that are apart";
-    assert_eq!(found(&high_and_low(0.1)), format!("drum.baffles is a drum in which high 1 and low 1 {limit}"));
+    assert_eq!(
+        found(&high_and_low(0.1)),
+        format!("drum.baffles is a drum in which high 1 and low 1 {limit}")
+    );
     let crossing = high_and_low(TAU / 8.0);
     assert_eq!(found(&crossing), format!("drum.baffles is a drum in which high 1 and baffle 1 {limit}"));
     // One within the other, without a common point of their sides.
@@ -263,8 +267,14 @@ fn lengths_in_millimeters_are_told() {
     let mut parameters = in_rim(&polygon(&[[0.0, 20.0], [50.0, 10.0], [40.0, -20.0]]));
     let message = parameters.validate().unwrap_err().to_string();
     let found = "of points as far as 50.7679 m from the axis of a drum of radius 0.2375 m";
-    assert_eq!(message, format!("drum.baffles.points is {found}, but must be of points within 20 radii; {hint}"));
+    assert_eq!(
+        message,
+        format!("drum.baffles.points is {found}, but must be of points within 20 radii; {hint}")
+    );
     parameters = DrumParameters { walls: vec![vec![[0.0, -50.0], [100.0, -50.0]]], ..triangles() };
     let message = parameters.validate().unwrap_err().to_string();
-    assert!(message.starts_with("drum.walls is of points as far as 111.8") && message.ends_with(hint), "{message}");
+    assert!(
+        message.starts_with("drum.walls is of points as far as 111.8") && message.ends_with(hint),
+        "{message}"
+    );
 }

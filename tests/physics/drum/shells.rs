@@ -45,7 +45,10 @@ fn outlines_that_are_no_shell_are_refused() {
     };
     let beside = vec![[0.1, 0.1], [0.2, 0.1], [0.2, 0.2]];
     let limit = "an outline round the axis for a shell";
-    assert_eq!(found(beside), format!("drum.liner is an outline beside the drum's axis, but must be {limit}"));
+    assert_eq!(
+        found(beside),
+        format!("drum.liner is an outline beside the drum's axis, but must be {limit}")
+    );
     let bow_tie = vec![[-1.0, -1.0], [1.0, 1.0], [1.0, -1.0], [-1.0, 1.0]];
     assert!(found(bow_tie).contains("whose sides 1 and 3 cross or touch"));
     let both = DrumParameters { radius: Some(1.0), ..polygon_drum(4) };
@@ -66,7 +69,9 @@ fn a_load_packs_itself_into_a_shell() {
     let bed = pack(&drum, 120, RADIUS, 1).unwrap();
     assert!(bed.iter().all(|&center| drum.clearance(center) >= RADIUS));
     // In parts of the corners, beyond what a circle within would leave.
-    assert!(bed.iter().any(|center| center.norm() > drum.shell().unwrap()[0].norm() * 0.75_f64.sqrt() - RADIUS));
+    assert!(
+        bed.iter().any(|center| center.norm() > drum.shell().unwrap()[0].norm() * 0.75_f64.sqrt() - RADIUS)
+    );
 }
 
 /// Where a bundle comes to rest in a drum that stands still, as a height above that on a round rim.

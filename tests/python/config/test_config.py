@@ -187,11 +187,15 @@ def test_documented_toml_names_every_key():
 
 
 def test_constructor_by_hand_raises_one_sentence():
-    with pytest.raises(ConfigError, match=r"^load\.fill is missing, but must be given, or load\.count instead"):
+    with pytest.raises(
+        ConfigError, match=r"^load\.fill is missing, but must be given, or load\.count instead"
+    ):
         Config(load={"diameter": 0.02})
     with pytest.raises(
         ConfigError, match=r"restitution is missing, but must be given, or contact\.bundle\.normal_damping"
     ):
         Config(contact={"bundle": {"normal_stiffness": 1e6}})
-    with pytest.raises(ConfigError, match=r"^rotation\.rpm is missing, but must be given, or rotation\.program"):
+    with pytest.raises(
+        ConfigError, match=r"^rotation\.rpm is missing, but must be given, or rotation\.program"
+    ):
         Config.model_validate({"rotation": {}})

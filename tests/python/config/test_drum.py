@@ -176,7 +176,7 @@ def test_a_drum_that_is_not_round_packs_shows_and_saves_itself(tmp_path):
     from drumrs.viewer.recording import pack
 
     hexagon = {"drum.rim": False, "drum.liner.outlines": [{"name": "shell", "points": polygon(6)}]}
-    drum = config({**hexagon, "load.fill": 0.3}).replace({"load.count": None, "load.fill": 0.3})
+    drum = config(hexagon).replace({"load.fill": 0.3})
     area = 0.2375**2 * 3 * math.sin(math.pi / 3)
     assert drum.bundle_count == round(0.3 * area / (math.pi * drum.load.diameter**2 / 4))
     assert drum.title.startswith(f"{drum.bundle_count} bundles (30 % fill), 6 sides")
