@@ -24,10 +24,10 @@ pub enum Error {
     Packing {
         /// Bundles asked for.
         requested: usize,
-        /// Bundles that the densest packing found can place.
+        /// Bundles that the densest packing found can place; of several sizes about as many, in the same mix.
         fits: usize,
-        /// Their diameter [m].
-        diameter: f64,
+        /// The least and the greatest of their diameters [m].
+        diameters: [f64; 2],
     },
 
     /// Bodies that overlap at the start.
@@ -264,9 +264,12 @@ impl Error {
     pub fn limit(&self) -> String {
         match self {
             Self::Config { limit, .. } => limit.clone(),
-            Self::Packing { fits, diameter, .. } => {
-                format!("at most {fits}: no more bundles of diameter {diameter} m fit into this drum")
+            Self::Packing { fits, diameters: [smallest, largest], .. } if smallest == largest => {
+                format!("at most {fits}: no more bundles of diameter {largest} m fit into this drum")
             }
+            Self::Packing { fits, diameters: [smallest, largest], .. } => format!(
+                "at most about {fits}: no more bundles of this mix, {smallest:.3e} to {largest:.3e} m in diameter, fit into this drum"
+            ),
             Self::StartOverlap { limit, .. } => format!("at most {:.0} %", 100.0 * limit),
             _ => String::new(),
         }

@@ -12,6 +12,7 @@ from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
 
 from drumrs import errors
+from drumrs.analysis import phases
 from drumrs.config import Config, baseline
 from drumrs.errors import CheckpointError, ConfigError, DrumrsError, DrumrsWarning, UnstableError
 from drumrs.frames import Frames
@@ -54,6 +55,7 @@ __all__ = [
     "errors",
     "info",
     "load",
+    "phases",
     "player",
     "quantities",
     "quantity",

@@ -24,6 +24,7 @@ RUN_FILES = (
     "config.toml",
     "series.parquet",
     "frames.parquet",
+    "phases.parquet",
     "summary.json",
     "unstable.json",
     "checkpoint.bin",

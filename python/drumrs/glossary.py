@@ -21,6 +21,8 @@ _PLACES = {
     "study": "the table of `drumrs reproduce` beyond that of a sweep; all but the first with `…_error`",
     "drums": "the table of `drumrs validate`, not in that of a sweep; all but the first with `…_error`",
     "frames": "`frames.parquet`: one row for each frame and bundle",
+    "facts": "`Config.derived`, and in part on the first line of a run and below the title of a player",
+    "phases": "`drumrs.phases(result)`, `phases.parquet`, beside the name and means as above: one row for each phase",
 }
 
 _OPENING = """# Quantities
@@ -85,7 +87,7 @@ def quantities() -> QuantityTable:
 
     Columns are ``name``, ``unit``, ``reading``, ``symbol``, ``formula``, ``meaning``, as `drumrs.quantity` has them,
     and ``found_in``: series, summary, table (of a sweep), study (of the paper), drums (that were
-    published), frames. Baffles, walls and the parts that
+    published), frames, facts (of a case), phases (of a program). Baffles, walls and the parts that
     a liner names are numbered from 1; only the first baffle and wall are listed.
 
     Examples
@@ -111,10 +113,11 @@ def _places() -> Mapping[str, Sequence[str]]:
     summary = [field.name for field in fields(Summary)]
     table = [one.name for one in registry.known(schema()) if one.name not in summary]
     drums = registry.PUBLISHED_DRUMS
-    placed = {*series, *summary, *table, *drums, *COLUMNS}
+    facts, phases = registry.FACTS, registry.PHASES
+    placed = {*series, *summary, *table, *drums, *COLUMNS, *facts, *phases}
     study = [name for name in registry.declared() if name not in placed]
     places = {"series": series, "summary": summary, "table": table, "study": study}
-    return {**places, "drums": drums, "frames": COLUMNS}
+    return {**places, "drums": drums, "frames": COLUMNS, "facts": facts, "phases": phases}
 
 
 def page() -> str:

@@ -6,13 +6,16 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from drumrs.analysis.phases import phases_of
 from drumrs.config import Config
 from drumrs.files import remove_temporaries, write_whole
 from drumrs.folders import RUN_FILES, claim, is_claimed, require_own, require_unused
 from drumrs.frames import Frames
 from drumrs.parts import Parts
 from drumrs.pictures import attempt
+from drumrs.registry import known, metadata
 from drumrs.result import UNSTABLE, Result, Summary, ended_unstable, write_tables
+from drumrs.tables import write_table
 from drumrs.unstable import UnstableRun
 
 if TYPE_CHECKING:
@@ -44,6 +47,8 @@ def player(run: Result | UnstableRun) -> "Player":
 
 def save(result: Result, folder: str | Path, *, pictures: bool = True, force: bool = False) -> list[Path]:
     """Write config.toml, series.parquet, frames.parquet and summary.json, then pictures and a player.
+
+    Where the drum turns by phases, phases.parquet holds what `phases` returns.
 
     Parameters
     ----------
@@ -87,7 +92,7 @@ def save(result: Result, folder: str | Path, *, pictures: bool = True, force: bo
     require_folder(folder, result.config, force=force, way="force=True")
     claim_folder(folder, result.config)
     config, summary, series, frames = result.config, result.summary, result.series, result.frames
-    written = write_tables(folder, config, series)
+    written = [*write_tables(folder, config, series), *write_phases(folder, config, series)]
     frames.save(folder / "frames.parquet")
     written += [folder / "frames.parquet", complete(folder, summary)]
     return [*written, *(draw(folder, config, summary, series, frames, frames) if pictures else [])]
@@ -143,6 +148,17 @@ def clear_folder(folder: Path) -> None:
     Parts(folder).remove()
 
 
+def write_phases(folder: Path, config: Config, series: "pl.DataFrame") -> list[Path]:
+    """Write phases.parquet where the drum turns by phases; return its path, or none."""
+    path = folder / "phases.parquet"
+    path.unlink(missing_ok=True)
+    if not config.rotation.phase:
+        return []
+    table = phases_of(config, series)
+    write_table(path, table, metadata(known(table.columns)))
+    return [path]
+
+
 def complete(folder: Path, summary: Summary) -> Path:
     """Write summary.json, the last of the numbers: a folder that has one holds a finished run."""
     write_whole(folder / "summary.json", f"{summary.to_json()}\n".encode())
@@ -190,7 +206,8 @@ def draw(
     def draw_time_series(path: Path) -> None:
         from drumrs import figures
 
-        figures.write(figures.time_series(series, window=window), path)
+        starts = [each.start for each in config.rotation.intervals]
+        figures.write(figures.time_series(series, window=window, starts=starts), path)
 
     def draw_snapshots(path: Path) -> None:
         from drumrs import figures

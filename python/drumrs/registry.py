@@ -163,7 +163,7 @@ def declared() -> Mapping[str, Quantity]:
 
 @cache
 def _declared() -> Mapping[str, Quantity]:
-    rows = (*recorded(record=RECORDINGS), *_ROWS, *_PUBLISHED_DRUMS)
+    rows = (*recorded(record=RECORDINGS), *_ROWS, *_PUBLISHED_DRUMS, *_FACTS, *_PHASES)
     return MappingProxyType({row.name: row for row in rows})
 
 
@@ -386,3 +386,43 @@ _PUBLISHED_DRUMS = (
     _made("shoulder_angle", "rad", "mean", "angle of the upper end of the charge at a mill's shell"),
 )
 PUBLISHED_DRUMS = tuple(row.name for row in _PUBLISHED_DRUMS)
+
+# What places a case among others.
+_FACTS = (
+    _made("load_mass", "kg/m", "run", "mass of the load per meter of depth", symbol="M", formula="Σ m"),
+    _made("steps_per_collision", "1", "run", "time steps in the shortest collision"),
+    _made(
+        "critical_angular_velocity",
+        "rad/s",
+        "run",
+        "angular velocity from which on a bundle stays on the rim all the way round",
+        symbol="Ω_c",
+        formula="√(g/(R − r))",
+    ),
+    _made("critical_share", "1", "run", "greatest speed of the drum over the critical one", formula="Ω/Ω_c"),
+    _made(
+        "froude_number",
+        "1",
+        "run",
+        "centrifugal acceleration of the rim over gravity, at the greatest speed of the drum",
+        symbol="Fr",
+        formula="Ω² R/g",
+    ),
+)
+FACTS = tuple(row.name for row in _FACTS)
+
+# Table of the phases of a program, beyond the summary and the table of a sweep.
+_PHASES = (
+    _made("number", "1", "run", "how often the phase has come, from 1 on"),
+    _made("start", "s", "run", "time at which the phase begins"),
+    _made("end", "s", "run", "time at which the phase ends, or the run"),
+    _made("phase_work", "J/m", "run", "work of the drum on the load within the phase", symbol="ΔW"),
+    _made(
+        "phase_specific_work",
+        "J/kg",
+        "run",
+        "work of the drum on the load within the phase, over the mass of the load",
+        symbol="ΔW/M",
+    ),
+)
+PHASES = tuple(row.name for row in _PHASES)

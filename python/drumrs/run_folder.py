@@ -10,7 +10,7 @@ from drumrs.errors import UnstableError
 from drumrs.files import remove_temporaries, write_whole
 from drumrs.folders import claim
 from drumrs.frames import Frames, FramesFile, thinned
-from drumrs.output import claim_folder, clear_folder, complete, draw, save_unstable
+from drumrs.output import claim_folder, clear_folder, complete, draw, save_unstable, write_phases
 from drumrs.parts import PART_SIZE, Parts
 from drumrs.pictures import attempt
 from drumrs.result import Summary, write_tables
@@ -98,6 +98,7 @@ class RunFolder:
         # A run that went on beyond its duration is that of another configuration now.
         claim(self.path, "run", simulation.config.title, simulation.config.digest)
         written = write_tables(self.path, simulation.config, series)
+        written += write_phases(self.path, simulation.config, series)
         self._parts.merge_frames(path, simulation.records)
         return [*written, path]
 

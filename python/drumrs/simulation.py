@@ -17,6 +17,8 @@ from numpy.typing import NDArray
 from drumrs import _core
 from drumrs.checkpoint import read_checkpoint, write_checkpoint
 from drumrs.config import Config, require_config
+from drumrs.config.derived import Facts
+from drumrs.config.hints import hints
 from drumrs.config.messages import both_given
 from drumrs.errors import CheckpointError, ConfigError, DrumrsError, DrumrsWarning
 from drumrs.limits import (
@@ -64,7 +66,8 @@ class Simulation(HasRecords):
     Warns
     -----
     DrumrsWarning
-        Where contacts stick for ever, or make the time step "auto" much shorter.
+        Where contacts stick for ever or make the time step "auto" much shorter, and where something may not be
+        what was meant, as `Config.hints` tells.
 
     Examples
     --------
@@ -313,7 +316,16 @@ class Simulation(HasRecords):
     @property
     def warnings(self) -> list[str]:
         """What this simulation does that one may not expect, a message each; they are warned of at the start."""
-        return self._core.warnings
+        return [*hints(self._config, self._facts), *self._core.warnings]
+
+    @property
+    def facts(self) -> str:
+        """A line that places this simulation among others: Froude number, critical speed, load, resolution."""
+        return self._config.facts_line(self._facts)
+
+    @property
+    def _facts(self) -> Facts:
+        return Facts.read(self._core.facts)
 
     def summary(self, window: tuple[float, float] | None = None) -> Summary:
         """Return averages over an interval.

@@ -14,7 +14,7 @@ mod _core {
     use pyo3::types::PyDict;
 
     #[pymodule_export]
-    use super::averages::{block_error, mean_rate, mean_ratio, mean_sampled, window};
+    use super::averages::{block_error, mean_rate, mean_ratio, mean_sampled, summary, window};
     #[pymodule_export]
     use super::simulation::Simulation;
     use crate::error::Error;

@@ -14,9 +14,9 @@ use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use super::arrays;
 use super::fair_lock::FairLock;
 use super::fork_guard::Entered;
+use super::{arrays, averages};
 use crate::engine::parallel::CHUNK;
 use crate::error::Error;
 use crate::io::config::SimulationConfig;
@@ -275,6 +275,12 @@ impl Simulation {
         Ok(state)
     }
 
+    /// What places this case among others, in JSON.
+    #[getter]
+    fn facts(&self, py: Python<'_>) -> String {
+        self.with(py, |core| serde_json::to_string(&core.facts()).expect("plain numbers"))
+    }
+
     #[getter]
     fn warnings(&self, py: Python<'_>) -> Vec<String> {
         self.with(py, |core| core.warnings().iter().map(ToString::to_string).collect())
@@ -389,12 +395,7 @@ impl Simulation {
     }
 
     fn summary<'py>(&self, py: Python<'py>, start: f64, end: f64) -> PyResult<Bound<'py, PyDict>> {
-        let statistics = self.with(py, |core| summarize(core.series(), core.mass(), start, end))?;
-        let summary = PyDict::new(py);
-        for (name, value) in statistics {
-            summary.set_item(name, value)?;
-        }
-        Ok(summary)
+        averages::dictionary(py, self.with(py, |core| summarize(core.series(), core.mass(), start, end))?)
     }
 
     /// The columns of the series: name, symbol, unit, reading, formula, meaning.

@@ -38,10 +38,10 @@ impl Simulation {
         self.derived.steady_speed.is_none() && !(self.is_steady(step) && self.is_steady(step + 1))
     }
 
-    /// Whether the drum's speed is the same at both ends of a step.
+    /// Whether the drum's speed stays the same in a step.
     fn is_steady(&self, step: u64) -> bool {
-        let speed = |step| self.config.rotation.angular_velocity(self.time_at(step));
-        self.derived.steady_speed.is_some() || speed(step - 1) == speed(step)
+        let (from, to) = (self.time_at(step - 1), self.time_at(step));
+        self.derived.steady_speed.is_some() || self.config.rotation.is_steady(from, to)
     }
 
     /// Charges the change of angular momentum where it does not telescope. The velocities still lack half a kick.

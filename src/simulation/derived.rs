@@ -28,6 +28,8 @@ pub(super) struct Derived {
     pub(super) frame_steps: u64,
     /// The drum's speed where it is constant.
     pub(super) steady_speed: Option<f64>,
+    /// Its angle at the knots of its schedule.
+    pub(super) angles_at_knots: Vec<f64>,
 }
 
 impl Derived {
@@ -46,6 +48,7 @@ impl Derived {
             sample_steps: every(config.run.sample_every),
             frame_steps: every(config.run.frame_every),
             steady_speed: config.rotation.is_constant().then(|| config.rotation.angular_velocity(0.0)),
+            angles_at_knots: config.rotation.angles_at_knots(),
         })
     }
 
@@ -104,21 +107,58 @@ pub(super) fn collision_times(table: &SpeciesTable, particles: &Particles) -> (f
     table.collision_times((least(&particles.masses), least(&particles.radii)))
 }
 
+/// What places a case among others.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Facts {
+    /// Mass of all bundles [kg/m].
+    pub load_mass: f64,
+    /// Time steps in the shortest collision.
+    pub steps_per_collision: f64,
+    /// √(g/(R − r)) [rad/s], from which on a bundle stays on the rim all the way round, where there is a rim. Of several
+    /// sizes r is the greatest.
+    pub critical_angular_velocity: Option<f64>,
+    /// The greatest |Ω| over the critical one, where there is one above 0.
+    pub critical_share: Option<f64>,
+    /// Ω² R / g of the greatest |Ω|, likewise.
+    pub froude_number: Option<f64>,
+}
+
+impl Facts {
+    /// Of a load, and of a time step [s] that resolves its collisions.
+    pub(super) fn new(
+        config: &SimulationConfig,
+        table: &SpeciesTable,
+        particles: &Particles,
+        time_step: f64,
+    ) -> Self {
+        let gravity = config.gravity[0].hypot(config.gravity[1]);
+        let fastest = config.rotation.greatest_speed();
+        let largest = particles.radii.iter().copied().fold(0.0, f64::max);
+        let (bundle, drum) = collision_times(table, particles);
+        let rim = config.drum.radius.filter(|_| gravity > 0.0);
+        let critical = |rim: f64| (gravity / (rim - largest)).sqrt();
+        Self {
+            load_mass: particles.total_mass(),
+            steps_per_collision: bundle.min(drum) / time_step,
+            critical_angular_velocity: config.drum.radius.map(critical),
+            critical_share: rim.map(|rim| fastest / critical(rim)),
+            froude_number: rim.map(|rim| fastest * fastest * rim / gravity),
+        }
+    }
+}
+
 /// What follows from a configuration before anything is packed: of bundles of the configured size.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct DerivedParameters {
     /// Mass of a bundle [kg/m].
     pub bundle_mass: f64,
-    /// Mass of all bundles [kg/m].
-    pub load_mass: f64,
     /// Time step [s].
     pub time_step: f64,
     /// Angular velocity Ω [rad/s] where it is constant.
     pub angular_velocity: Option<f64>,
-    /// √(g/R) [rad/s], at which a bundle stays on the rim, where there is a rim.
-    pub critical_angular_velocity: Option<f64>,
-    /// Ω² R / g where there are all three.
-    pub froude_number: Option<f64>,
+    /// What places the case among others.
+    #[serde(flatten)]
+    pub facts: Facts,
     /// A contact of two bundles.
     pub bundle: DerivedContact,
     /// A contact of a bundle and the drum.
@@ -151,19 +191,15 @@ impl DerivedParameters {
         let radius = 0.5 * load.diameter;
         let one = Particles::at_rest(vec![Vec2::zeros()], vec![radius], load.density, load.spin_locked);
         let body = (one.masses[0], radius);
-        let gravity = config.gravity[0].hypot(config.gravity[1]);
         let angular_velocity = config.rotation.is_constant().then(|| config.rotation.angular_velocity(0.0));
-        let rim = config.drum.radius;
+        let table = config.contact.table()?;
+        let time_step = time_step(config, &table, &one)?;
+        let facts = Facts::new(config, &table, &one, time_step);
         Ok(Self {
             bundle_mass: body.0,
-            load_mass: load.count as f64 * body.0,
-            time_step: time_step(config, &config.contact.table()?, &one)?,
+            time_step,
             angular_velocity,
-            critical_angular_velocity: rim.map(|rim| (gravity / rim).sqrt()),
-            froude_number: angular_velocity
-                .zip(rim)
-                .filter(|_| gravity > 0.0)
-                .map(|(speed, rim)| speed * speed * rim / gravity),
+            facts: Facts { load_mass: load.count as f64 * body.0, ..facts },
             bundle: DerivedContact::new(&config.contact.bundle, BodyPair::of_equals(body)),
             drum: DerivedContact::new(&config.contact.drum, BodyPair::at_wall(body)),
         })

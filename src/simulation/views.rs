@@ -1,7 +1,7 @@
 //! What a simulation shows of itself.
 
 use super::Simulation;
-use super::derived;
+use super::derived::{self, Facts};
 use super::state::State;
 use crate::engine::forces::Lists;
 use crate::engine::relabel;
@@ -70,12 +70,17 @@ impl Simulation {
 
     /// Angle of the drum [rad].
     pub fn drum_angle(&self) -> f64 {
-        self.state.initial_angle + self.config.rotation.angle(self.time())
+        self.state.initial_angle + self.config.rotation.angle_by(&self.derived.angles_at_knots, self.time())
     }
 
     /// Shortest collision times [s] of this load: (between bundles, with the drum).
     pub fn collision_times(&self) -> (f64, f64) {
         derived::collision_times(&self.derived.table, &self.state.particles)
+    }
+
+    /// What places this case among others.
+    pub fn facts(&self) -> Facts {
+        Facts::new(&self.config, &self.derived.table, &self.state.particles, self.derived.time_step)
     }
 
     /// The error that stopped this simulation, if one did.

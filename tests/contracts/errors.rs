@@ -14,10 +14,16 @@ fn refusal(config: &drumrs::io::config::SimulationConfig, initial: InitialState)
 fn every_variant_has_its_message() {
     let config = Error::config("load.density", -1.0, "a positive finite number");
     assert_eq!(config.to_string(), "load.density is -1, but must be a positive finite number");
-    let packing = Error::Packing { requested: 400, fits: 361, diameter: 0.02375 };
+    let packing = Error::Packing { requested: 400, fits: 361, diameters: [0.02375; 2] };
     assert_eq!(
         packing.to_string(),
         "load.count is 400, but must be at most 361: no more bundles of diameter 0.02375 m fit into this drum"
+    );
+    let mixed = Error::Packing { requested: 400, fits: 361, diameters: [0.02, 0.028] };
+    assert_eq!(
+        mixed.to_string(),
+        "load.count is 400, but must be at most about 361: no more bundles of this mix, 2.000e-2 to 2.800e-2 m in \
+         diameter, fit into this drum"
     );
     let incident =
         Incident { particle: 812, step: 40_210, time: 0.148_777, position: [0.200_04, -0.1], speed: 1.25 };
@@ -69,7 +75,7 @@ fn errors_have_parts() {
         error.to_string(),
         "run.time_step is 0.001, but must be at most 2e-5; or set run.time_step = \"auto\""
     );
-    let packing = Error::Packing { requested: 400, fits: 361, diameter: 0.02375 };
+    let packing = Error::Packing { requested: 400, fits: 361, diameters: [0.02375; 2] };
     assert_eq!((packing.key(), packing.hint()), (Some("load.count"), ""));
     assert_eq!(Value::from(1e300).to_string(), "1e300");
     assert_eq!(Value::from(-0.5).to_string(), "-0.5");

@@ -62,12 +62,15 @@ fn the_ledger_closes_and_three_powers_agree() {
 fn short_runs_leave_nothing_but_round_off() {
     let mut reversing = baseline(160, 3);
     reversing.rotation.knots = vec![[0.0, 2.0 * SPEED], [0.02, -2.0 * SPEED], [0.05, SPEED], [0.06, 0.0]];
+    let mut jumping = baseline(160, 3);
+    jumping.rotation.knots = vec![[0.03, SPEED], [0.03, -SPEED], [0.05, -SPEED], [0.05, 0.0]];
     let mut locked = baseline(160, 3);
     locked.load.spin_locked = true;
     let cases = [
         ("bare", baseline(300, 0)),
         ("baffles", baseline(200, 3)),
         ("reversing", reversing),
+        ("jumping", jumping),
         ("locked", locked),
     ];
     for (name, mut config) in cases {

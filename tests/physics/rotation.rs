@@ -79,6 +79,51 @@ fn scaled_time_gives_the_same_angle_bit_for_bit() {
     }
 }
 
+/// 2 s at 3 rad/s, a jump, 1 s at −1 rad/s, a jump, from 4 rad/s to 0 in 2 s.
+fn jumping() -> RotationSchedule {
+    let knots = vec![[0.0, 3.0], [2.0, 3.0], [2.0, -1.0], [3.0, -1.0], [3.0, 4.0], [5.0, 0.0]];
+    RotationSchedule { knots }
+}
+
+#[test]
+fn a_jump_takes_no_time_and_belongs_to_what_follows() {
+    let times = [1.0, 2.0, 2.5, 3.0, 4.0];
+    assert_eq!(times.map(|t| jumping().angular_velocity(t)), [3.0, -1.0, -1.0, 4.0, 2.0]);
+    assert_eq!(times.map(|t| jumping().angle(t)), [3.0, 6.0, 5.5, 5.0, 8.0]);
+    // A step that ends at a jump knows nothing of it, one that holds it is exact.
+    assert_eq!(jumping().angle_increment(1.75, 2.0), 0.75);
+    assert_eq!(jumping().angle_increment(2.0, 2.25), -0.25);
+    assert_eq!(jumping().angle_increment(1.75, 2.25), 0.5);
+    assert_eq!(jumping().greatest_speed(), 4.0);
+    assert!(!jumping().is_constant());
+}
+
+#[test]
+fn a_steady_time_is_one_without_a_jump_or_ramp() {
+    for (from, to, steady) in [
+        (0.5, 1.0, true),
+        (1.5, 2.0, false),
+        (2.0, 2.5, true),
+        (1.5, 2.5, false),
+        (3.5, 4.0, false),
+        (5.0, 9.0, true),
+    ] {
+        assert_eq!(jumping().is_steady(from, to), steady, "{from} to {to}");
+    }
+    let blip = RotationSchedule { knots: vec![[1.0, 2.0], [1.0, 9.0], [1.5, 9.0], [1.5, 2.0]] };
+    assert!(!blip.is_steady(0.5, 2.0));
+}
+
+#[test]
+fn the_angle_by_sums_at_knots_has_the_same_bits() {
+    for schedule in [program(), jumping(), RotationSchedule::constant(5.5)] {
+        let angles = schedule.angles_at_knots();
+        for time in (0..700).map(|k| 0.01 * f64::from(k)).chain(schedule.knots.iter().map(|knot| knot[0])) {
+            assert_eq!(schedule.angle_by(&angles, time).to_bits(), schedule.angle(time).to_bits(), "{time}");
+        }
+    }
+}
+
 #[test]
 fn constant_schedules_are_recognized() {
     assert!(RotationSchedule::constant(3.0).is_constant());
@@ -99,8 +144,12 @@ fn unusable_schedules_are_refused() {
         "rotation.program is a list that starts at -1 s, but must be a list that starts at 0 s or later"
     );
     assert_eq!(
-        message(vec![[0.0, 2.0], [3.0, 1.0], [3.0, 4.0]]),
-        "rotation.program is a list with 3 s after 3 s, but must be a list of strictly increasing times"
+        message(vec![[0.0, 2.0], [4.0, 1.0], [3.0, 4.0]]),
+        "rotation.program is a list with 3 s after 4 s, but must be a list of increasing times"
+    );
+    assert_eq!(
+        message(vec![[3.0, 2.0], [3.0, 1.0], [3.0, 4.0]]),
+        "rotation.program is a list with three knots at 3 s, but must be a list of at most two knots at one time, before and after a jump"
     );
     assert!(program().validate().is_ok());
 }

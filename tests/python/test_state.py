@@ -26,7 +26,7 @@ WALL = {"drum.rim": False, "rotation.rpm": 0.0, "drum.walls": [[[-0.1, 0.0], [0.
         ),
         (
             {"drum.baffles.count": 3},
-            State([[0.1875 - 0.3 * RADIUS, 0.0]]),
+            State([[0.1975 - 0.3 * RADIUS, 0.0]]),
             r"\[0\] and the baffle 1 overlap by 70",
         ),
         (WALL, State([[0.0, 0.0]]), r"state.positions\[0\] is \[0, 0\], but must be .*: there is the wall 1"),

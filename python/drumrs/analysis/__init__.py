@@ -2,7 +2,7 @@
 
 `blocks` averages inside a run, `seeds` over runs, `estimate` calculates with the results; `drift` asks whether a
 window was steady; `motion` and `depth` look at the bundles, frame by frame; `statistics` puts what a series tells
-into columns. Nothing here sees a simulation.
+into columns, `phases` phase by phase. Nothing here sees a simulation.
 """
 
 from drumrs.analysis.blocks import (
@@ -17,6 +17,7 @@ from drumrs.analysis.depth import depth_profile
 from drumrs.analysis.drift import Drift, StateSwitching, drift, ratio_drift, state_switching
 from drumrs.analysis.estimate import Estimate, Interval, combine, mean_of
 from drumrs.analysis.motion import along_the_rim, carried_round, mixed_in_a_turn, mixing
+from drumrs.analysis.phases import phases
 from drumrs.analysis.seeds import disagreement, estimate, student
 from drumrs.analysis.statistics import STATISTICS, statistics
 
@@ -40,6 +41,7 @@ __all__ = [
     "mean_with_error",
     "mixed_in_a_turn",
     "mixing",
+    "phases",
     "rate_with_error",
     "ratio_drift",
     "ratio_with_error",

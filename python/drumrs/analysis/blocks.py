@@ -1,5 +1,6 @@
 """Means over a window with their standard errors, from block averages. The core computes them, as for the summary."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -164,6 +165,26 @@ def ratio_with_error(
     rows = SeriesWindow.of(series, window)
     found = _core.mean_ratio(rows.times, rows.column(numerator), rows.column(denominator))
     return _mean(*found) if found is not None else None
+
+
+def summary_of(
+    rows: "pl.DataFrame", surfaces: tuple[int, int], record: Sequence[str], mass: float
+) -> dict[str, float | None]:
+    """Return the numbers of a `Summary` that a part of a series tells, from its first row to its last.
+
+    Parameters
+    ----------
+    rows
+        Two rows at least, with the columns that are recorded, in their order.
+    surfaces
+        Numbers of baffles and walls.
+    record
+        What is recorded on request.
+    mass
+        Mass of the load per meter of depth [kg/m].
+    """
+    values = np.ascontiguousarray(rows.to_numpy(), dtype=np.float64)
+    return _core.summary(surfaces, "gross_work" in record, values, mass)
 
 
 def ratio_of_sums(numerators: Array, denominators: Array) -> Mean | None:

@@ -65,6 +65,13 @@ def statistics(
         the run; each with the ``…_significance`` of `Drift` and `StateSwitching`.
         ``drifting``: whether one of the three is beyond chance (one in a thousand) and above a hundredth.
     """
+    return {**means_with_errors(series, window, mass), **_steadiness(series, window)}
+
+
+def means_with_errors(
+    series: "pl.DataFrame", window: tuple[float, float], mass: float
+) -> dict[str, float | None]:
+    """Return those of `statistics` that are means, with their errors."""
     means: dict[str, Mean | None] = {
         f"{name}_specific_power": _scaled(rate_with_error(series, column, window), mass)
         for name, column in {"drum": "drum_work", **{loss: loss for loss in _LOSSES}}.items()
@@ -74,11 +81,11 @@ def statistics(
     is_recorded = set(_GROSS_WORK) <= set(series.columns)
     means["gross_work_ratio"] = ratio_with_error(series, *_GROSS_WORK, window) if is_recorded else None
     means["specific_angular_momentum"] = _scaled(_sampled(series, "angular_momentum", window), mass)
-    columns: dict[str, float | bool | None] = {}
+    columns: dict[str, float | None] = {}
     for name, mean in means.items():
         columns[name] = mean.value if mean is not None else None
         columns[f"{name}_error"] = mean.error if mean is not None else None
-    return {**columns, **_steadiness(series, window)}
+    return columns
 
 
 def _steadiness(series: "pl.DataFrame", window: tuple[float, float]) -> dict[str, float | bool | None]:

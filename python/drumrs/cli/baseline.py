@@ -1,5 +1,6 @@
 """`drumrs baseline`: the paper's drum without and with baffles, side by side."""
 
+import sys
 from pathlib import Path
 from typing import Annotated
 
@@ -47,8 +48,9 @@ def baseline(
     require_own(out, "baseline", ["baseline.png"], "--out")
     for name, config in cases.items():
         require_folder(folders[name], config, force=force, option="--out")
-    results = run_side_by_side(cases)
     first = next(iter(cases.values()))
+    sys.stderr.write(f"drumrs: {first.facts}\n")
+    results = run_side_by_side(cases)
     claim(out, "baseline", first.title, first.digest)
     written = [
         path for name, result in results.items() for path in drumrs.save(result, folders[name], force=force)

@@ -7,8 +7,9 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
+from drumrs.analysis.phases import phases_of
 from drumrs.cli.options import NUMBER, PATH, Seed, Settings, Threads, check_folder, layered
-from drumrs.cli.tables import print_paths, print_table
+from drumrs.cli.tables import print_paths, print_phases, print_table
 from drumrs.config import Config
 from drumrs.config.softening import softening
 from drumrs.errors import ConfigError, UnstableError
@@ -39,7 +40,7 @@ def run(
     """Run a case: the paper's baseline, a TOML file laid over it, settings laid over the file.
 
     The last word wins: baseline, CASE.toml, `--set`, `--seed`. One of a pair (`load.fill` or `load.count`,
-    `restitution` or `normal_damping`, `rotation.rpm` or `rotation.program`) takes the place of the other from a
+    `restitution` or `normal_damping`, `rotation.rpm`, `.program` or `.phase`) takes the place of the other from a
     lower layer. `drumrs config` lists the keys.
 
     Parameters
@@ -47,9 +48,10 @@ def run(
     case
         TOML file with some keys of `drumrs config`.
     out
-        Folder for summary.json, series.parquet, frames.parquet, config.toml, pictures, player.html and checkpoints. A
-        run that ends unstable leaves unstable.json instead of summary.json and pictures; the rest shows its end. While
-        it runs, series and frames go to its folder "records" as they come.
+        Folder for summary.json, series.parquet, frames.parquet, config.toml, pictures, player.html and checkpoints, and
+        for phases.parquet where the drum turns by phases. A run that ends unstable leaves unstable.json instead of
+        summary.json and pictures; the rest shows its end. While it runs, series and frames go to its folder "records"
+        as they come.
     json
         Print the summary as one JSON object, and nothing else, on standard output.
     resume
@@ -88,6 +90,7 @@ def run(
             _require_folder(out, case, force=force)
         with packing(config, show=True):
             simulation = Simulation(config, threads=threads, in_memory=out is None)
+        sys.stderr.write(f"drumrs: {simulation.facts}\n")
         folder = _open_folder(out, simulation)
     try:
         reached = _finish(simulation, folder, goal)
@@ -99,6 +102,8 @@ def run(
         sys.stdout.write(f"{summary.to_json()}\n")
     else:
         print_table({"": summary})
+        if simulation.config.rotation.phase:
+            print_phases(phases_of(simulation.config, simulation.series))
         print_paths(written)
     if reached:
         sys.stderr.write(f"drumrs: {reached}\n")

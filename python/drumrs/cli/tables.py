@@ -3,8 +3,12 @@
 import sys
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from drumrs.result import Summary
+
+if TYPE_CHECKING:
+    import polars as pl
 
 
 def print_table(summaries: dict[str, Summary]) -> None:
@@ -20,6 +24,26 @@ def print_table(summaries: dict[str, Summary]) -> None:
         table.add_column(name, justify="right", no_wrap=True)
     for label in columns[0]:
         table.add_row(escape(label), *(column[label] for column in columns))
+    Console(highlight=False).print(table)
+
+
+def print_phases(phases: "pl.DataFrame") -> None:
+    """Print a program's phases, a row for each name: how often it came, time, work, mean power."""
+    import polars as pl
+    from rich.console import Console
+    from rich.markup import escape
+    from rich.table import Table
+
+    spent = pl.col("end") - pl.col("start")
+    work = pl.col("phase_specific_work").sum()
+    rows = phases.group_by("phase", maintain_order=True).agg(
+        number=pl.len(), time=spent.sum(), work=work, power=work / spent.sum()
+    )
+    table = Table(box=None, highlight=False)
+    for label in ("phase", "times", "time [s]", "work [J/kg]", "power [W/kg]"):
+        table.add_column(escape(label), justify="left" if label == "phase" else "right")
+    for name, *numbers in rows.iter_rows():
+        table.add_row(escape(name), *(f"{number:.4g}" for number in numbers))
     Console(highlight=False).print(table)
 
 

@@ -1,9 +1,10 @@
 """Validated, frozen configurations: keys and defaults, layers, TOML and JSON in and out.
 
 Imports nothing else of drumrs but its errors and the reader of drawings. `types` holds the types of values and their
-limits in words, `tables` and `drum_tables` the tables of keys, `config` the whole configuration, `liner` where a liner
-is read; `layers` merges tables, `messages` words what is refused,
-`toml_writer` writes TOML with comments, `to_core` translates for the compiled core, `derived` asks it what follows.
+limits in words, `tables` and `drum_tables` the tables of keys, `program` the phases of a program, `config` the whole
+configuration, `liner` where a liner is read; `layers` merges tables, `messages` words what is refused, `hints` tells of
+what may not be meant, `toml_writer` writes TOML with comments, `schema` a JSON schema for editors, `to_core` translates
+for the compiled core, `derived` asks it what follows.
 """
 
 from drumrs.config.config import Config, baseline, read_layer, require_config
@@ -17,6 +18,7 @@ from drumrs.config.tables import (
     LinearContact,
     Load,
     PairContact,
+    Phase,
     Rotation,
     Run,
     WallContact,
@@ -34,6 +36,7 @@ __all__ = [
     "Load",
     "Outline",
     "PairContact",
+    "Phase",
     "Rail",
     "Rotation",
     "Run",

@@ -9,7 +9,8 @@ from typing import Any, Self
 
 from pydantic import ModelWrapValidatorHandler, model_validator
 
-from drumrs.config.derived import GREATEST_COUNT, Derived, derive
+from drumrs.config.derived import GREATEST_COUNT, Derived, Facts, derive
+from drumrs.config.hints import hints
 from drumrs.config.layers import merge, nest, read_json, read_toml
 from drumrs.config.liner import anchored, with_drawing
 from drumrs.config.messages import conflict
@@ -121,6 +122,46 @@ class Config(Tables):
         return f"{load}, {self.drum.fittings}, {turning}, seed {self.run.seed}"
 
     @property
+    def facts(self) -> str:
+        """A line that places this case among others: Froude number, critical speed, load, resolution.
+
+        Raises
+        ------
+        ConfigError
+            Where no simulation can have this configuration.
+
+        Examples
+        --------
+        >>> import drumrs
+        >>> print(drumrs.baseline().facts)
+        Froude number 0.774, 85.8 % of the critical speed, load 44.3 kg per m of depth, 51.5 steps per collision
+        """
+        return self.facts_line(self.derived)
+
+    def facts_line(self, facts: Facts) -> str:
+        """Return the line of a simulation, whose load may have been given as a `State`."""
+        return facts.line(changing=self.rotation.rpm is None)
+
+    @property
+    def hints(self) -> list[str]:
+        """What may not have been meant, such as a value in another unit, a sentence each; a simulation warns of it.
+
+        Raises
+        ------
+        ConfigError
+            Where no simulation can have this configuration.
+
+        Examples
+        --------
+        >>> import drumrs
+        >>> drumrs.baseline().hints
+        []
+        >>> drumrs.baseline().replace({"load.density": 1.0}).hints
+        ['load.density is 1 kg/m³, below 5: write 1000 where g/cm³ were meant']
+        """
+        return hints(self, self.derived)
+
+    @property
     def digest(self) -> str:
         """32 hexadecimal digits that name this configuration: equal values, equal digest."""
         canonical = json.dumps(self.model_dump(mode="json", exclude_none=True), sort_keys=True)
@@ -132,8 +173,8 @@ class Config(Tables):
         Parameters
         ----------
         changes
-            Dotted keys, such as ``"contact.bundle.friction"``, or nested tables. One of an either–or pair
-            (fill/count, restitution/normal_damping, rpm/program) takes the place of the other; `None` unsets.
+            Dotted keys, such as ``"contact.bundle.friction"``, or nested tables. One of an either–or choice
+            (fill/count, restitution/normal_damping, rpm/program/phase) takes the place of the others; `None` unsets.
 
         Raises
         ------

@@ -1,5 +1,6 @@
 """`ConfigTable`: what every table of a configuration has in common; `described`: a key with its meaning and unit."""
 
+from itertools import combinations
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
@@ -41,10 +42,18 @@ class _RaisesConfigError(ModelMetaclass):
             raise refusal(cls, error) from None
 
 
+def _say_choice(schema: dict[str, Any], table: type[Any]) -> None:
+    """Say in a JSON schema that no two keys of a choice go together."""
+    if table.choice:
+        schema["allOf"] = [{"not": {"required": list(pair)}} for pair in combinations(table.choice, 2)]
+
+
 class ConfigTable(BaseModel, metaclass=_RaisesConfigError):
     """A frozen table of keys that refuses unknown ones."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid", validate_default=True)
+    model_config = ConfigDict(
+        frozen=True, extra="forbid", validate_default=True, json_schema_extra=_say_choice
+    )
 
     # Keys of which a complete table holds exactly one.
     choice: ClassVar[tuple[str, ...]] = ()

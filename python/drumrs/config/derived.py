@@ -2,7 +2,7 @@
 
 import json
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Self
 
 from drumrs import _core
 
@@ -36,31 +36,65 @@ class DerivedContact:
 
 
 @dataclass(frozen=True)
-class Derived:
+class Facts:
+    """What places a case among others.
+
+    Attributes
+    ----------
+    load_mass
+        Mass of all bundles per meter of drum depth [kg/m].
+    steps_per_collision
+        Time steps in the shortest collision.
+    critical_angular_velocity
+        √(g/(R − r)) [rad/s], from which on a bundle stays on the rim all the way round; `None` without a rim.
+    critical_share
+        The drum's greatest speed over the critical one; `None` without a rim or gravity.
+    froude_number
+        Ω² R / g at the drum's greatest speed; `None` likewise.
+    """
+
+    load_mass: float
+    steps_per_collision: float
+    critical_angular_velocity: float | None
+    critical_share: float | None
+    froude_number: float | None
+
+    @classmethod
+    def read(cls, core_json: str) -> Self:
+        """Read what the core tells of a simulation."""
+        return cls(**json.loads(core_json))
+
+    def line(self, *, changing: bool) -> str:
+        """Say them in a line; where the drum's speed is changing, the numbers of the greatest one are limits."""
+        limit = "up to " if changing else ""
+        words = []
+        if self.froude_number is not None:
+            words.append(f"Froude number {limit}{self.froude_number:.3g}")
+        if self.critical_share is not None:
+            words.append(f"{limit}{100.0 * self.critical_share:.3g} % of the critical speed")
+        words.append(f"load {self.load_mass:.3g} kg per m of depth")
+        return ", ".join([*words, f"{self.steps_per_collision:.3g} steps per collision"])
+
+
+@dataclass(frozen=True)
+class Derived(Facts):
     """What follows from a configuration, of equal bundles of the configured size; see `Config.derived`.
 
     Attributes
     ----------
-    bundle_mass, load_mass
-        Mass of one bundle and of all of them, per meter of drum depth [kg/m].
+    bundle_mass
+        Mass of one bundle per meter of drum depth [kg/m].
     time_step
         Time step [s], also where ``run.time_step`` is "auto".
     angular_velocity
         Angular velocity Ω of the drum [rad/s]; `None` where it changes.
-    critical_angular_velocity
-        √(g/R) [rad/s], from which on a bundle stays on the rim all the way round; `None` without a rim.
-    froude_number
-        Ω² R / g; `None` without a rim, a constant speed or gravity.
     bundle, drum
         The contacts of two bundles, and of a bundle with the drum.
     """
 
     bundle_mass: float
-    load_mass: float
     time_step: float
     angular_velocity: float | None
-    critical_angular_velocity: float | None
-    froude_number: float | None
     bundle: DerivedContact
     drum: DerivedContact
 

@@ -159,6 +159,11 @@ class Drum(ConfigTable):
 
     diameter: Positive = described(0.475, "Inner diameter D", "m")
     rim: Flag = described(default=True, meaning="Whether there is a rim; false leaves liner and walls alone")
+    tilt: types.Tilt = described(
+        0.0,
+        "Angle of the axis to the horizontal; gravity along the axis is left out. Instead of gravity",
+        "degrees",
+    )
     walls: Annotated[tuple[types.Polyline, ...], Limit("a list of polylines")] = described(
         (), "Further walls: open polylines of points [x, y] at t = 0, which turn with the drum", "m"
     )

@@ -1,5 +1,6 @@
 """The tables of a configuration, in SI units but for rpm and degrees; defaults are the paper's Table 1."""
 
+import math
 from itertools import pairwise
 from typing import Annotated, Any, ClassVar, Literal, Self
 
@@ -11,6 +12,7 @@ from drumrs.config.config_table import described as _key
 from drumrs.config.drum_tables import Drum
 from drumrs.config.layers import merge
 from drumrs.config.messages import both_given, conflict
+from drumrs.config.program import MOST_PHASES, Interval, count_phases, knots_of, unrolled
 from drumrs.config.types import Flag, Limit, NonNegative, Positive, Real
 
 Tension = Annotated[Literal["allowed", "clipped"], Limit("'allowed' or 'clipped'")]
@@ -18,32 +20,110 @@ Base = Annotated[Literal["linear", "hertz"], Limit("'linear' or 'hertz'")]
 TimeStep = Annotated[Literal["auto"] | Positive, Limit("'auto' or a positive finite number")]
 Skin = Annotated[Literal["auto"] | NonNegative, Limit("'auto' or a finite number of at least 0")]
 
+_GRAVITY = (0.0, -9.81)
+_PHASES = Limit(
+    "a list of phases: tables with name, duration, and rpm or ramp, or a group with phase and repeat"
+)
+
+
+class Phase(ConfigTable):
+    """A phase of a program: a time at one speed or on a ramp, or a group of phases, which may be repeated."""
+
+    choice: ClassVar[tuple[str, ...]] = ("rpm", "ramp", "phase")
+
+    name: types.Name | None = _key(None, "Name under which it is summed up; its number unless given")
+    duration: Positive | None = _key(None, "How long it lasts; a group lasts as long as its phases", "s")
+    rpm: Real | None = _key(None, "Speed", "rpm")
+    ramp: types.Ramp | None = _key(
+        None, "Speeds at its start and end, between which it changes evenly", "rpm"
+    )
+    phase: Annotated["tuple[Phase, ...]", Field(min_length=1), _PHASES] | None = _key(
+        None, "Phases of a group"
+    )
+    repeat: types.Repeat = _key(1, "How often a group is gone through")
+    reversing: Flag = _key(default=False, meaning="Whether every second time it turns the other way round")
+
+    @model_validator(mode="after")
+    def _lasts_and_repeats_as_it_may(self) -> Self:
+        if self.phase is None and self.duration is None:
+            limit = "given: how many seconds the phase lasts"
+            raise conflict("{at}duration", limit=limit, problem=f"is missing, but must be {limit}")
+        if self.phase is not None and self.duration is not None:
+            raise conflict(
+                "{at}duration", self.duration, "left out of a group, which lasts as long as its phases"
+            )
+        if self.phase is None and (self.repeat > 1 or self.reversing):
+            key, value = ("repeat", self.repeat) if self.repeat > 1 else ("reversing", self.reversing)
+            hint = "a group is { phase = [{ … }, { … }], repeat = 10 }"
+            raise conflict(f"{{at}}{key}", value, "left out of a phase that is no group", hint=hint)
+        return self
+
 
 class Rotation(ConfigTable):
-    """How the drum turns, counter-clockwise positive: one speed, or a program."""
+    """How the drum turns, counter-clockwise positive: one speed, a program by knots, or a program by phases."""
 
-    choice: ClassVar[tuple[str, ...]] = ("rpm", "program")
+    choice: ClassVar[tuple[str, ...]] = ("rpm", "program", "phase")
 
     rpm: Real | None = _key(None, "Constant speed", "rpm", 54.0)
     program: types.Program | None = _key(
         None,
-        "Knots [time, speed] of a program: linear between them, constant beyond the first and last",
+        "Knots [time, speed] of a program: linear between them, constant beyond the first and last; two of one time "
+        "are a jump",
         "s, rpm",
         [[0.0, 0.0], [2.0, 54.0], [20.0, 54.0], [22.0, -54.0]],
     )
+    phase: Annotated[tuple[Phase, ...], Field(min_length=1), _PHASES] | None = _key(
+        None,
+        "Phases of a program, one after the other from t = 0, each a table [[rotation.phase]]; beyond the last "
+        "one the speed stays; docs/programs.md",
+        example=[
+            {"name": "tumble", "duration": 12.0, "rpm": 54.0},
+            {"name": "stop", "duration": 3.0, "rpm": 0.0},
+        ],
+    )
+
+    @property
+    def given(self) -> str:
+        """Name of the key that says how the drum turns."""
+        return next(key for key in self.choice if getattr(self, key) is not None)
+
+    @property
+    def speeds(self) -> list[float]:
+        """Speeds that the drum has, those between which it changes evenly left out [rpm]."""
+        return [rpm for _, rpm in self.knots]
+
+    @property
+    def knots(self) -> types.Program:
+        """Knots [s, rpm] of the speed over time."""
+        return self.program or knots_of(self.intervals) or ((0.0, self.rpm or 0.0),)
+
+    @property
+    def intervals(self) -> list[Interval]:
+        """The phases in the order of time, groups unrolled; none without phases."""
+        return unrolled(self.phase or ())
 
     @model_validator(mode="after")
     def _knots_are_in_order(self) -> Self:
-        for index, ((earlier, before), (later, after)) in enumerate(pairwise(self.program or ()), 1):
-            if later > earlier:
+        times = [time for time, _ in self.program or ()]
+        for index, (earlier, later) in enumerate(pairwise(times), 1):
+            if later < earlier:
+                limit = f"no earlier than the knot before it, which is at {earlier} s"
+            elif times[:index].count(later) > 1:
+                limit = "later than the two knots before it, which are a jump"
+            else:
                 continue
-            limit = f"later than the knot before it, which is at {earlier} s"
-            hint = ""
-            if later == earlier and before != after:
-                limit += f": the speed cannot jump from {before} to {after} rpm"
-                hint = f"to change it within a millisecond, write [{later + 1e-3:.12g}, {after}]"
             problem = f"is at {later} s, but must be {limit}"
-            raise conflict(f"{{at}}program[{index}]", (later, after), limit, hint=hint, problem=problem)
+            raise conflict(f"{{at}}program[{index}]", (self.program or ())[index], limit, problem=problem)
+        return self
+
+    @model_validator(mode="after")
+    def _phases_can_be_counted(self) -> Self:
+        number = count_phases(self.phase or ())
+        if number > MOST_PHASES:
+            limit = f"at most {MOST_PHASES} of them"
+            problem = f"has {number} phases, repeats counted, but must have {limit}"
+            hint = "lower repeat, or shorten the program to the time that is simulated"
+            raise conflict("{at}phase", limit=limit, problem=problem, hint=hint)
         return self
 
 
@@ -227,5 +307,18 @@ class Tables(ConfigTable):
     rotation: Rotation = Field(default=Rotation(rpm=54.0))
     load: Load = Field(default=Load(fill=0.25))
     contact: Contact = Field(default=Contact())
-    gravity: types.Vector = _key((0.0, -9.81), "Gravity [x, y]", "m/s²")
+    gravity: types.Vector = _key(_GRAVITY, "Gravity [x, y]", "m/s²")
     run: Run = Field(default=Run())
+
+    @property
+    def plane_gravity(self) -> tuple[float, float]:
+        """Gravity in the plane of the drum, [x, y] in m/s²: g cos τ where the axis is tilted by τ."""
+        part = math.cos(math.radians(self.drum.tilt))
+        return self.gravity[0] * part, self.gravity[1] * part
+
+    @model_validator(mode="after")
+    def _gravity_or_tilt(self) -> Self:
+        if self.drum.tilt and self.gravity != _GRAVITY:
+            hint = "drum.tilt takes its part of 9.81 m/s²; other gravity is given as gravity = [x, y] in the plane"
+            raise conflict("drum.tilt", self.drum.tilt, "left out where gravity is given", hint=hint)
+        return self

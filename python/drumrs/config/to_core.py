@@ -17,7 +17,7 @@ def core_config(config: "Tables", bundle_count: int) -> dict[str, Any]:
         "rotation": {"knots": _knots(config.rotation)},
         "load": {**config.load.model_dump(exclude={"fill"}), "count": bundle_count},
         "contact": _contact(config.contact),
-        "gravity": list(config.gravity),
+        "gravity": list(config.plane_gravity),
         "run": _run(config.run),
     }
 
@@ -66,8 +66,7 @@ def _contact(contact: "Contact") -> dict[str, Any]:
 
 
 def _knots(rotation: "Rotation") -> list[tuple[float, float]]:
-    program = rotation.program or ((0.0, rotation.rpm or 0.0),)
-    return [(time, rpm * 2.0 * math.pi / 60.0) for time, rpm in program]
+    return [(time, rpm * 2.0 * math.pi / 60.0) for time, rpm in rotation.knots]
 
 
 def _run(run: "Run") -> dict[str, Any]:

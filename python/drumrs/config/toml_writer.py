@@ -57,7 +57,7 @@ def toml_item(value: Any) -> "Item":
     import tomlkit
 
     if isinstance(value, BaseModel):
-        value = value.model_dump(exclude_none=True)
+        value = value.model_dump(exclude_defaults=True)
     if isinstance(value, dict):
         inline = tomlkit.inline_table()
         inline.update({key: toml_item(item) for key, item in value.items()})
@@ -65,6 +65,7 @@ def toml_item(value: Any) -> "Item":
     if isinstance(value, (list, tuple)):
         array = tomlkit.array()
         array.extend(toml_item(item) for item in value)
+        array.multiline(len(value) > 1 and isinstance(value[0], (BaseModel, dict)))
         return array
     if isinstance(value, float) and abs(value) >= _LARGE:
         # The shortest digits, with a power of ten.

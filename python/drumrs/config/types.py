@@ -71,6 +71,9 @@ Positive = Annotated[float, _NUMBER, _FINITE, Field(gt=0), Limit("a positive fin
 NonNegative = Annotated[float, _NUMBER, _FINITE, Field(ge=0), Limit("a finite number of at least 0")]
 Restitution = Annotated[float, _NUMBER, _FINITE, Field(gt=0, le=1), Limit("above 0 and at most 1")]
 PoissonRatio = Annotated[float, _NUMBER, _FINITE, Field(ge=0, le=0.5), Limit("at least 0 and at most 0.5")]
+Tilt = Annotated[
+    float, _NUMBER, _FINITE, Field(gt=-90, lt=90), Limit("an angle above -90 and below 90 degrees")
+]
 OpenFraction = Annotated[float, _NUMBER, _FINITE, Field(gt=0, lt=1), Limit("between 0 and 1")]
 FaceAngle = Annotated[
     float, _NUMBER, Field(strict=True, gt=-90, lt=90), Limit("above -90 and below 90 degrees")
@@ -112,6 +115,9 @@ Polyline = Annotated[
     Field(min_length=2),
     Limit("a list of at least 2 points [x, y]"),
 ]
+Name = Annotated[str, Field(strict=True, min_length=1, max_length=60), Limit("a name of 1 to 60 characters")]
+Repeat = Annotated[int, _COUNT, _within(1, GREATEST_COUNT), _whole(1, GREATEST_COUNT)]
+Ramp = Annotated[tuple[Real, Real], BeforeValidator(_plain), Limit("a pair [from, to] of speeds")]
 Knot = Annotated[
     tuple[NonNegative, Real], BeforeValidator(_plain), Limit("a knot [time, rpm], time at least 0")
 ]

@@ -3,6 +3,7 @@
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from matplotlib.collections import LineCollection
 
 from drumrs.energies import energies_to_show, powers_to_show
 from drumrs.figures import labels
@@ -10,14 +11,19 @@ from drumrs.figures.shared import Array, drumrs_style, label_lines, new_figure
 from drumrs.registry import quantity
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     import polars as pl
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+# Beyond so many lines across a panel there is nothing else to be seen.
+_MOST_LINES = 60
 
-def time_series(series: "pl.DataFrame", window: tuple[float, float] | None = None) -> "Figure":
+
+def time_series(
+    series: "pl.DataFrame", window: tuple[float, float] | None = None, *, starts: "Sequence[float]" = ()
+) -> "Figure":
     """Draw a run's history: power, energies, residual of the energy ledger, center of mass.
 
     Parameters
@@ -26,6 +32,8 @@ def time_series(series: "pl.DataFrame", window: tuple[float, float] | None = Non
         Table of a run, one row a sample: `Result.series` or `Simulation.series`.
     window
         Interval of the averages [s], shaded.
+    starts
+        Times at which phases of a program begin [s], marked by lines; not where they are too many to be told apart.
 
     Examples
     --------
@@ -52,6 +60,8 @@ def time_series(series: "pl.DataFrame", window: tuple[float, float] | None = Non
             draw(axes, columns)
             if window is not None:
                 axes.axvspan(*window, color="0.94", zorder=0, linewidth=0)
+            if len(starts) <= _MOST_LINES:
+                _mark(axes, starts)
             # The last sample may fall just short of the window's end, which deserves its tick.
             axes.set_xlim(begin, max(end, window[1] if window is not None else end) or 1.0)
         if window is not None:
@@ -61,6 +71,15 @@ def time_series(series: "pl.DataFrame", window: tuple[float, float] | None = Non
         for axes in grid.flat:
             label_lines(axes)
     return figure
+
+
+def _mark(axes: "Axes", times: "Sequence[float]") -> None:
+    """Draw lines across the axes, which neither have a label nor stretch them."""
+    lines = [[(time, 0.0), (time, 1.0)] for time in times]
+    transform = axes.get_xaxis_transform()
+    axes.add_collection(
+        LineCollection(lines, transform=transform, color="0.8", linewidth=0.8, zorder=0), autolim=False
+    )
 
 
 def _over_the_window(axes: "Axes") -> dict[str, Any]:

@@ -11,7 +11,7 @@ from drumrs.config import baseline
 from drumrs.paper.cases import THIRDS, percent
 from drumrs.paper.curves import RATIOS
 from drumrs.paper.data import StudyData
-from drumrs.paper.drums import BAFFLED, BARE, Drum, baffles_are_inferred
+from drumrs.paper.drums import BAFFLED, BARE, Drum
 from drumrs.paper.states import two_states
 from drumrs.paper.verdict import MissingError
 
@@ -111,7 +111,8 @@ def _draw_states(data: StudyData) -> "Figure":
 def _draw_speed(data: StudyData) -> "Figure":
     from drumrs.paper import plots
 
-    centrifuging = (baseline().derived.critical_angular_velocity or 0.0) * 30.0 / math.pi
+    config = baseline()
+    centrifuging = (config.rotation.rpm or 0.0) / math.sqrt(config.derived.froude_number or math.inf)
     shown = data.results.shown("speed", _POWER)
     figure = plots.specific_power_against_speed(points(shown), centrifuging)
     _say_softer(figure, shown)
@@ -154,7 +155,7 @@ _ALL = (
     PaperFigure(
         "F3",
         "Snapshots with baffles",
-        f"As F2. The baffles' shape is {'inferred' if baffles_are_inferred() else 'an assumption'}.",
+        "As F2. The baffles' shape is inferred.",
         _snapshots(BAFFLED),
     ),
     PaperFigure(

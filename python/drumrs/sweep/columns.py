@@ -105,7 +105,7 @@ def _flat(values: dict[str, Any], kinds: "Mapping[str, Any]", at: str = "") -> I
 
 
 def _plain(value: Any, kind: Any) -> Any:
-    if _is_table(_element(kind)):
+    if value is not None and _is_table(_element(kind)):
         return [json.dumps({key: item for key, item in table.items() if item is not None}) for table in value]
     return None if isinstance(value, str) and get_origin(_bare(kind)) is not Literal else value
 

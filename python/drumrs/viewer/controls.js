@@ -46,6 +46,7 @@ export class Controls {
     const { recording } = this.player;
     const title = recording.title || "Simulation";
     this.part("title").textContent = title;
+    this.part("facts").textContent = recording.facts;
     this.part("player").setAttribute("aria-label", `Player: ${title}`);
     this.part("stage").setAttribute("aria-label", `${recording.count} bundles in the drum: ${title}`);
     this.part("scrub").max = recording.frames.length - 1;

@@ -3,6 +3,7 @@
 import html
 import json
 import math
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
 
@@ -52,6 +53,8 @@ class Player:
         Written over the player.
     window
         Interval of the averages [s], shaded in the curves.
+    facts
+        Written below the title.
 
     Raises
     ------
@@ -64,6 +67,8 @@ class Player:
         What is written over the player.
     window
         Interval of the averages [s], `None` where there is none.
+    facts
+        What is written below the title.
 
     Examples
     --------
@@ -82,6 +87,7 @@ class Player:
         *,
         title: str = "",
         window: tuple[float, float] | None = None,
+        facts: str = "",
     ) -> None:
         if not len(frames) or not frames.count:
             problem = (
@@ -92,6 +98,7 @@ class Player:
         self._series = series
         self.title = title
         self.window = window
+        self.facts = facts
 
     @classmethod
     def of(cls, config: Config, frames: Frames, series: "pl.DataFrame | None" = None, note: str = "") -> Self:
@@ -110,7 +117,11 @@ class Player:
         fill = math.fsum((2.0 * frames.radii) ** 2) / config.drum.diameter**2
         title = config.title_of(frames.count, fill)
         return cls(
-            frames, series, title=f"{title}: {note}" if note else title, window=config.run.averaging_window
+            frames,
+            series,
+            title=f"{title}: {note}" if note else title,
+            window=config.run.averaging_window,
+            facts=_facts(config, fill),
         )
 
     def __repr__(self) -> str:
@@ -119,7 +130,7 @@ class Player:
 
     def recording(self) -> dict[str, Any]:
         """Return what a page reads, ready for JSON: `unpack` of recording.js makes a recording of it."""
-        return pack(self._frames, self._series, self.title, self.window)
+        return pack(self._frames, self._series, self.title, self.window, self.facts)
 
     def element(self, *, autoplay: bool = False, start: float | None = None) -> str:
         """Return the player as an HTML element; the page needs `script` once, anywhere.
@@ -165,6 +176,16 @@ class Player:
             f'<iframe srcdoc="{page}" sandbox="allow-scripts" title="Player of a simulation" '
             f'style="width: 100%; height: {_NOTEBOOK_HEIGHT}px; border: 0;"></iframe>'
         )
+
+
+def _facts(config: Config, fill: float) -> str:
+    """Return the line that places a case among others, with the mass of a load that may have been given."""
+    try:
+        derived = config.derived
+    except ConfigError:
+        # The time step was chosen for a given load of other sizes.
+        return ""
+    return config.facts_line(replace(derived, load_mass=derived.load_mass * fill / config.fill))
 
 
 def script() -> str:

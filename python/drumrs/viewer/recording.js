@@ -5,12 +5,12 @@
 // logarithmic, times, lines: [{ name, color, values }] }.
 
 export class Recording extends EventTarget {
-  // `reach` is half the width [m] of a square about the axis that holds everything; `shell` is the outline of a drum that is
-  // not round, or null; `window` is the interval of the averages [s] or null; `speedScale` is the speed [m/s] at the end of
-  // the color scale; there is at least one frame.
-  constructor({ title = "", radii, drumRadius, shell = null, reach, baffles = [], walls = [], window = null, speedScale = 1, panels = [], frames }) {
+  // `facts` is a line below the title; `reach` is half the width [m] of a square about the axis that holds everything;
+  // `shell` is the outline of a drum that is not round, or null; `window` is the interval of the averages [s] or null;
+  // `speedScale` is the speed [m/s] at the end of the color scale; there is at least one frame.
+  constructor({ title = "", facts = "", radii, drumRadius, shell = null, reach, baffles = [], walls = [], window = null, speedScale = 1, panels = [], frames }) {
     super();
-    Object.assign(this, { title, radii, drumRadius, shell, reach, baffles, walls, window, speedScale, panels, frames });
+    Object.assign(this, { title, facts, radii, drumRadius, shell, reach, baffles, walls, window, speedScale, panels, frames });
   }
 
   get count() {
@@ -118,8 +118,8 @@ export function unpack(data) {
     times: decode(panel.times, Float32Array),
     lines: panel.lines.map((line) => ({ ...line, values: decode(line.values, Float32Array) })),
   }));
-  const { title, shell, reach, baffles, walls, window, drum_radius: drumRadius, speed_scale: speedScale } = data;
-  return new Recording({ title, radii, drumRadius, shell, reach, baffles, walls, window, speedScale, panels, frames });
+  const { title, facts, shell, reach, baffles, walls, window, drum_radius: drumRadius, speed_scale: speedScale } = data;
+  return new Recording({ title, facts, radii, drumRadius, shell, reach, baffles, walls, window, speedScale, panels, frames });
 }
 
 // Typed arrays follow the machine's byte order, which is little-endian wherever a browser runs.

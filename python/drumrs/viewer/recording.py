@@ -27,6 +27,7 @@ def pack(
     series: "pl.DataFrame | None",
     title: str,
     window: tuple[float, float] | None,
+    facts: str = "",
 ) -> dict[str, Any]:
     """Return what a page holds of one run, ready for JSON.
 
@@ -43,6 +44,8 @@ def pack(
         Written over the player.
     window
         Interval of the averages [s], shaded.
+    facts
+        A line below the title.
     """
     frames = _thinned(frames)
     reach = _reach(frames)
@@ -50,6 +53,7 @@ def pack(
     panels = panels_of_frames(frames) if series is None else panels_of_series(series)
     return {
         "title": title,
+        "facts": facts,
         "times": _base64(frames.times, "<f8"),
         "drum_angles": _base64(frames.drum_angles, "<f8"),
         "radii": _base64(frames.radii, "<f4"),

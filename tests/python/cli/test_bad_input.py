@@ -45,7 +45,10 @@ SETTINGS = [
     ("load.diameter=23.75mm", "write a number alone, without 'mm', in "),
     ("rotation.rpm=54 rpm", "write a number alone, without 'rpm', in "),
     ("run.window=5,15", "run.window is '5,15', but must be a pair [start, end] of times; write [5, 15]"),
-    ("rotation.program=[[0, 0], [2, 0], [2, 54]]", "cannot jump from 0.0 to 54.0 rpm; to change it within a"),
+    (
+        "rotation.program=[[2, 0], [2, 54], [2, 9]]",
+        "must be later than the two knots before it, which are a jump",
+    ),
     (
         "run.time_step=1e-4",
         'at most 1.906e-5, a tenth of the shortest collision time; or set run.time_step = "auto"',
@@ -83,7 +86,7 @@ BAFFLES = [
     (["height=0.3"], "drum.baffles"),
     (["height=0.2375"], "drum.baffles"),
     (["base=0.6"], "drum.baffles"),
-    (["count=60"], "drum.baffles"),
+    (["count=80"], "drum.baffles"),
     (["shape=polygon"], "drum.baffles.points"),
     (["shape=polygon", "points=[[0, -0.03], [0.05, 0.03], [0.05, -0.03], [0, 0.03]]"], "drum.baffles.points"),
     (["shape=polygon", "points=[[0, -0.03], [0, -0.03], [0.05, 0], [0, 0.03]]"], "drum.baffles.points"),

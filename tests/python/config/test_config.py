@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from pydantic import BaseModel
 
 import drumrs
-from drumrs.config import Config, Outline, PairContact, WallContact
+from drumrs.config import Config, Outline, PairContact, Phase, WallContact
 from drumrs.config.messages import dotted_keys, table_type
 from drumrs.errors import ConfigError
 
@@ -46,10 +46,22 @@ beside_the_axis = st.lists(st.tuples(st.floats(0.1, 9.0), real), min_size=3, max
 # Keys that a file is read by; then they are gone: test_drum.py.
 READ = {"drum.liner.file", "drum.liner.units"}
 
+phase = st.recursive(
+    st.fixed_dictionaries(
+        {"duration": positive}, optional={"name": st.text("ab c", min_size=1, max_size=4)}
+    ).flatmap(lambda keys: real.map(lambda rpm: {**keys, "rpm": rpm})),
+    lambda inner: st.fixed_dictionaries(
+        {"phase": st.lists(inner, min_size=1, max_size=2).map(tuple)},
+        optional={"repeat": st.integers(1, 9), "reversing": st.booleans()},
+    ),
+    max_leaves=4,
+)
+
 # A strategy for every other key. Keys whose limits depend on others have values that suit the baseline.
 VALUES = {
     "drum.diameter": st.floats(0.2, 2.0),
     "drum.rim": st.booleans(),
+    "drum.tilt": st.floats(-89.0, 89.0),
     "drum.walls": st.lists(st.lists(point, min_size=2, max_size=4).map(tuple), max_size=3).map(tuple),
     "drum.baffles.count": st.just(0),
     "drum.baffles.shape": st.sampled_from(["triangle", "trapezoid"]),
@@ -70,6 +82,7 @@ VALUES = {
     "drum.liner.rail.back_angle": st.floats(0.0, 89.0),
     "drum.liner.rail.phase": real,
     "rotation.rpm": real,
+    "rotation.phase": st.lists(phase.map(lambda keys: Phase(**keys)), min_size=1, max_size=3).map(tuple),
     "rotation.program": st.sets(st.floats(0.0, 1e6), min_size=1, max_size=5).map(knots),
     "load.diameter": st.floats(0.005, 0.05),
     "load.density": positive,

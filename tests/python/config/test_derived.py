@@ -1,10 +1,12 @@
 """What follows from a configuration is what its simulation has, and what formulas written down here say."""
 
+import dataclasses
 import math
 
 import pytest
 
 import drumrs
+from drumrs import registry
 from drumrs.config import derived as module
 
 BASE = drumrs.baseline()
@@ -62,14 +64,42 @@ def test_speeds():
     omega = 54.0 * 2.0 * math.pi / 60.0
     assert derived.angular_velocity == pytest.approx(omega)
     assert derived.froude_number == pytest.approx(omega**2 * 0.2375 / 9.81)
-    assert derived.critical_angular_velocity == pytest.approx(math.sqrt(9.81 / 0.2375))
+    assert derived.critical_angular_velocity == pytest.approx(math.sqrt(9.81 / (0.2375 - 0.011875)))
+    assert derived.critical_share == pytest.approx(omega / derived.critical_angular_velocity)
+    program = BASE.replace({"rotation.program": [[0.0, 10.0], [1.0, -54.0], [2.0, 20.0]]}).derived
+    assert program.angular_velocity is None
+    assert (program.froude_number, program.critical_share) == (derived.froude_number, derived.critical_share)
+
+
+def test_what_places_a_case_is_in_the_registry():
+    names = [field.name for field in dataclasses.fields(module.Facts)]
+    assert names == list(registry.FACTS)
+
+
+def test_steps_in_a_collision():
+    for changes in ({}, {"run.time_step": 1e-6}):
+        derived = BASE.replace(changes).derived
+        assert derived.steps_per_collision == pytest.approx(derived.bundle.collision_time / derived.time_step)
+    assert BASE.replace({"run.time_step": "auto"}).derived.steps_per_collision == pytest.approx(50.0)
+
+
+def test_facts_of_a_given_load_are_its_own():
+    state = drumrs.State([[0.0, 0.0], [0.1, 0.0]], radii=[0.01, 0.02])
+    simulation = drumrs.Simulation(BASE.replace({"run.time_step": 1e-6}), state=state)
+    assert f"load {simulation.masses.sum():.3g} kg per m of depth" in simulation.facts
+    assert f"{100.0 * 54.0 * math.pi / 30.0 * math.sqrt((0.2375 - 0.02) / 9.81):.3g} %" in simulation.facts
+    fewest = min(simulation.collision_time.values()) / 1e-6
+    assert simulation.facts.endswith(f"{fewest:.3g} steps per collision")
 
 
 def test_what_there_is_not_is_none():
     program = BASE.replace({"rotation.program": [[0.0, 0.0], [1.0, 54.0]]}).derived
-    assert program.angular_velocity is program.froude_number is None
-    assert BASE.replace({"gravity": (0.0, 0.0)}).derived.froude_number is None
-    assert BASE.replace({"drum.rim": False}).derived.critical_angular_velocity is None
+    assert program.angular_velocity is None
+    weightless = BASE.replace({"gravity": (0.0, 0.0)})
+    assert weightless.derived.froude_number is weightless.derived.critical_share is None
+    assert weightless.facts.startswith("load 44.3 kg")
+    rimless = BASE.replace({"drum.rim": False}).derived
+    assert rimless.critical_angular_velocity is rimless.critical_share is rimless.froude_number is None
     hertz = {"contact.base": "hertz", "contact.bundle.young_modulus": 1e8, "contact.drum.young_modulus": 1e8}
     derived = BASE.replace({**hertz, "run.time_step": "auto"}).derived
     assert derived.bundle.normal_damping is derived.bundle.damping_ratio is None

@@ -59,6 +59,14 @@ def test_time_series_is_written(rows, tmp_path):
     assert (tmp_path / "series.png").stat().st_size > 1000
 
 
+def test_time_series_marks_where_phases_begin_unless_they_are_too_many():
+    plain, table = figures.time_series(series(50)), series(50)
+    for count, marks in ((3, 1), (1000, 0)):
+        figure = figures.time_series(table, starts=[0.1 * k for k in range(count)])
+        assert [len(axes.collections) for axes in figure.axes] == [marks] * 4
+        assert [axes.get_ylim() for axes in figure.axes] == [axes.get_ylim() for axes in plain.axes]
+
+
 def test_time_series_shows_the_terms_that_act():
     plain = series(50)
     terms = ("dissipated_tangential", "dissipated_rolling", "elastic_rolling")

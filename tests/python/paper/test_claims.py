@@ -175,14 +175,11 @@ def test_softer_springs_judge_no_ratio():
     assert verdict("C4", pl.concat([world(), broken])).verdict == HOLDS
 
 
-def test_evidence_is_judged_with_the_triangles_too(monkeypatch):
-    washer = Drum("with baffles", {**TRIANGLES.changes, "drum.baffles.height": 0.035})
-    monkeypatch.setattr(claims, "BAFFLED", washer)
-    assert all(other.name != TRIANGLES.name for one in paper.judge(world()) for other in one.others)
-    monkeypatch.setattr(claims, "baffles_are_inferred", lambda: True)
+def test_evidence_is_judged_with_the_triangles_too():
     mine = changed("drum_power", pl.col("drum_power") * 1.2, baffles, fill < 0.5)
-    lower = world().filter(baffles).with_columns(pl.lit(0.035).alias("drum.baffles.height"))
-    found = {one.claim: one for one in paper.judge(pl.concat([mine, lower]), washer)}
+    shape = {key: pl.lit(TRIANGLES.changes[key]) for key in ("drum.baffles.height", "drum.baffles.base")}
+    triangles = mine.filter(baffles).with_columns(**shape)
+    found = {one.claim: one for one in paper.judge(pl.concat([world(), triangles]))}
     assert {
         claim for claim, one in found.items() if any(other.name == TRIANGLES.name for other in one.others)
     } == claims.EVIDENCE
@@ -190,9 +187,12 @@ def test_evidence_is_judged_with_the_triangles_too(monkeypatch):
     (other,) = found["C2"].others
     assert (other.verdict, other.where) == (IN_PART, "similar above 50 % fill")
     # Nothing stands beside where they were not run.
-    alone = {one.claim: one for one in paper.judge(pl.concat([world().filter(~baffles), lower]), washer)}
+    alone = {one.claim: one for one in paper.judge(world())}
     assert alone["C2"].is_evidence
     assert alone["C2"].others == ()
+    # What was not inferred is no evidence.
+    washer = Drum("with baffles", {**TRIANGLES.changes, "drum.baffles.height": 0.035})
+    assert not any(one.is_evidence for one in paper.judge(world(), washer))
 
 
 def part(outcome: str, *pieces: str) -> Finding:

@@ -2,6 +2,7 @@
 
 import json
 import math
+import warnings
 from collections.abc import Iterator
 from typing import Any
 
@@ -11,7 +12,7 @@ import drumrs
 from drumrs.config import Config
 from drumrs.config.messages import dotted_keys
 from drumrs.config.toml_writer import toml_item
-from drumrs.errors import ConfigError, UnstableError
+from drumrs.errors import ConfigError, DrumrsWarning, UnstableError
 
 KEYS = sorted(dotted_keys(Config))
 # More bundles are a large simulation, not a hostile one.
@@ -155,7 +156,10 @@ def outcome(text: str, read: Any, steps: int = 20) -> str:
     if config.bundle_count > MOST_BUNDLES:
         return "large"
     try:
-        simulation = drumrs.Simulation(config)
+        # Most of such values seem to be in another unit.
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", DrumrsWarning)
+            simulation = drumrs.Simulation(config)
     except (ConfigError, UnstableError) as error:
         one_sentence(error)
         return "refused by the core"

@@ -130,6 +130,7 @@ def test_what_no_memory_or_arithmetic_holds_is_refused(changes, sentence):
         drumrs.Simulation(drumrs.baseline().replace(changes))
 
 
+@pytest.mark.filterwarnings("ignore:load.diameter is 1e-09 m")
 def test_bundles_far_smaller_than_a_baffle_are_packed_at_once():
     """A baffle covers more sites of their lattice than could ever be counted."""
     simulation = drumrs.Simulation(

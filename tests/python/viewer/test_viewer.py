@@ -157,6 +157,8 @@ def test_a_result_shows_itself(finished):
     assert data["window"] == pytest.approx([0.2 * 2 / 3, 0.2])
     assert [panel["unit"] for panel in data["panels"]] == ["W/m", "J/m"]
     assert len(data["baffles"]) == 3
+    assert data["facts"] == result.config.facts
+    assert "Froude number 0.774" in data["facts"]
 
 
 def test_titles_tell_what_was_simulated(tmp_path):
@@ -168,6 +170,7 @@ def test_titles_tell_what_was_simulated(tmp_path):
     # 4 (0.01² + 0.02² + 0.02²)/0.475², where the configuration had 100 bundles and 25 %.
     title = "3 bundles (1.6 % fill), no baffles, 54 rpm, seed 1"
     assert drumrs.player(result).title == title
+    assert f"load {simulation.masses.sum():.3g} kg per m of depth" in drumrs.player(result).facts
     drumrs.save(result, tmp_path)
     assert result.config.bundle_count == drumrs.Config.read(tmp_path / "config.toml").bundle_count == 3
     assert drumrs.load(tmp_path).summary.bundle_count == 3

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from drumrs.paper.claims import motion, power, ratio
 from drumrs.paper.claims.criteria import Claim, settle
 from drumrs.paper.curves import RATIOS, Results
-from drumrs.paper.drums import BAFFLED, TRIANGLES, Drum, baffles_are_inferred
+from drumrs.paper.drums import BAFFLED, TRIANGLES, Drum
 from drumrs.paper.verdict import UNDECIDED, Finding, MissingError, OtherReading, Verdict
 
 if TYPE_CHECKING:
@@ -65,7 +65,7 @@ def _with_context(verdict: Verdict, claim: Claim, results: Results) -> Verdict:
 
 
 def _is_inferred(results: Results) -> bool:
-    return baffles_are_inferred() and results.baffled == BAFFLED
+    return results.baffled == BAFFLED
 
 
 def _others(claim: Claim, results: Results) -> Iterator[OtherReading]:

@@ -10,7 +10,7 @@ from drumrs.files import write_whole
 from drumrs.pages import environment, provenance, style, text_of
 from drumrs.paper.cases import THIRDS
 from drumrs.paper.data import StudyData
-from drumrs.paper.drums import BAFFLED, baffles_are_inferred
+from drumrs.paper.drums import BAFFLED
 from drumrs.paper.figures import FIGURES
 from drumrs.paper.report import checks, facts, headline, pictures, table1
 from drumrs.paper.verdict import FAILS, HOLDS, IN_PART, UNDECIDED
@@ -124,7 +124,6 @@ def _model() -> dict[str, Any]:
         "diameter": config.load.diameter,
         "baffle": baffles,
         "baffles_share": BAFFLED.baffles_share,
-        "baffles_are_inferred": baffles_are_inferred(),
     }
 
 

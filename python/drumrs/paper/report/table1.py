@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from drumrs.config import Config, baseline
-from drumrs.paper.drums import BAFFLED, baffles_are_inferred
+from drumrs.paper.drums import BAFFLED
 
 # Scanned off the paper, units as here: stiffness [N/m] and damping [N s/m] between bundles and with the drum, and the
 # time step [s].
@@ -96,7 +96,11 @@ def rows() -> list[Row]:
             "1000 kg/m³",
             f"{load.density:g} kg/m³, {config.derived.bundle_mass:.4f} kg per m",
         ),
-        Row("number of bundles N", "100 (25 %)", f"{config.bundle_count} at fill N d²/D² = {load.fill:.0%}"),
+        Row(
+            "number of bundles N",
+            "100 (25 %)",
+            f"{config.bundle_count} at fill N d²/D² = {load.fill:.0%}, {config.derived.load_mass:.1f} kg per m",
+        ),
         Row("friction μ, both", "0.5 (symbol lost)", f"{law.friction:g}", "the other of the two rows"),
         Row(
             "restitution e, both", "0.1 (symbol lost)", f"{law.restitution:g}", "fits the damping, see below"
@@ -128,15 +132,15 @@ def _stiffness_rows(contact: Contact, name: str) -> tuple[Row, Row]:
 
 def _speed(config: Config) -> str:
     derived = config.derived
-    return f"Ω = {derived.angular_velocity:.4f} rad/s (Ω²R/g = {derived.froude_number:.3f})"
+    critical = f"{derived.critical_share:.1%} of the critical speed"
+    return f"Ω = {derived.angular_velocity:.4f} rad/s (Ω²R/g = {derived.froude_number:.3f}, {critical})"
 
 
 def _baffles() -> Row:
     one = BAFFLED.config().drum.baffles
     tip = f", {1e3 * one.tip:g} mm wide at the tip" if one.shape == "trapezoid" else ""
     used = f"3 {one.shape}s, {1e3 * one.height:g} mm high on a base of {1e3 * one.base:g} mm{tip}, every 120°"
-    known = "inferred from the text" if baffles_are_inferred() else "assumed"
-    return Row("baffles", "–", used, f"{known}: {_LOST}")
+    return Row("baffles", "–", used, f"inferred from the text: {_LOST}")
 
 
 def scientific(value: float) -> str:

@@ -1,4 +1,5 @@
-//! The initial bed: equal discs at seeded random positions that overlap neither each other nor the drum.
+//! The initial bed: discs at seeded random positions that overlap neither each other nor the drum; equal ones here, those of
+//! several sizes in `mixed`.
 //!
 //! Random insertion serves loose beds. Where it stalls, discs start on a regular pattern that has enough sites and
 //! are shuffled by random moves until the bed is as random as its density allows. A count is accepted exactly if
@@ -10,9 +11,12 @@
 mod cells;
 mod disorder;
 mod draws;
+mod grid;
+mod mixed;
 mod pattern;
 
 pub use draws::unit;
+pub use mixed::pack_mixed;
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
 
@@ -32,9 +36,7 @@ const GAP: f64 = 1e-9;
 /// `Error::Packing` if no pattern found has `count` sites; `Error::Config` for a drum without a rim and for a
 /// radius that is not positive.
 pub fn pack(drum: &Drum, count: usize, radius: f64, seed: u64) -> Result<Vec<Vec2>, Error> {
-    let Some(bound) = drum.bounding_radius() else {
-        return Err(Error::config("drum.diameter", "none", "given when no initial state is"));
-    };
+    let bound = bound_of(drum)?;
     require_positive("load.diameter", 2.0 * radius)?;
     if count == 0 {
         return Ok(Vec::new());
@@ -43,7 +45,7 @@ pub fn pack(drum: &Drum, count: usize, radius: f64, seed: u64) -> Result<Vec<Vec
     let densest = pattern::densest(&room, count).map_err(|fits| Error::Packing {
         requested: count,
         fits,
-        diameter: 2.0 * radius,
+        diameters: [2.0 * radius; 2],
     })?;
     let mut random = Pcg64::seed_from_u64(seed);
     let bed = disorder::insert(&room, count, &mut random).unwrap_or_else(|| {
@@ -51,6 +53,12 @@ pub fn pack(drum: &Drum, count: usize, radius: f64, seed: u64) -> Result<Vec<Vec
         disorder::shuffled(&room, &sites, count, &mut random)
     });
     Ok(bed.into_rows())
+}
+
+/// The radius of the drum's rim [m], without which there is no end to where a bed may be.
+fn bound_of(drum: &Drum) -> Result<f64, Error> {
+    drum.bounding_radius()
+        .ok_or_else(|| Error::config("drum.diameter", "none", "given when no initial state is"))
 }
 
 /// The space inside a drum and the size of the discs that go into it; all tests of a position happen here.
