@@ -92,7 +92,7 @@ class Simulation(HasRecords):
         if state is not None and not isinstance(state, State):
             raise ConfigError("state", state, "a drumrs.State", hint="drumrs.State(positions) makes one")
         config = config if seed is None else config.replace({"run.seed": seed})
-        if state is None and not config.drum.rim:
+        if state is None and not config.drum.rim and config.drum.shell is None:
             limit = "true where no initial state is given"
             raise ConfigError("drum.rim", False, limit, problem=f"is false, but must be {limit}")
         arrays = None if state is None else state.arrays()
