@@ -7,6 +7,7 @@ import shutil
 import ezdxf
 import numpy as np
 import pytest
+import shapely
 
 import drumrs
 from drumrs.config import Config, Rail
@@ -173,6 +174,7 @@ def test_a_drum_of_many_sides_takes_the_power_of_a_round_one():
 
 
 def test_a_drum_that_is_not_round_packs_shows_and_saves_itself(tmp_path):
+    from drumrs.output import save
     from drumrs.viewer.recording import pack
 
     hexagon = {"drum.rim": False, "drum.liner.outlines": [{"name": "shell", "points": polygon(6)}]}
@@ -181,14 +183,17 @@ def test_a_drum_that_is_not_round_packs_shows_and_saves_itself(tmp_path):
     assert drum.bundle_count == round(0.3 * area / (math.pi * drum.load.diameter**2 / 4))
     assert drum.title.startswith(f"{drum.bundle_count} bundles (29.9 % fill), 6 sides")
     result = drumrs.run(drum, progress=False)
-    result.save(tmp_path)
+    save(result, tmp_path, pictures=False)
     frames = drumrs.load(tmp_path).frames
     assert np.array_equal(frames.shell, result.frames.shell)
     assert frames.drum_radius is None
     assert frames.reach == pytest.approx(0.2375)
     assert pack(frames, None, "a hexagon", None)["shell"] == frames.shell.tolist()
-    corner = np.abs(frames.shell[:, 1]).max()
-    assert np.abs(frames.positions).max() < corner
+    # Every bundle stays inside, as seen from the drum.
+    cos, sin = np.cos(frames.drum_angles), np.sin(frames.drum_angles)
+    turns = np.array([[cos, -sin], [sin, cos]]).transpose(2, 0, 1)
+    room = shapely.Polygon(frames.shell).buffer(-0.9 * frames.radii[0])
+    assert shapely.contains_xy(room, (frames.positions @ turns).reshape(-1, 2)).all()
     assert any(result.series["rim_work"])
 
 
