@@ -14,7 +14,8 @@ const CONFIG: &str = r#"{
     "walls": []
   },
   "rotation": {"knots": [[0.0, 5.6548667764616276]]},
-  "load": {"count": 100, "diameter": 0.02375, "density": 1000.0, "start_speed": 0.0, "spin_locked": false},
+  "load": {"count": 100, "diameter": 0.02375, "density": 1000.0, "species": [], "share_by": "mass",
+           "start_speed": 0.0, "spin_locked": false},
   "contact": {
     "bundle": {"base": "linear", "young_modulus": null, "poisson_ratio": 0.3, "normal_stiffness": 9.25e7, "stiffness_ratio": 1.0, "restitution": 0.1, "normal_damping": null,
                "friction": 0.5, "tension": "allowed", "rolling_friction": 0.0, "tangential_damping_ratio": 0.0,

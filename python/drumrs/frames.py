@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     import polars as pl
 
 # Columns of the table, one row for each frame and bundle.
-COLUMNS = ("frame", "time", "drum_angle", "bundle", "x", "y", "angle", "speed", "radius")
+COLUMNS = ("frame", "time", "drum_angle", "bundle", "x", "y", "angle", "speed", "radius", "species")
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,6 +43,8 @@ class Frames:
         Speeds of the bundles [m/s], shape (frames, n).
     radii
         Radii of the bundles [m], shape (n,).
+    species
+        Name of each bundle's species, n of them; empty where the load has none.
     drum_radius
         Radius of the rim [m], or `None` for a scene without one.
     shell
@@ -57,6 +59,7 @@ class Frames:
     angles: NDArray[np.float32]
     speeds: NDArray[np.float32]
     radii: NDArray[np.float64]
+    species: tuple[str, ...] = ()
     drum_radius: float | None = None
     shell: NDArray[np.float64] | None = None
     baffles: tuple[NDArray[np.float64], ...] = ()
@@ -118,11 +121,16 @@ class Frames:
             "speed": self.speeds.ravel(),
             "radius": np.tile(self.radii, frames),
         }
-        return pl.DataFrame(columns)
+        table = pl.DataFrame(columns)
+        if not self.species:
+            return table
+        kinds = pl.Series(self.species, dtype=pl.Enum(sorted(set(self.species))))
+        return table.with_columns(species=kinds.gather(table["bundle"]))
 
     def metadata(self) -> dict[str, str]:
         """Return what a file of the table has to carry beside it: units and the drum's outline, as JSON."""
-        return {**metadata(map(quantity, COLUMNS)), "scene": json.dumps(self.scene())}
+        columns = [name for name in COLUMNS if name != "species" or self.species]
+        return {**metadata(map(quantity, columns)), "scene": json.dumps(self.scene())}
 
     def scene(self) -> dict[str, Any]:
         """Return the drum's outline in plain numbers."""
@@ -221,7 +229,9 @@ class FramesFile:
         for start, batch in self._batches(None, kept):
             length = len(batch) // self.count
             columns: dict[str, Any] = {
-                name: batch[name].to_numpy().reshape(-1, self.count) for name in batch.columns
+                name: batch[name].to_numpy().reshape(-1, self.count)
+                for name in batch.columns
+                if name != "species"
             }
             here = slice(*np.searchsorted(kept, [start, start + length]))
             rows = kept[here] - start
@@ -232,7 +242,12 @@ class FramesFile:
             frames.angles[here] = columns["angle"][rows]
             frames.speeds[here] = columns["speed"][rows]
             frames.radii[:] = columns["radius"][0]
-        return frames
+        return replace(frames, species=self._species())
+
+    def _species(self) -> tuple[str, ...]:
+        if "species" not in self._table.collect_schema():
+            return ()
+        return tuple(self._table.select("species").head(self.count).collect()["species"].cast(str))
 
     def _empty(self, frames: int) -> Frames:
         shape, scene = (frames, self.count), self._scene

@@ -119,12 +119,14 @@ def _memory() -> float:
 
 
 def in_terms_of_fill(config: Config, error: ConfigError) -> ConfigError:
-    """Name the fill, which the user wrote, where the core refuses the number of bundles that follows from it."""
-    if config.load.fill is None or error.key != "load.count" or error.bound is None:
+    """Name the fill or mass that the user wrote, where the core refuses the number of bundles that follows."""
+    key, value, one = config.amount
+    if key == "load.count" or error.key != "load.count" or error.bound is None:
         return error
-    fill, most = config.load.fill, int(error.bound)
-    limit = f"at most {config.fill_of(most):.4g} ({most} bundles): no more of them fit into this drum"
-    problem = f"is {fill} ({config.bundle_count} bundles), but must be {limit}"
-    of_percent = fill / 100.0
-    hint = f"a fill of {fill:g} % is {of_percent:g}" if of_percent <= 1.0 < fill else ""
-    return ConfigError("load.fill", fill, limit, problem=problem, hint=hint, bound=config.fill_of(most))
+    most = int(error.bound)
+    limit = f"at most {most * one:.4g} ({most} bundles): no more of them fit into this drum"
+    problem = f"is {value} ({config.bundle_count} bundles), but must be {limit}"
+    of_percent = value / 100.0
+    is_percent = key != "load.mass" and of_percent <= 1.0 < value
+    hint = f"a fill of {value:g} % is {of_percent:g}" if is_percent else ""
+    return ConfigError(key, value, limit, problem=problem, hint=hint, bound=most * one)

@@ -27,6 +27,10 @@ class Core(Protocol):
         """Radii of the bundles [m]."""
 
     @property
+    def species(self) -> NDArray[np.uint16]:
+        """Places of the bundles' species in the list of names."""
+
+    @property
     def first_sample(self) -> int:
         """Samples recorded before the first in memory."""
 
@@ -90,11 +94,17 @@ class Records:
         self.columns = columns
         self._core = core
         self._drum = config.drum
+        self._names = config.load.names
 
     @property
     def count(self) -> int:
         """Number of bundles n."""
         return self._core.count
+
+    @property
+    def species(self) -> tuple[str, ...]:
+        """Name of each bundle's species; empty where the load has none."""
+        return tuple(self._names[own] for own in self._core.species) if self._names else ()
 
     @property
     def size(self) -> int:
@@ -206,6 +216,7 @@ class Records:
             angles=arrays["angles"],
             speeds=arrays["speeds"],
             radii=self._core.radii,
+            species=self.species,
             drum_radius=drum.diameter / 2.0 if drum.rim else None,
             shell=shell,
             baffles=tuple(baffles),

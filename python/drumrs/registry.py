@@ -347,6 +347,7 @@ _ROWS = (
     _made("angle", "rad", "sample", "angle by which a bundle has turned, within ±π"),
     _made("speed", "m/s", "sample", "speed of a bundle", symbol="v"),
     _made("radius", "m", "sample", "radius of a bundle", symbol="r"),
+    _made("species", "1", "sample", "name of a bundle's species, where the load has species"),
 )
 
 # Table of the published drums, beyond that of a sweep.

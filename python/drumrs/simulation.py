@@ -95,7 +95,7 @@ class Simulation(HasRecords):
         if state is None and not config.drum.rim and config.drum.shell is None:
             limit = "true where no initial state is given"
             raise ConfigError("drum.rim", False, limit, problem=f"is false, but must be {limit}")
-        arrays = None if state is None else state.arrays()
+        arrays = None if state is None else state.arrays(config.load.names)
         if arrays is not None and len(arrays["positions"]) != config.bundle_count:
             config = config.replace({"load.count": len(arrays["positions"])})
         try:
@@ -304,6 +304,11 @@ class Simulation(HasRecords):
     def masses(self) -> Array:
         """Masses of the bundles per meter of depth [kg/m], shape (n,)."""
         return self._core.masses
+
+    @property
+    def species(self) -> tuple[str, ...]:
+        """Name of the species of each bundle; empty where all bundles are equal."""
+        return self._records.species
 
     @property
     def state(self) -> State:

@@ -1,6 +1,6 @@
 """`State`: a given initial state, instead of a random packing."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -37,9 +37,9 @@ class State:
     angles, angular_velocities
         Angles [rad] and spins [rad/s], counter-clockwise, shape (n,).
     radii
-        Radii [m], shape (n,).
+        Radii [m], shape (n,); those of ``load.diameter`` or of the species unless given.
     species
-        Species, whole numbers below ``contact.species``, shape (n,).
+        Names of ``load.species``, or their places in that list, from 0, shape (n,).
     drum_angle
         Angle of the drum at t = 0 [rad].
     contacts
@@ -60,8 +60,13 @@ class State:
     drum_angle: float = 0.0
     contacts: Mapping[str, Mapping[str, ArrayLike]] | None = None
 
-    def arrays(self) -> dict[str, Any]:
+    def arrays(self, names: Sequence[str] = ()) -> dict[str, Any]:
         """Return the fields that are given, as the core reads them.
+
+        Parameters
+        ----------
+        names
+            Names of the configuration's species.
 
         Raises
         ------
@@ -69,7 +74,11 @@ class State:
             Where an array has another shape or does not hold numbers.
         """
         given = {name: getattr(self, name) for name in (*_FLOATS, "species")}
-        arrays = {name: _numbers(name, value) for name, value in given.items() if value is not None}
+        arrays = {
+            name: _floats(f"state.{name}", value) if name != "species" else _species(value, names)
+            for name, value in given.items()
+            if value is not None
+        }
         count = len(arrays["positions"]) if arrays["positions"].ndim else 0
         for name, array in arrays.items():
             pairs = name in _PAIRS_OF_NUMBERS
@@ -82,9 +91,19 @@ class State:
         return fields if self.contacts is None else {**fields, "contacts": _contacts(self.contacts)}
 
 
-def _numbers(name: str, value: ArrayLike) -> NDArray[Any]:
-    if name != "species":
-        return _floats(f"state.{name}", value)
+def _species(value: ArrayLike, names: Sequence[str]) -> NDArray[np.uint16]:
+    given = np.asarray(value)
+    if given.dtype.kind in "OU":
+        named = given.ravel().tolist()
+        strange = next((k for k, name in enumerate(named) if name not in names), None)
+        if strange is not None:
+            limit = (
+                f"a name of load.species: {', '.join(names)}"
+                if names
+                else "a name of load.species, which has none"
+            )
+            raise ConfigError(f"state.species[{strange}]", named[strange], limit)
+        value = np.reshape([names.index(name) for name in named], given.shape)
     whole = _floats("state.species", value)
     if not ((whole >= 0) & (whole < GREATEST_SPECIES) & (whole == np.floor(whole))).all():
         limit = f"of whole numbers from 0 to {GREATEST_SPECIES - 1}"

@@ -6,11 +6,13 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::error::{Error, require_finite, require_non_negative, require_positive};
+use crate::error::{Error, require, require_finite, require_non_negative, require_positive};
 use crate::observe::recorder::Recording;
 use crate::physics::contact::parameters::ContactParameters;
 use crate::physics::contact::species::SpeciesTable;
 use crate::physics::drum::DrumParameters;
+use crate::physics::load::composition::{Composition, Discs, SpeciesParameters};
+use crate::physics::load::shares::Measure;
 use crate::physics::rotation::RotationSchedule;
 
 /// A complete simulation, as it crosses the border from Python in JSON.
@@ -31,20 +33,48 @@ pub struct SimulationConfig {
     pub run: RunParameters,
 }
 
-/// The load: equal discs. (A given initial state may hold discs of any size.)
+/// The load: equal discs, or species. (A given initial state may hold discs of any size.)
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LoadParameters {
     /// Number of bundles.
     pub count: usize,
-    /// Diameter d [m].
+    /// Diameter d [m] where there are no species.
     pub diameter: f64,
-    /// Density ρ [kg/m³]; a bundle's mass is ρ π d²/4 per metre of depth.
+    /// Density ρ [kg/m³], likewise; a bundle's mass is ρ π d²/4 per metre of depth.
     pub density: f64,
+    /// What the load is made of; none for equal bundles.
+    pub species: Vec<SpeciesParameters>,
+    /// What their shares are counted by.
+    pub share_by: Measure,
     /// Every bundle starts with this speed [m/s] in a random direction; 0 starts at rest.
     pub start_speed: f64,
     /// Bundles do not spin, as if their moment of inertia were infinite.
     pub spin_locked: bool,
+}
+
+/// What acts between two species.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PairLaw {
+    /// The two, by their place in the list of species; the same twice for two bundles of one species.
+    pub between: [u16; 2],
+    /// What a user writes before its keys.
+    pub key: String,
+    /// The law.
+    pub parameters: ContactParameters,
+}
+
+/// What acts between a species and the drum.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct WallLaw {
+    /// Its place in the list of species.
+    pub species: u16,
+    /// What a user writes before its keys.
+    pub key: String,
+    /// The law.
+    pub parameters: ContactParameters,
 }
 
 /// One law for two bundles, one for a bundle and the drum; others between species.
@@ -58,9 +88,9 @@ pub struct ContactTables {
     /// Number of species.
     pub species: usize,
     /// What acts between two species instead of `bundle`.
-    pub pairs: Vec<(u16, u16, ContactParameters)>,
+    pub pairs: Vec<PairLaw>,
     /// What acts between a species and the drum instead of `drum`.
-    pub walls: Vec<(u16, ContactParameters)>,
+    pub walls: Vec<WallLaw>,
 }
 
 /// The most species that a load may have: the table of laws grows with the square.
@@ -72,15 +102,14 @@ impl ContactTables {
     /// # Errors
     /// `Error::Config` naming the key.
     pub fn table(&self) -> Result<SpeciesTable, Error> {
-        if self.species == 0 || self.species > MOST_SPECIES {
-            let limit = format!("between 1 and {MOST_SPECIES}");
-            return Err(Error::config("contact.species", self.species, limit));
-        }
+        let is_possible = (1..=MOST_SPECIES).contains(&self.species);
+        let limit = format!("between 1 and {MOST_SPECIES}");
+        require(is_possible, "the number of species", self.species, limit)?;
         let mut table = SpeciesTable::new(self.species, &self.bundle, &self.drum);
-        for (one, other, parameters) in &self.pairs {
+        for PairLaw { between: [one, other], parameters, .. } in &self.pairs {
             table.set_pair(*one, *other, parameters)?;
         }
-        for (species, parameters) in &self.walls {
+        for WallLaw { species, parameters, .. } in &self.walls {
             table.set_wall(*species, parameters)?;
         }
         Ok(table)
@@ -88,26 +117,20 @@ impl ContactTables {
 
     /// The key of what acts between two species; of several that say it, the last counts.
     pub fn pair_key(&self, one: u16, other: u16) -> String {
-        let named = |(a, b, _): &(u16, u16, _)| (*a, *b) == (one, other) || (*a, *b) == (other, one);
-        let found = self.pairs.iter().rposition(named);
-        found.map_or_else(|| "contact.bundle".into(), |index| format!("contact.pairs[{index}]"))
+        let is_theirs = |law: &&PairLaw| law.between == [one, other] || law.between == [other, one];
+        self.pairs.iter().rfind(is_theirs).map_or("contact.bundle", |law| &law.key).into()
     }
 
     /// The key of what acts between a species and the drum.
     pub fn wall_key(&self, species: u16) -> String {
-        let found = self.walls.iter().rposition(|(own, _)| *own == species);
-        found.map_or_else(|| "contact.drum".into(), |index| format!("contact.walls[{index}]"))
+        self.walls.iter().rfind(|law| law.species == species).map_or("contact.drum", |law| &law.key).into()
     }
 
     fn validate(&self) -> Result<(), Error> {
         self.bundle.validate("contact.bundle")?;
         self.drum.validate("contact.drum")?;
-        for (index, (_, _, parameters)) in self.pairs.iter().enumerate() {
-            parameters.validate(&format!("contact.pairs[{index}]"))?;
-        }
-        for (index, (_, parameters)) in self.walls.iter().enumerate() {
-            parameters.validate(&format!("contact.walls[{index}]"))?;
-        }
+        self.pairs.iter().try_for_each(|law| law.parameters.validate(&law.key))?;
+        self.walls.iter().try_for_each(|law| law.parameters.validate(&law.key))?;
         let table = self.table()?;
         if let Some(other) = table.all().find(|parameters| parameters.base != self.bundle.base) {
             let (found, base) = (format!("{:?}", other.base), format!("{:?}", self.bundle.base));
@@ -162,6 +185,9 @@ impl SimulationConfig {
         self.rotation.validate()?;
         self.load.validate(self.drum.bounding_radius())?;
         self.contact.validate()?;
+        let (own, laws) = (self.load.species.len(), self.contact.species);
+        let limit = format!("{own}, as many as there are of load.species");
+        require(own == 0 || own == laws, "the number of species", laws, limit)?;
         for component in self.gravity {
             require_finite("gravity", component)?;
         }
@@ -173,6 +199,39 @@ impl SimulationConfig {
 pub const MOST_BUNDLES: usize = 10_000_000;
 
 impl LoadParameters {
+    /// The species in their shares.
+    ///
+    /// # Errors
+    /// `Error::Config` naming the key.
+    pub fn composition(&self) -> Result<Composition, Error> {
+        Composition::new(&self.species, self.share_by)
+    }
+
+    /// The discs that the load is made of.
+    ///
+    /// # Errors
+    /// `Error::Config` naming the key.
+    pub fn discs(&self, seed: u64) -> Result<Discs, Error> {
+        if self.species.is_empty() {
+            return Ok(Discs::equal(self.count, 0.5 * self.diameter));
+        }
+        self.composition()?.discs(self.count, seed)
+    }
+
+    /// The density of a species [kg/m³].
+    pub fn density_of(&self, species: u16) -> f64 {
+        self.species.get(usize::from(species)).map_or(self.density, |own| own.density)
+    }
+
+    /// The radius of the bundles of a species [m]; none where they differ.
+    pub fn radius_of(&self, species: u16) -> Option<f64> {
+        let diameter = match self.species.get(usize::from(species)) {
+            Some(own) => own.sizes.single(),
+            None => Some(self.diameter),
+        };
+        diameter.map(|diameter| 0.5 * diameter)
+    }
+
     fn validate(&self, drum_radius: Option<f64>) -> Result<(), Error> {
         if self.count == 0 || self.count > MOST_BUNDLES {
             return Err(Error::config("load.count", self.count, format!("between 1 and {MOST_BUNDLES}")));
@@ -181,6 +240,10 @@ impl LoadParameters {
         require_positive("load.density", self.density)?;
         require_non_negative("load.start_speed", self.start_speed)?;
         match drum_radius {
+            _ if !self.species.is_empty() => {
+                let composition = self.composition()?;
+                drum_radius.map_or(Ok(()), |rim| composition.require_smaller(rim))
+            }
             Some(radius) if self.diameter >= 2.0 * radius => Err(Error::config(
                 "load.diameter",
                 self.diameter,

@@ -36,10 +36,17 @@ pub struct Particles {
 }
 
 impl Particles {
-    /// Discs at rest at `positions`, of the given radii and of one density [kg/m³].
-    pub fn at_rest(positions: Vec<Vec2>, radii: Vec<f64>, density: f64, spin_locked: bool) -> Self {
+    /// Discs at rest at `positions`, of the given radii, species and densities [kg/m³].
+    pub fn at_rest(
+        positions: Vec<Vec2>,
+        radii: Vec<f64>,
+        species: Vec<u16>,
+        density_of: impl Fn(u16) -> f64,
+        spin_locked: bool,
+    ) -> Self {
         let count = positions.len();
-        let masses: Vec<f64> = radii.iter().map(|radius| density * PI * radius * radius).collect();
+        let mass = |(radius, &species): (&f64, &u16)| density_of(species) * PI * radius * radius;
+        let masses: Vec<f64> = radii.iter().zip(&species).map(mass).collect();
         let inertia =
             |(mass, radius): (&f64, &f64)| if spin_locked { 0.0 } else { 0.5 * mass * radius * radius };
         Self {
@@ -49,7 +56,7 @@ impl Particles {
             forces: vec![Vec2::zeros(); count],
             torques: vec![0.0; count],
             inertias: masses.iter().zip(&radii).map(inertia).collect(),
-            species: vec![0; count],
+            species,
             ids: (0..count as u32).collect(),
             positions,
             radii,
@@ -98,6 +105,19 @@ impl Particles {
     pub fn total_mass(&self) -> f64 {
         // In id order, so that memory order does not show.
         self.by_id(&self.masses).iter().sum()
+    }
+
+    /// Mass [kg/m] and radius [m] of the lightest particle of each of so many species; none where there is none. Those of a species
+    /// have one density: it is the smallest, too.
+    pub fn lightest(&self, species: usize) -> Vec<Option<(f64, f64)>> {
+        let mut lightest: Vec<Option<(f64, f64)>> = vec![None; species];
+        for (i, &own) in self.species.iter().enumerate() {
+            let (body, found) = ((self.masses[i], self.radii[i]), &mut lightest[usize::from(own)]);
+            if found.is_none_or(|(mass, _)| body.0 < mass) {
+                *found = Some(body);
+            }
+        }
+        lightest
     }
 
     /// The largest radius [m], 0 without particles.

@@ -20,6 +20,8 @@ mod _core {
     use crate::error::Error;
     use crate::io::config::{MOST_BUNDLES, MOST_SPECIES, SimulationConfig};
     use crate::physics::drum::MOST_BAFFLES;
+    use crate::physics::load::composition::{Composition, SpeciesParameters};
+    use crate::physics::load::shares::Measure;
     use crate::simulation::derived::DerivedParameters;
     /// The fewest blocks from which a standard error is taken.
     #[pymodule_export]
@@ -44,10 +46,21 @@ mod _core {
         (MOST_BUNDLES, MOST_SPECIES, MOST_BAFFLES)
     }
 
-    /// What follows from a configuration, both in JSON; see `drumrs.Config.derived`.
+    /// What a load is made of, given the core's `load.species` in JSON: area [m²] and mass [kg/m] of a disc, on average, and how many
+    /// of `count` discs are of each species.
     #[pyfunction]
-    fn derived(config: &str) -> Result<String, Error> {
-        let derived = DerivedParameters::new(&SimulationConfig::from_json(config)?)?;
+    fn composition(species: &str, share_by: &str, count: usize) -> Result<(f64, f64, Vec<usize>), Error> {
+        let refuse = |error: serde_json::Error| Error::config("load.species", error.to_string(), "species");
+        let species: Vec<SpeciesParameters> = serde_json::from_str(species).map_err(refuse)?;
+        let share_by: Measure = serde_json::from_value(share_by.into()).map_err(refuse)?;
+        let composition = Composition::new(&species, share_by)?;
+        Ok((composition.mean_area, composition.mean_mass, composition.counts(count)))
+    }
+
+    /// What follows from a configuration, both in JSON, with a seed; see `drumrs.Config.derived`.
+    #[pyfunction]
+    fn derived(config: &str, seed: u64) -> Result<String, Error> {
+        let derived = DerivedParameters::new(&SimulationConfig::from_json(config)?, seed)?;
         Ok(serde_json::to_string(&derived).expect("plain numbers"))
     }
 

@@ -255,6 +255,12 @@ impl Simulation {
         self.by_id(py, |particles| &particles.masses).into_pyarray(py)
     }
 
+    /// Places of the bundles' species in the list.
+    #[getter]
+    fn species<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<u16>> {
+        self.by_id(py, |particles| &particles.species).into_pyarray(py)
+    }
+
     /// Everything that `State` has a field for, all at one moment.
     fn state<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let (particles, drum_angle, contacts) =

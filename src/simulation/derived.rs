@@ -11,6 +11,7 @@ use crate::physics::contact::linear;
 use crate::physics::contact::parameters::{Base, ContactParameters};
 use crate::physics::contact::species::{self, SpeciesTable};
 use crate::physics::drum::Drum;
+use crate::physics::load::composition::Discs;
 use crate::physics::particles::Particles;
 use crate::physics::vector::Vec2;
 
@@ -103,8 +104,7 @@ fn rounded_down(number: f64) -> String {
 
 /// Shortest collision times [s]: (between bundles, with the drum).
 pub(super) fn collision_times(table: &SpeciesTable, particles: &Particles) -> (f64, f64) {
-    let least = |values: &[f64]| values.iter().copied().fold(f64::INFINITY, f64::min);
-    table.collision_times((least(&particles.masses), least(&particles.radii)))
+    table.collision_times(&particles.lightest(table.count()))
 }
 
 /// What places a case among others.
@@ -147,11 +147,13 @@ impl Facts {
     }
 }
 
-/// What follows from a configuration before anything is packed: of bundles of the configured size.
+/// What follows from a configuration before anything is packed.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct DerivedParameters {
-    /// Mass of a bundle [kg/m].
+    /// Mass of a bundle, on average [kg/m].
     pub bundle_mass: f64,
+    /// What there is of each species.
+    pub species: Vec<DerivedSpecies>,
     /// Time step [s].
     pub time_step: f64,
     /// Angular velocity Ω [rad/s] where it is constant.
@@ -159,10 +161,23 @@ pub struct DerivedParameters {
     /// What places the case among others.
     #[serde(flatten)]
     pub facts: Facts,
-    /// A contact of two bundles.
+    /// A contact of two bundles; of several species, that which is over first.
     pub bundle: DerivedContact,
-    /// A contact of a bundle and the drum.
+    /// A contact of a bundle and the drum, likewise.
     pub drum: DerivedContact,
+}
+
+/// What there is of a species.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct DerivedSpecies {
+    /// Number of its bundles.
+    pub count: usize,
+    /// Mass of all of them [kg/m].
+    pub mass: f64,
+    /// Diameter of the smallest [m].
+    pub smallest: f64,
+    /// Diameter of the largest [m].
+    pub largest: f64,
 }
 
 /// What follows for contacts that obey one table.
@@ -185,25 +200,64 @@ impl DerivedParameters {
     ///
     /// # Errors
     /// `Error::Config` for a bad configuration.
-    pub fn new(config: &SimulationConfig) -> Result<Self, Error> {
+    pub fn new(config: &SimulationConfig, seed: u64) -> Result<Self, Error> {
         config.validate()?;
         let load = &config.load;
-        let radius = 0.5 * load.diameter;
-        let one = Particles::at_rest(vec![Vec2::zeros()], vec![radius], load.density, load.spin_locked);
-        let body = (one.masses[0], radius);
+        // A load of equal bundles is as many times one of them.
+        let (discs, times) = match load.species.len() {
+            0 => (Discs::equal(1, 0.5 * load.diameter), load.count),
+            _ => (load.discs(seed)?, 1),
+        };
+        let origin = vec![Vec2::zeros(); discs.radii.len()];
+        let density = |own| load.density_of(own);
+        let particles = Particles::at_rest(origin, discs.radii, discs.species, density, load.spin_locked);
+        let load_mass = times as f64 * particles.total_mass();
         let angular_velocity = config.rotation.is_constant().then(|| config.rotation.angular_velocity(0.0));
         let table = config.contact.table()?;
-        let time_step = time_step(config, &table, &one)?;
-        let facts = Facts::new(config, &table, &one, time_step);
+        let time_step = time_step(config, &table, &particles)?;
+        let facts = Facts::new(config, &table, &particles, time_step);
+        let (bundle, drum) = quickest(&table, &particles);
         Ok(Self {
-            bundle_mass: body.0,
+            bundle_mass: particles.total_mass() / particles.len() as f64,
+            species: (0..load.species.len()).map(|own| DerivedSpecies::of(own, &particles)).collect(),
             time_step,
             angular_velocity,
-            facts: Facts { load_mass: load.count as f64 * body.0, ..facts },
-            bundle: DerivedContact::new(&config.contact.bundle, BodyPair::of_equals(body)),
-            drum: DerivedContact::new(&config.contact.drum, BodyPair::at_wall(body)),
+            facts: Facts { load_mass, ..facts },
+            bundle,
+            drum,
         })
     }
+}
+
+impl DerivedSpecies {
+    fn of(species: usize, particles: &Particles) -> Self {
+        let own = || (0..particles.len()).filter(|&i| usize::from(particles.species[i]) == species);
+        let diameters = || own().map(|i| 2.0 * particles.radii[i]);
+        Self {
+            count: own().count(),
+            mass: own().map(|i| particles.masses[i]).sum(),
+            smallest: diameters().fold(f64::INFINITY, f64::min),
+            largest: diameters().fold(0.0, f64::max),
+        }
+    }
+}
+
+/// The contacts of two bundles, and of a bundle with the drum, that are over first.
+fn quickest(table: &SpeciesTable, particles: &Particles) -> (DerivedContact, DerivedContact) {
+    let lightest = particles.lightest(table.count());
+    let bodies = || (0_u16..).zip(&lightest).filter_map(|(species, body)| Some((species, (*body)?)));
+    let pairs = bodies().flat_map(|(one, body)| {
+        bodies().map(move |(other, second)| {
+            let equal = one == other;
+            let bodies = if equal { BodyPair::of_equals(body) } else { BodyPair::of_discs(body, second) };
+            DerivedContact::new(table.pair(one, other), bodies)
+        })
+    });
+    let walls = bodies().map(|(own, body)| DerivedContact::new(table.wall(own), BodyPair::at_wall(body)));
+    let first = |a: &DerivedContact, b: &DerivedContact| a.collision_time.total_cmp(&b.collision_time);
+    let found = (pairs.min_by(first), walls.min_by(first));
+    let (Some(pair), Some(wall)) = found else { unreachable!("a load of at least one bundle") };
+    (pair, wall)
 }
 
 impl DerivedContact {

@@ -11,11 +11,12 @@ use crate::error::{Error, require, require_finite};
 use crate::io::config::{MOST_BUNDLES, SimulationConfig};
 use crate::physics::drum::Drum;
 use crate::physics::energy::SurfaceLoad;
+use crate::physics::load::composition::Discs;
 use crate::physics::load::packing::unit;
 use crate::physics::particles::Particles;
 use crate::physics::vector::{Rotation, Vec2, cross};
 
-/// A given initial state; what is left out is zero, radii that are left out are the configured one.
+/// A given initial state; what is left out is zero, radii that are left out are the configured ones.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct InitialState {
     /// Centers [m], in the frame at rest.
@@ -46,11 +47,22 @@ impl InitialState {
         require(count > 0, "state.positions", "empty", "of at least one bundle")?;
         let (found, limit) = (format!("of {count} bundles"), format!("of at most {MOST_BUNDLES} bundles"));
         require(count <= MOST_BUNDLES, "state.positions", found, limit)?;
-        let radii = self.radii.clone().unwrap_or_else(|| vec![0.5 * config.load.diameter; count]);
         let length = |count: usize| format!("of length {count}");
+        let species = self.species.clone().unwrap_or_else(|| vec![0; count]);
+        require(species.len() == count, "state.species", length(species.len()), length(count))?;
+        if let Some(i) = species.iter().position(|&own| usize::from(own) >= species_count) {
+            let limit = format!("below {species_count}, the number of species");
+            return Err(Error::config(format!("state.species[{i}]"), species[i], limit));
+        }
+        let load = &config.load;
+        let configured = || species.iter().map(|&own| load.radius_of(own)).collect::<Option<Vec<_>>>();
+        let radii = self.radii.clone().or_else(configured);
+        let limit = "given where the bundles of a species differ in size";
+        let radii = radii.ok_or_else(|| Error::config("state.radii", "missing", limit))?;
         require(radii.len() == count, "state.radii", length(radii.len()), length(count))?;
-        let locked = config.load.spin_locked;
-        let mut particles = Particles::at_rest(self.positions.clone(), radii, config.load.density, locked);
+        let locked = load.spin_locked;
+        let density = |own| load.density_of(own);
+        let mut particles = Particles::at_rest(self.positions.clone(), radii, species, density, locked);
         if let Some(velocities) = &self.velocities {
             particles.velocities.clone_from(velocities);
         }
@@ -62,13 +74,6 @@ impl InitialState {
             let is_possible = !locked || spins.iter().all(|&spin| spin == 0.0);
             require(is_possible, "state.angular_velocities", "not 0", limit)?;
             particles.angular_velocities.clone_from(spins);
-        }
-        if let Some(species) = &self.species {
-            if let Some(i) = species.iter().position(|&own| usize::from(own) >= species_count) {
-                let limit = format!("below {species_count}, the number of species");
-                return Err(Error::config(format!("state.species[{i}]"), species[i], limit));
-            }
-            particles.species.clone_from(species);
         }
         require_finite("state.drum_angle", self.drum_angle)?;
         let Lists { pairs, walls } = &self.contacts;
@@ -156,10 +161,10 @@ fn without_repeats(mut records: Vec<ContactRecord>) -> Vec<ContactRecord> {
 }
 
 /// The configured load at packed positions, each bundle with the start speed in a random direction.
-pub fn packed(config: &SimulationConfig, positions: Vec<Vec2>, seed: u64) -> Particles {
+pub fn packed(config: &SimulationConfig, discs: Discs, positions: Vec<Vec2>, seed: u64) -> Particles {
     let load = &config.load;
-    let radii = vec![0.5 * load.diameter; positions.len()];
-    let mut particles = Particles::at_rest(positions, radii, load.density, load.spin_locked);
+    let density = |own| load.density_of(own);
+    let mut particles = Particles::at_rest(positions, discs.radii, discs.species, density, load.spin_locked);
     if load.start_speed > 0.0 {
         // A stream of its own, so that the speed does not change where the bundles lie.
         let mut random = Pcg64Mcg::seed_from_u64(!seed);

@@ -22,7 +22,7 @@ use crate::error::Error;
 use crate::io::config::SimulationConfig;
 use crate::physics::drum::Drum;
 use crate::physics::energy::{EnergyLedger, MomentBalance};
-use crate::physics::load::packing::pack;
+use crate::physics::load::packing::pack_mixed;
 use crate::physics::particles::Particles;
 use crate::physics::vector::Rotation;
 
@@ -51,8 +51,9 @@ impl Simulation {
         config.validate()?;
         let threads = Threads::new(threads)?;
         let drum = Drum::new(&config.drum)?;
-        let positions = pack(&drum, config.load.count, 0.5 * config.load.diameter, seed)?;
-        let particles = initial_state::packed(&config, positions, seed);
+        let discs = config.load.discs(seed)?;
+        let positions = pack_mixed(&drum, &discs.radii, seed)?;
+        let particles = initial_state::packed(&config, discs, positions, seed);
         particles.validate()?;
         Self::start(config, seed, threads, particles, &InitialState::default())
     }

@@ -10,6 +10,7 @@ use drumrs::physics::contact::parameters::{Base, ContactParameters, Tension};
 use drumrs::physics::contact::{ContactState, Kinematics, RelativeMotion, Response};
 use drumrs::physics::drum::DrumParameters;
 use drumrs::physics::drum::baffle::{BaffleParameters, BaffleShape};
+use drumrs::physics::load::shares::Measure;
 use drumrs::physics::rotation::RotationSchedule;
 use drumrs::physics::vector::Vec2;
 use drumrs::simulation::Simulation;
@@ -98,6 +99,8 @@ pub fn baseline(count: usize, baffle_count: usize) -> SimulationConfig {
             count,
             diameter: 2.0 * RADIUS,
             density: 1000.0,
+            species: Vec::new(),
+            share_by: Measure::Mass,
             start_speed: 0.0,
             spin_locked: false,
         },

@@ -43,6 +43,8 @@ const KEYS: &[&str] = &[
     "load.count",
     "load.density",
     "load.diameter",
+    "load.share_by",
+    "load.species",
     "load.spin_locked",
     "load.start_speed",
     "rotation.knots",

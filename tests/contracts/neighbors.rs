@@ -32,7 +32,7 @@ proptest! {
         let (drum, table) = (Drum::new(&config.drum).unwrap(), config.contact.table().unwrap());
         let positions: Vec<Vec2> = bundles.iter().map(|b| Vec2::new(b.0, b.1)).collect();
         let radii: Vec<f64> = bundles.iter().map(|b| if same { 0.01 } else { b.2 }).collect();
-        let particles = Particles::at_rest(positions.clone(), radii.clone(), 1000.0, false);
+        let particles = Particles::at_rest(positions.clone(), radii.clone(), vec![0; radii.len()], |_| 1000.0, false);
         let rotation = Rotation::new(angle);
         let inputs = StepInputs {
             time: [TIME_STEP, 1.0 / TIME_STEP],

@@ -43,6 +43,8 @@ fn config(stored: &Value) -> SimulationConfig {
     }
     contact.insert("pairs".into(), Value::Array(Vec::new()));
     contact.insert("walls".into(), Value::Array(Vec::new()));
+    config["load"]["species"] = Value::Array(Vec::new());
+    config["load"]["share_by"] = "mass".into();
     let mut config = SimulationConfig::from_json(&config.to_string()).expect("a valid configuration");
     let time = number(&stored["time"]);
     let (mut knots, now) = (Vec::new(), config.rotation.angular_velocity(time));

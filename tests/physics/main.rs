@@ -15,6 +15,7 @@ mod impacts;
 mod packing;
 mod particles;
 mod rotation;
+mod sizes;
 mod sums;
 mod terms;
 mod vector;

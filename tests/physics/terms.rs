@@ -6,7 +6,7 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use crate::common::*;
-use drumrs::io::config::SimulationConfig;
+use drumrs::io::config::{PairLaw, SimulationConfig, WallLaw};
 use drumrs::observe::recorder::contact_energies;
 use drumrs::physics::contact::adhesion::Adhesion;
 use drumrs::physics::contact::law::{BodyPair, ContactLaw};
@@ -339,8 +339,9 @@ fn terms_that_nobody_has_change_no_bit() {
         config.contact.species = 2;
         let mut law = plain.contact.drum.clone();
         set(&mut law, ALL);
-        config.contact.walls = vec![(1, law.clone())];
-        config.contact.pairs = vec![(0, 1, law)];
+        let key = String::from("contact.pair[0]");
+        config.contact.walls = vec![WallLaw { species: 1, key: key.clone(), parameters: law.clone() }];
+        config.contact.pairs = vec![PairLaw { between: [0, 1], key, parameters: law }];
         assert_eq!(Model::of(&config.contact.table().unwrap(), false), Model::Full);
         assert!(bits(&tumbled(&plain, STEPS)) == bits(&tumbled(&config, STEPS)), "{baffle_count} baffles");
     }

@@ -181,10 +181,12 @@ def written(path) -> int:
 
 
 def ended(child: subprocess.Popen) -> tuple[int, str]:
-    """Return status and complaint of a child, but for what --softer says and for lines of progress."""
+    """Return status and complaint of a child, but for what --softer says, the line of facts and lines of progress."""
     _, complaint = child.communicate()
     return child.returncode, "".join(
-        line for line in complaint.splitlines() if not re.search(r"--softer|: \d+%, ", line)
+        line
+        for line in complaint.splitlines()
+        if not re.search(r"--softer|: \d+%, |steps per collision", line)
     )
 
 

@@ -55,7 +55,7 @@ def test_every_column_and_field_is_a_quantity(sweep):
     # The tables of the published drums and of phases, and what places a case, have tests of their own.
     listed = {name for name in drumrs.quantities()["name"] if not name.startswith("wall_")}
     listed -= {*registry.PUBLISHED_DRUMS, *registry.FACTS, *registry.PHASES}
-    assert listed - names == {"frame", "bundle", "x", "y", "angle", "speed", "radius"}
+    assert listed - names == {"frame", "bundle", "x", "y", "angle", "speed", "radius", "species"}
 
 
 def test_no_quantity_has_two_names_in_a_row_of_results(sweep):
@@ -213,7 +213,7 @@ def test_numbers_of_a_configuration_have_units():
     plain = {
         "drum.rim drum.baffles.count drum.baffles.shape load.count load.spin_locked run.seed run.record contact.base",
         "drum.liner.file drum.liner.repeat drum.liner.mirror drum.liner.units drum.liner.rail.count",
-        "rotation.phase contact.species contact.pairs contact.walls contact.bundle.tension contact.drum.tension",
+        "rotation.phase load.species load.share_by contact.pair contact.bundle.tension contact.drum.tension",
     }
     without = set(" ".join(plain).split())
     for key, field in kinds:

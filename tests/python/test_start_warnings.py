@@ -35,13 +35,15 @@ def test_it_does_stick():
 
 
 def test_a_law_by_species_is_named_by_its_own_key():
-    laws = {"contact.species": 2, "contact.walls": [{"species": 1, "normal_damping": 1e5}]}
+    two = [{"name": name, "share": 0.5} for name in ("steel", "ore")]
+    pair = [{"between": ["ore", "drum"], "normal_damping": 1e5}]
+    laws = {"load.species": two, "load.share_by": "mass", "contact.pair": pair}
     config = drumrs.baseline().replace({**laws, "run.time_step": "auto"})
     drumrs.Simulation(config, state=State([[0.0, 0.0]]))
     with pytest.warns(
-        DrumrsWarning, match=r"bundle 0 and the drum will stick .* contact.walls\[0\].normal_damping"
+        DrumrsWarning, match=r"bundle 0 and the drum will stick .* contact.pair\[0\].normal_damping"
     ):
-        drumrs.Simulation(config, state=State([[0.0, 0.0]], species=[1]))
+        drumrs.Simulation(config, state=State([[0.0, 0.0]], species=["ore"]))
 
 
 def test_a_step_that_damping_makes_much_shorter_is_told():

@@ -39,6 +39,7 @@ WALL = {"drum.rim": False, "rotation.rpm": 0.0, "drum.walls": [[[-0.1, 0.0], [0.
         ),
         ({}, State([[0.0, 0.0]], species=[1]), r"state.species\[0\] is 1, but must be below 1"),
         ({}, State([[0.0, 0.0]], species=[0.5]), "state.species is .*whole numbers"),
+        ({}, State([[0.0, 0.0]], species=["ore"]), r"state.species\[0\] is 'ore', .* which has none"),
         ({}, State([[0.0, 0.0]], drum_angle=float("nan")), "state.drum_angle is NaN"),
         ({}, State([[0.0, 0.0]], drum_angle="up"), "state.drum_angle is 'up'"),
         ({}, State([[0.0, 0.0]], contacts={"pairs": {}}), "state.contacts is "),
@@ -164,13 +165,15 @@ SLIDE = {
     "rotation.rpm": 0.0,
     "drum.walls": [[[-0.5, 0.0], [0.5, 0.0]]],
     "run.time_step": "auto",
-    "contact.species": 2,
+    "load.species": [{"name": "steel", "share": 0.5}, {"name": "ore", "share": 0.5}],
+    "load.share_by": "mass",
 }
 
 
 def test_a_disc_of_one_species_slides_where_the_other_rolls():
-    config = drumrs.baseline().replace({**SLIDE, "contact.walls": [{"species": 1, "friction": 0.0}]})
-    state = State([[-0.2, RADIUS], [0.1, RADIUS]], [[0.5, 0.0], [0.5, 0.0]], species=[0, 1])
+    pair = [{"between": ["drum", "ore"], "friction": 0.0}]
+    config = drumrs.baseline().replace({**SLIDE, "contact.pair": pair})
+    state = State([[-0.2, RADIUS], [0.1, RADIUS]], [[0.5, 0.0], [0.5, 0.0]], species=["steel", "ore"])
     simulation = drumrs.Simulation(config, state=state)
     simulation.run(duration=0.2)
     rolls, slides = simulation.velocities[:, 0]
@@ -181,12 +184,9 @@ def test_a_disc_of_one_species_slides_where_the_other_rolls():
 
 
 def test_two_species_meet_by_their_own_law():
+    pair = [{"between": ["ore", "steel"], "restitution": 0.5}]
     config = drumrs.baseline().replace(
-        {
-            "contact.species": 2,
-            "gravity": [0.0, 0.0],
-            "contact.pairs": [{"between": [1, 0], "restitution": 0.5}],
-        }
+        {**SLIDE, "drum.walls": [], "gravity": [0.0, 0.0], "contact.pair": pair}
     )
     for species, restitution in (([0, 1], 0.5), ([1, 1], 0.1)):
         gap = 1.0001 * RADIUS
@@ -196,42 +196,19 @@ def test_two_species_meet_by_their_own_law():
         assert simulation.velocities[1, 0] == pytest.approx(restitution, abs=0.01)
 
 
-@pytest.mark.parametrize(
-    ("changes", "sentence"),
-    [
-        (
-            {"contact.pairs": [{"between": [0, 1]}]},
-            r"contact.pairs\[0\].between is \[0, 1\], but must be below",
-        ),
-        (
-            {"contact.walls": [{"species": 1}]},
-            r"contact.walls\[0\].species is \[1\], but must be below contact.species",
-        ),
-        ({"contact.pairs": [{"friction": 0.3}]}, r"contact.pairs\[0\].between is missing"),
-        (
-            {"contact.pairs": [{"between": [0, 0], "frction": 0.3}]},
-            r"did you mean contact.pairs\[0\].friction",
-        ),
-        ({"contact.pairs": [{"between": [0, 0], "friction": -1.0}]}, r"contact.pairs\[0\].friction is -1"),
-        (
-            {"contact.walls": [{"species": 0}, {"species": 0}]},
-            r"contact.walls\[1\].species is \[0\], but must be another than",
-        ),
-        (
-            {"contact.pairs": [{"between": [0, 0], "restitution": 0.3, "normal_damping": 3.0}]},
-            r"contact.pairs\[0\].restitution and contact.pairs\[0\].normal_damping are both given",
-        ),
-        ({"contact.species": 0}, "contact.species is 0, but must be a whole number from 1 to 256"),
-    ],
-)
-def test_bad_laws_by_species_are_named(changes, sentence):
-    with pytest.raises(ConfigError, match=sentence):
-        drumrs.baseline().replace(changes)
+def test_bundles_of_a_state_have_size_and_density_of_their_species():
+    two = [
+        {"name": "steel", "share": 0.5, "density": 7800.0, "diameter": 0.02},
+        {"name": "ore", "share": 0.5, "density": 2700.0},
+    ]
+    config = drumrs.baseline().replace({**SLIDE, "load.species": two})
+    simulation = drumrs.Simulation(config, state=State([[-0.1, 0.2], [0.1, 0.2]], species=["steel", "ore"]))
+    assert list(simulation.radii) == [0.01, RADIUS]
+    assert simulation.masses == pytest.approx(np.pi * np.array([7800.0 * 0.01**2, 2700.0 * RADIUS**2]))
 
 
-def test_softer_lowers_the_laws_by_species_too():
-    laws = [{"between": [0, 0], "normal_stiffness": 4e7}, {"between": [0, 1], "normal_damping": 100.0}]
-    config = drumrs.baseline().replace({"contact.species": 2, "contact.pairs": laws}).softer(4.0)
-    first, second = config.contact.pairs
-    assert first.normal_stiffness == 1e7
-    assert (second.normal_damping, second.normal_stiffness) == (50.0, None)
+def test_sizes_of_a_state_are_asked_for_where_a_species_has_many():
+    sizes = {"law": "normal", "by": "mass", "mean": 0.02, "sigma": 0.001}
+    config = drumrs.baseline().replace({**SLIDE, "load.species": [{"name": "ore", "sizes": sizes}]})
+    with pytest.raises(ConfigError, match=r"state\.radii is missing, but must be given where the bundles"):
+        drumrs.Simulation(config, state=State([[0.1, 0.2]]))

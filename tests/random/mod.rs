@@ -7,6 +7,7 @@ use drumrs::physics::contact::parameters::{Base, ContactParameters, Tension};
 use drumrs::physics::contact::species::SpeciesTable;
 use drumrs::physics::drum::DrumParameters;
 use drumrs::physics::drum::baffle::{BaffleParameters, BaffleShape};
+use drumrs::physics::load::shares::Measure;
 use drumrs::physics::rotation::RotationSchedule;
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -128,7 +129,7 @@ fn put_together(draw: &Draw, mut baffles: BaffleParameters, mut walls: Vec<Vec<[
         walls: Vec::new(),
     };
     let (pairs, rim) =
-        SpeciesTable::new(1, &contact.bundle, &contact.drum).collision_times((mass, 0.5 * diameter));
+        SpeciesTable::new(1, &contact.bundle, &contact.drum).collision_times(&[Some((mass, 0.5 * diameter))]);
     let time_step = pairs.min(rim) / draw.steps_a_collision;
     // Knots all over the run's 2 000 steps, the last beyond them.
     let knot = |(index, speed): (usize, &f64)| [500.0 * index as f64 * time_step, speed * natural / radius];
@@ -144,6 +145,8 @@ fn put_together(draw: &Draw, mut baffles: BaffleParameters, mut walls: Vec<Vec<[
         count: ((draw.fill * draw.size * draw.size) as usize).max(1),
         diameter,
         density: draw.density,
+        species: Vec::new(),
+        share_by: Measure::Mass,
         start_speed: draw.start * natural,
         spin_locked: draw.spin_locked,
     };

@@ -1,10 +1,11 @@
 """Numbers from tables and frames: means with errors, tests of steadiness, measures of motion.
 
 `blocks` averages inside a run, `seeds` over runs, `estimate` calculates with the results; `drift` asks whether a
-window was steady; `motion` and `depth` look at the bundles, frame by frame; `statistics` puts what a series tells
-into columns, `phases` phase by phase. Nothing here sees a simulation.
+window was steady; `motion`, `depth` and `bed` look at the bundles, frame by frame; `statistics` puts what a series
+tells into columns, `phases` phase by phase. Nothing here sees a simulation.
 """
 
+from drumrs.analysis.bed import bulk_fill
 from drumrs.analysis.blocks import (
     BlockError,
     Mean,
@@ -31,6 +32,7 @@ __all__ = [
     "StateSwitching",
     "along_the_rim",
     "block_error",
+    "bulk_fill",
     "carried_round",
     "combine",
     "depth_profile",

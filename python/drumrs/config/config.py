@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+import math
 from codecs import BOM_UTF16_BE, BOM_UTF16_LE
 from collections.abc import Mapping
 from pathlib import Path
@@ -9,10 +10,13 @@ from typing import Any, Self
 
 from pydantic import ModelWrapValidatorHandler, model_validator
 
-from drumrs.config.derived import GREATEST_COUNT, Derived, Facts, derive
+from drumrs.config.derived import GREATEST_COUNT, Derived, Facts, compose, derive
+from drumrs.config.drum_tables import Liner
 from drumrs.config.hints import hints
+from drumrs.config.laws import laws
 from drumrs.config.layers import merge, nest, read_json, read_toml
 from drumrs.config.liner import anchored, with_drawing
+from drumrs.config.load import SOLID_FRACTION
 from drumrs.config.messages import conflict
 from drumrs.config.softening import layer, softening
 from drumrs.config.tables import Tables
@@ -43,35 +47,85 @@ class Config(Tables):
         return config if config.drum.liner.file is None else handler(with_drawing(config))
 
     @model_validator(mode="after")
-    def _bundles_are_smaller_than_the_drum(self) -> Self:
-        if self.drum.rim and self.load.diameter >= self.drum.diameter:
-            limit = f"smaller than drum.diameter = {self.drum.diameter}"
-            raise conflict("load.diameter", self.load.diameter, limit)
-        if self.drum.liner.file is not None:
-            return self  # How large the drum is, the drawing tells.
-        least, one, greatest = (self.fill_of(count) for count in (0.5, 1, GREATEST_COUNT))
-        if self.load.fill is not None and not least < self.load.fill <= greatest:
-            limit = (
-                f"between {least:.4g} and {greatest:.4g}: one bundle of diameter {self.load.diameter} fills {one:.4g} "
-                f"of a drum of diameter {self.drum.area_diameter:.4g}"
-            )
-            raise conflict("load.fill", self.load.fill, limit)
+    def _species_have_laws_and_sizes(self) -> Self:
+        laws(self.load, self.contact)
+        if self.load.mass is not None and self.drum.depth is None:
+            limit = "given where load.mass is: a mass is that of a whole drum"
+            raise conflict("drum.depth", limit=limit, problem=f"is missing, but must be {limit}")
+        if self.load.species:
+            try:
+                self._mean_bundle()
+            except ConfigError as error:
+                raise conflict(
+                    error.key, error.value, error.limit, hint=error.hint, problem=error.problem
+                ) from None
         return self
+
+    @model_validator(mode="after")
+    def _bundles_fit_into_the_drum(self) -> Self:
+        load, drum = self.load, self.drum
+        if drum.liner.file is not None:
+            return self  # How large the drum is, the drawing tells.
+        if drum.rim and not load.species and load.diameter >= drum.diameter:
+            raise conflict("load.diameter", load.diameter, f"smaller than drum.diameter = {drum.diameter}")
+        key, value, one = self.amount
+        if key != "load.count" and not 0.5 * one < value <= GREATEST_COUNT * one:
+            which = "on average " if load.species else f"of diameter {load.diameter} "
+            does = "weighs" if key == "load.mass" else "fills"
+            limit = (
+                f"between {0.5 * one:.4g} and {GREATEST_COUNT * one:.4g}: one bundle {which}{does} {one:.4g} of a drum "
+                f"of diameter {drum.area_diameter:.6g}"
+            )
+            raise conflict(key, value, limit)
+        return self
+
+    def _mean_bundle(self) -> tuple[float, float]:
+        """Return area [m²] and mass, with its water [kg/m], of a bundle, on average."""
+        load = self.load
+        if load.species:
+            return compose(load.species_to_core(), load.share_by or "number")[:2]
+        area = math.pi / 4.0 * load.diameter**2
+        return area, load.wet(load.density) * area
+
+    @property
+    def amount(self) -> tuple[str, float, float]:
+        """How much load there is: the key that says it, its value, and how much of that one bundle is, on average."""
+        load = self.load
+        if load.count is not None:
+            return "load.count", load.count, 1
+        if load.mass is not None:
+            dry = self._mean_bundle()[1] / load.wet(1.0)
+            return "load.mass", load.mass, dry * (self.drum.depth or 0.0)
+        if load.bulk_fill is not None:
+            return "load.bulk_fill", load.bulk_fill, self.fill_of(1) / (load.solid_fraction or SOLID_FRACTION)
+        return "load.fill", load.fill or 0.0, self.fill_of(1)
 
     @property
     def bundle_count(self) -> int:
-        """Number of bundles N: given, or the whole number nearest to fill · D²/d²."""
-        if self.load.count is not None:
-            return self.load.count
-        return round((self.load.fill or 0.0) * (self.drum.area_diameter / self.load.diameter) ** 2)
+        """Number of bundles N: given, or the whole number nearest to what fill or mass ask for."""
+        key, value, one = self.amount
+        if key == "load.fill" and not self.load.species:
+            return round(value * (self.drum.area_diameter / self.load.diameter) ** 2)
+        return round(value / one)
+
+    @property
+    def species_counts(self) -> dict[str, int]:
+        """Number of bundles of each species of ``load.species``; empty where all are equal."""
+        load = self.load
+        if not load.species:
+            return {}
+        counts = compose(load.species_to_core(), load.share_by or "number", self.bundle_count)[2]
+        return dict(zip(load.names, counts, strict=True))
 
     @property
     def fill(self) -> float:
-        """Fill N d²/D² of the whole number of bundles N; in a drum that is not round D is that of an equal circle."""
+        """Fill of the whole number of bundles N: their area over the bare drum's."""
         return self.fill_of(self.bundle_count)
 
     def fill_of(self, count: float) -> float:
-        """Return the fill N d²/D² of so many bundles of the configured size."""
+        """Return the fill of so many bundles of the configured sizes: N d²/D² where all are equal."""
+        if self.load.species:
+            return count * self._mean_bundle()[0] / (math.pi / 4.0 * self.drum.area_diameter**2)
         return count * (self.load.diameter / self.drum.area_diameter) ** 2
 
     @property
@@ -94,7 +148,7 @@ class Config(Tables):
         >>> f"{derived.bundle.collision_time:.3g} s, Froude number {derived.froude_number:.3g}"
         '0.000191 s, Froude number 0.774'
         """
-        return derive(self.to_core_json())
+        return derive(self.to_core_json(), self.run.seed, self.load.names)
 
     @property
     def title(self) -> str:
@@ -106,10 +160,17 @@ class Config(Tables):
         >>> drumrs.baseline(fill=0.25, baffles=True).title
         '100 bundles (25 % fill), 3 baffles, 54 rpm, seed 1'
         """
-        return self.title_of(self.bundle_count, self.fill)
+        return self.title_of(self.species_counts or self.bundle_count, self.fill)
 
-    def title_of(self, bundle_count: int, fill: float) -> str:
-        """Return the title with the number of bundles and the fill of a load that may have been given as a `State`.
+    def title_of(self, bundles: int | Mapping[str, int], fill: float) -> str:
+        """Return the title with the number and the fill of a load that may have been given as a `State`.
+
+        Parameters
+        ----------
+        bundles
+            Number of bundles, or of those of each species by its name.
+        fill
+            Their area over the bare drum's.
 
         Examples
         --------
@@ -117,7 +178,12 @@ class Config(Tables):
         >>> drumrs.baseline().title_of(1, 0.0025)
         '1 bundle (0.25 % fill), no baffles, 54 rpm, seed 1'
         """
-        load = f"{bundle_count} bundle{'s' if bundle_count != 1 else ''} ({100.0 * fill:.3g} % fill)"
+        counts = (
+            bundles if isinstance(bundles, Mapping) else {"bundle" if bundles == 1 else "bundles": bundles}
+        )
+        load = (
+            f"{' + '.join(f'{count} {name}' for name, count in counts.items())} ({100.0 * fill:.3g} % fill)"
+        )
         turning = f"{self.rotation.rpm:g} rpm" if self.rotation.rpm is not None else "a program of speeds"
         return f"{load}, {self.drum.fittings}, {turning}, seed {self.run.seed}"
 
@@ -156,7 +222,7 @@ class Config(Tables):
         >>> import drumrs
         >>> drumrs.baseline().hints
         []
-        >>> drumrs.baseline().replace({"load.density": 1.0}).hints
+        >>> drumrs.baseline().replace({"load.density": 1.0, "run.time_step": "auto"}).hints
         ['load.density is 1 kg/m³, below 5: write 1000 where g/cm³ were meant']
         """
         return hints(self, self.derived)
@@ -164,7 +230,17 @@ class Config(Tables):
     @property
     def digest(self) -> str:
         """32 hexadecimal digits that name this configuration: equal values, equal digest."""
-        canonical = json.dumps(self.model_dump(mode="json", exclude_none=True), sort_keys=True)
+        said = self.model_dump(mode="json", exclude_none=True)
+        # Equal bundles in a level drum: keys that say no more do not rename the results that lie on disk.
+        if not self.load.species:
+            said["contact"] |= {"species": 1, "pairs": [], "walls": []}
+        if not self.drum.tilt:
+            del said["drum"]["tilt"]
+        if self.drum.liner == Liner():
+            del said["drum"]["liner"]
+        if not self.drum.baffles.corner_radius:
+            del said["drum"]["baffles"]["corner_radius"]
+        canonical = json.dumps(said, sort_keys=True)
         return hashlib.sha256(canonical.encode()).hexdigest()[:32]
 
     def replace(self, changes: Mapping[str, Any]) -> Self:
@@ -174,12 +250,13 @@ class Config(Tables):
         ----------
         changes
             Dotted keys, such as ``"contact.bundle.friction"``, or nested tables. One of an either–or choice
-            (fill/count, restitution/normal_damping, rpm/program/phase) takes the place of the others; `None` unsets.
+            (fill/bulk_fill/count/mass, restitution/normal_damping, rpm/program/phase) takes the place of the others;
+            `None` unsets.
 
         Raises
         ------
         ConfigError
-            Where a key or a value is not accepted, or both of a pair are given.
+            Where a key or a value is not accepted, or two keys are given that stand for each other.
         """
         if not isinstance(changes, Mapping):
             raise ConfigError("changes", changes, _CHANGES)

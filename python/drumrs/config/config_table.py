@@ -1,4 +1,4 @@
-"""`ConfigTable`: what every table of a configuration has in common; `described`: a key with its meaning and unit."""
+"""`ConfigTable`: what every table of a configuration has in common; `key`: a key with its meaning and unit."""
 
 from itertools import combinations
 from typing import TYPE_CHECKING, Any, ClassVar, Self
@@ -16,18 +16,6 @@ else:
     ModelMetaclass = type(BaseModel)
 
 
-def described(default: Any, meaning: str, unit: str = "", example: Any = None) -> Any:
-    """Describe a key; `example` is what the documented TOML shows for a key that is not set.
-
-    The unit is among the extras of the field's JSON schema, and behind the meaning wherever that is printed; a word
-    or a count has none, a plain number the unit "1".
-    """
-    examples = None if example is None else [example]
-    shown = f"{meaning} [{unit}]." if unit not in {"", "1"} else f"{meaning}."
-    extra: JsonDict | None = {"unit": unit} if unit else None
-    return Field(default=default, description=shown, examples=examples, json_schema_extra=extra)
-
-
 class _RaisesConfigError(ModelMetaclass):
     """Make a constructor raise `ConfigError`; validation of nested tables does not pass here, so paths stay whole."""
 
@@ -40,6 +28,18 @@ class _RaisesConfigError(ModelMetaclass):
             return ModelMetaclass.__call__(cls, **values)
         except ValidationError as error:
             raise refusal(cls, error) from None
+
+
+def key(default: Any, meaning: str, unit: str = "", example: Any = None) -> Any:
+    """Describe a key; `example` is what the documented TOML shows for a key that is not set.
+
+    The unit is among the extras of the field's JSON schema, and behind the meaning wherever that is printed; a word
+    or a count has none, a plain number the unit "1".
+    """
+    examples = None if example is None else [example]
+    shown = f"{meaning} [{unit}]." if unit not in {"", "1"} else f"{meaning}."
+    extra: JsonDict | None = {"unit": unit} if unit else None
+    return Field(default=default, description=shown, examples=examples, json_schema_extra=extra)
 
 
 def _say_choice(schema: dict[str, Any], table: type[Any]) -> None:

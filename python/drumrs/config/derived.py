@@ -1,6 +1,8 @@
 """What the compiled core says of a configuration: what follows from it, and the greatest counts it may have."""
 
 import json
+import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Self
 
@@ -62,7 +64,7 @@ class Facts:
     @classmethod
     def read(cls, core_json: str) -> Self:
         """Read what the core tells of a simulation."""
-        return cls(**json.loads(core_json))
+        return cls(**_numbers(core_json))
 
     def line(self, *, changing: bool) -> str:
         """Say them in a line; where the drum's speed is changing, the numbers of the greatest one are limits."""
@@ -77,36 +79,87 @@ class Facts:
 
 
 @dataclass(frozen=True)
+class DerivedSpecies:
+    """What there is of one species.
+
+    Attributes
+    ----------
+    count
+        Number of its bundles.
+    mass
+        Mass of all of them per meter of drum depth, with their water [kg/m].
+    smallest, largest
+        Diameters of the smallest and the largest of them [m].
+    """
+
+    count: int
+    mass: float
+    smallest: float
+    largest: float
+
+
+@dataclass(frozen=True)
 class Derived(Facts):
-    """What follows from a configuration, of equal bundles of the configured size; see `Config.derived`.
+    """What follows from a configuration; see `Config.derived`.
 
     Attributes
     ----------
     bundle_mass
-        Mass of one bundle per meter of drum depth [kg/m].
+        Mass of a bundle per meter of drum depth, on average, with its water [kg/m].
+    species
+        What there is of each species of ``load.species``, by name.
     time_step
         Time step [s], also where ``run.time_step`` is "auto".
     angular_velocity
         Angular velocity Ω of the drum [rad/s]; `None` where it changes.
     bundle, drum
-        The contacts of two bundles, and of a bundle with the drum.
+        The contacts of two bundles, and of a bundle with the drum; of several species, those that are over first.
     """
 
     bundle_mass: float
+    species: dict[str, DerivedSpecies]
     time_step: float
     angular_velocity: float | None
     bundle: DerivedContact
     drum: DerivedContact
 
 
-def derive(core_json: str) -> Derived:
-    """Return what follows from a configuration as the core reads it.
+def _numbers(core_json: str) -> dict[str, Any]:
+    """Read numbers of the core; a mass beyond all numbers, which JSON cannot hold, is infinite."""
+    values: dict[str, Any] = json.loads(core_json)
+    return values | ({"load_mass": math.inf} if values["load_mass"] is None else {})
+
+
+def derive(core_json: str, seed: int, names: Sequence[str]) -> Derived:
+    """Return what follows from a configuration as the core reads it, with the seed and the names of its species.
 
     Raises
     ------
     ConfigError
         Where no simulation can have this configuration.
     """
-    values: dict[str, Any] = json.loads(_core.derived(core_json))
+    values = _numbers(_core.derived(core_json, seed))
+    species = [DerivedSpecies(**own) for own in values["species"]]
+    values["species"] = dict(zip(names, species, strict=True))
     values |= {side: DerivedContact(**values[side]) for side in ("bundle", "drum")}
     return Derived(**values)
+
+
+def compose(species: list[dict[str, Any]], share_by: str, count: int = 0) -> tuple[float, float, list[int]]:
+    """Return area [m²] and mass [kg/m] of a bundle, on average, and how many of `count` are of each species.
+
+    Parameters
+    ----------
+    species
+        The species as the core reads them.
+    share_by
+        What their shares are counted by: "mass", "area" or "number".
+    count
+        Number of all bundles.
+
+    Raises
+    ------
+    ConfigError
+        Where a share or a size law is not accepted.
+    """
+    return _core.composition(json.dumps(species), share_by, count)

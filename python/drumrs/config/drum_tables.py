@@ -7,7 +7,8 @@ from typing import Annotated, Literal, Self
 from pydantic import Field, model_validator
 
 from drumrs.config import types
-from drumrs.config.config_table import ConfigTable, described
+from drumrs.config.config_table import ConfigTable
+from drumrs.config.config_table import key as described
 from drumrs.config.messages import conflict
 from drumrs.config.types import Flag, Limit, NonNegative, Positive, Real
 
@@ -158,6 +159,9 @@ class Drum(ConfigTable):
     """The drum: rim, baffles, liner and straight walls, one rigid body that turns about the origin."""
 
     diameter: Positive = described(0.475, "Inner diameter D", "m")
+    depth: Positive | None = described(
+        None, "Depth along the axis; it serves load.mass alone, all results are per meter of depth", "m", 0.35
+    )
     rim: Flag = described(default=True, meaning="Whether there is a rim; false leaves liner and walls alone")
     tilt: types.Tilt = described(
         0.0,

@@ -38,6 +38,8 @@ class _Range:
 _SHORTER = (("centimeters", 1e-2), ("millimeters", 1e-3))
 _BUNDLE = _Range("load.diameter", 1e-4, 0.2, "m", _SHORTER)
 _DRUM = _Range("drum.diameter", 5e-3, 20.0, "m", _SHORTER)
+# Half the length of a floor that is long for any purpose [m].
+_FARTHEST = 100.0
 _GRAVITY = _Range("gravity", 1e-3, 100.0, "m/s²", (("cm/s²", 1e-2), ("mm/s²", 1e-3)))
 _DENSITY = _Range("load.density", 5.0, 25e3, "kg/m³", (("g/cm³", 1e3), ("g/m³", 1e-3)))
 _MODULUS = _Range("young_modulus", 1e3, 1e13, "Pa", (("MPa", 1e6), ("GPa", 1e9)))
@@ -60,10 +62,13 @@ def hints(config: "Tables", facts: "Facts") -> list[str]:
 def _lengths(config: "Tables") -> Iterator[str]:
     drum = config.drum
     yield from _BUNDLE.hint(config.load.diameter)
+    for index, species in enumerate(config.load.species or ()):
+        if species.diameter is not None:
+            yield from replace(_BUNDLE, key=f"load.species[{index}].diameter").hint(species.diameter)
     if drum.rim:
         yield from _DRUM.hint(drum.diameter)
     # Walls stand within the rim, or are a machine of their own.
-    reach = drum.diameter if drum.rim else _DRUM.most
+    reach = drum.diameter if drum.rim else _FARTHEST
     for index, line in enumerate(drum.walls):
         farthest = max(abs(part) for point in line for part in point)
         yield from _Range(f"drum.walls[{index}]", 0.0, reach, "m from the axis", _SHORTER).hint(farthest)
@@ -71,15 +76,13 @@ def _lengths(config: "Tables") -> Iterator[str]:
 
 def _speeds(config: "Tables", facts: "Facts") -> Iterator[str]:
     greatest, speeds = facts.froude_number, [abs(speed) for speed in config.rotation.speeds]
-    if not greatest or any(
-        _LEAST_FROUDE < greatest * (speed / max(speeds)) ** 2 < _MOST_FROUDE for speed in speeds
-    ):
+    if not greatest or any(_tumbles(greatest * (speed / max(speeds)) ** 2) for speed in speeds):
         return
     units = [(unit, max(speeds) * factor, greatest * factor**2) for unit, factor in _SPEEDS]
     meant = " or ".join(
         f"{speed:.4g} (Froude number {froude:.2g}) where {unit} were meant"
         for unit, speed, froude in units
-        if _LEAST_FROUDE < froude < _MOST_FROUDE
+        if _tumbles(froude)
     )
     way_out = f": write {meant}" if meant else ""
     yield (
@@ -88,8 +91,16 @@ def _speeds(config: "Tables", facts: "Facts") -> Iterator[str]:
     )
 
 
+def _tumbles(froude: float) -> bool:
+    # A speed that was calculated for the least Froude number may miss it by round-off.
+    return 0.999 * _LEAST_FROUDE < froude < _MOST_FROUDE
+
+
 def _others(config: "Tables") -> Iterator[str]:
     yield from _DENSITY.hint(config.load.density)
+    for index, species in enumerate(config.load.species or ()):
+        if species.density is not None:
+            yield from replace(_DENSITY, key=f"load.species[{index}].density").hint(species.density)
     if config.contact.base == "hertz":
         for side in ("bundle", "drum"):
             modulus = getattr(config.contact, side).young_modulus

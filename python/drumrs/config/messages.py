@@ -82,7 +82,7 @@ def _unknown_key(model: type[BaseModel], path: Sequence[str | int], value: Any) 
             table = f"{table.removesuffix('.')}[{step}]."
         else:
             field = annotation.model_fields.get(step) if _is_table(annotation) else None
-            annotation = field.annotation if field is not None else None
+            annotation = _present(field.annotation) if field is not None else None
             table = f"{table}{step}."
     key = f"{table}{path[-1]}"
     siblings = [f"{table}{name}" for name in annotation.model_fields] if _is_table(annotation) else []
@@ -102,6 +102,12 @@ def _closest(key: str, siblings: Sequence[str], known: Sequence[str]) -> str | N
 
 def _is_table(annotation: Any) -> bool:
     return isinstance(annotation, type) and issubclass(annotation, BaseModel)
+
+
+def _present(annotation: Any) -> Any:
+    """Return the table that an annotation may also leave out; any other annotation as it is."""
+    choices = () if get_origin(annotation) is tuple else get_args(annotation)
+    return next((choice for choice in choices if _is_table(choice)), annotation)
 
 
 def _refused_value(model: type[BaseModel], problem: ErrorDetails) -> ConfigError:
@@ -151,7 +157,7 @@ def _locate(model: type[BaseModel], path: Sequence[str | int]) -> tuple[str, str
             if field is None:
                 break
             key = f"{key}.{step}" if key else str(step)
-            annotation = field.annotation
+            annotation = _present(field.annotation)
             extra = field.json_schema_extra
             unit = str(extra.get("unit", _ITS_UNIT)) if isinstance(extra, dict) else _ITS_UNIT
             keys = ", ".join(annotation.model_fields) if _is_table(annotation) else ""

@@ -9,7 +9,8 @@ from drumrs.errors import ConfigError
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from drumrs.config.tables import Contact, LinearContact, PairContact, Tables, WallContact
+    from drumrs.config.contact import LinearContact, PartialContact
+    from drumrs.config.tables import Tables
 
 
 def softening(config: "Tables", factor: float, name: str = "softer") -> dict[str, tuple[float, float]]:
@@ -29,31 +30,36 @@ def softening(config: "Tables", factor: float, name: str = "softer") -> dict[str
         raise ConfigError("contact.base", config.contact.base, "'linear' for softer springs")
     root = math.sqrt(factor)
     changes: dict[str, tuple[float, float]] = {}
-    for at, law in _laws(config.contact):
+    for at, law in _laws(config):
         if law.normal_stiffness is not None:
-            changes[f"{at}_stiffness"] = (law.normal_stiffness, law.normal_stiffness / factor)
+            changes[f"{at}.normal_stiffness"] = (law.normal_stiffness, law.normal_stiffness / factor)
         if law.normal_damping is not None:
-            changes[f"{at}_damping"] = (law.normal_damping, law.normal_damping / root)
+            changes[f"{at}.normal_damping"] = (law.normal_damping, law.normal_damping / root)
     step = config.run.time_step
     if not isinstance(step, str):
         changes["run.time_step"] = (step, step * root)
     return changes
 
 
-def _laws(contact: "Contact") -> "Iterator[tuple[str, LinearContact | PairContact | WallContact]]":
-    """List the tables that hold a stiffness, each with the beginning of its keys."""
-    yield from (("contact.bundle.normal", contact.bundle), ("contact.drum.normal", contact.drum))
-    yield from ((f"contact.pairs[{index}].normal", law) for index, law in enumerate(contact.pairs))
-    yield from ((f"contact.walls[{index}].normal", law) for index, law in enumerate(contact.walls))
+def _laws(config: "Tables") -> "Iterator[tuple[str, LinearContact | PartialContact]]":
+    """List the tables that hold a stiffness, each with its key."""
+    yield from (("contact.bundle", config.contact.bundle), ("contact.drum", config.contact.drum))
+    yield from ((f"contact.pair[{index}]", law) for index, law in enumerate(config.contact.pair or ()))
+    for index, species in enumerate(config.load.species or ()):
+        if species.contact is not None:
+            yield f"load.species[{index}].contact", species.contact
 
 
 def layer(config: "Tables", changes: dict[str, tuple[float, float]]) -> dict[str, Any]:
     """Return the changes as a layer: those of a table in a list need the whole list."""
     after: dict[str, Any] = {key: new for key, (_, new) in changes.items() if "[" not in key}
-    for name, laws in (("pairs", config.contact.pairs), ("walls", config.contact.walls)):
-        tables = [law.model_dump(exclude_none=True) for law in laws]
-        for index, table in enumerate(tables):
-            at = f"contact.{name}[{index}]."
-            table |= {key.removeprefix(at): new for key, (_, new) in changes.items() if key.startswith(at)}
-        after |= {f"contact.{name}": tables} if tables else {}
+    for name, tables in (("contact.pair", config.contact.pair), ("load.species", config.load.species)):
+        values = [table.model_dump(exclude_none=True) for table in tables or ()]
+        for index, table in enumerate(values):
+            at = f"{name}[{index}]."
+            for key, (_, new) in changes.items():
+                if key.startswith(at):
+                    *path, leaf = key.removeprefix(at).split(".")
+                    (table[path[0]] if path else table)[leaf] = new
+        after |= {name: values} if values else {}
     return after

@@ -3,11 +3,16 @@
 import math
 from typing import TYPE_CHECKING, Any
 
+from drumrs.config.laws import laws
+from drumrs.config.types import DRUM
+
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from drumrs.config.contact import Contact, LinearContact
     from drumrs.config.drum_tables import Drum
-    from drumrs.config.tables import Contact, LinearContact, Load, Rotation, Run, Tables
+    from drumrs.config.load import Load
+    from drumrs.config.tables import Rotation, Run, Tables
 
 
 def core_config(config: "Tables", bundle_count: int) -> dict[str, Any]:
@@ -15,8 +20,8 @@ def core_config(config: "Tables", bundle_count: int) -> dict[str, Any]:
     return {
         "drum": _drum(config.drum, chord_error(config.load)),
         "rotation": {"knots": _knots(config.rotation)},
-        "load": {**config.load.model_dump(exclude={"fill"}), "count": bundle_count},
-        "contact": _contact(config.contact),
+        "load": _load(config.load, bundle_count),
+        "contact": _contact(config.contact, config.load),
         "gravity": list(config.plane_gravity),
         "run": _run(config.run),
     }
@@ -48,20 +53,50 @@ def _lifters(drum: "Drum") -> "Iterator[dict[str, Any]]":
 
 def chord_error(load: "Load") -> float:
     """Return how far a chord may be from the curve it stands for [m]: 1/50 of the radius of the smallest bundle."""
-    return load.diameter / 100.0
+    return min(_diameters(load), default=load.diameter) / 100.0
 
 
-def _contact(contact: "Contact") -> dict[str, Any]:
+def _diameters(load: "Load") -> "Iterator[float]":
+    """List the least diameters that species are given [m]."""
+    for own in load.species or ():
+        if own.sizes is None:
+            yield own.diameter or load.diameter
+        else:
+            yield from (one for one in (*(own.sizes.diameters or ()), own.sizes.smallest) if one)
+
+
+def _load(load: "Load", bundle_count: int) -> dict[str, Any]:
+    return {
+        "count": bundle_count,
+        "diameter": load.diameter,
+        "density": load.wet(load.density),
+        "species": load.species_to_core(),
+        "share_by": load.share_by or "number",
+        "start_speed": load.start_speed,
+        "spin_locked": load.spin_locked,
+    }
+
+
+def _contact(contact: "Contact", load: "Load") -> dict[str, Any]:
 
     def table(law: "LinearContact") -> dict[str, Any]:
         return {"base": contact.base, **law.model_dump()}
 
+    pairs: list[dict[str, Any]] = []
+    walls: list[dict[str, Any]] = []
+    for law in laws(load, contact):
+        one, other = law.between
+        values = {"key": law.key, "parameters": table(law.table)}
+        if other == DRUM:
+            walls.append({"species": load.names.index(one), **values})
+        else:
+            pairs.append({"between": [load.names.index(one), load.names.index(other)], **values})
     return {
         "bundle": table(contact.bundle),
         "drum": table(contact.drum),
-        "species": contact.species,
-        "pairs": [(*law.between, table(law.over(contact.bundle))) for law in contact.pairs],
-        "walls": [(law.species, table(law.over(contact.drum))) for law in contact.walls],
+        "species": max(len(load.names), 1),
+        "pairs": pairs,
+        "walls": walls,
     }
 
 

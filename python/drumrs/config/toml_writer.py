@@ -2,7 +2,7 @@
 
 import textwrap
 from decimal import Decimal
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeGuard
 
 from pydantic import BaseModel
 
@@ -26,7 +26,8 @@ def to_toml(config: BaseModel, *, comments: bool) -> str:
 def _write(into: "TOMLDocument | Table", table: BaseModel, *, comments: bool) -> None:
     import tomlkit
 
-    values = {key: value for key, value in table if not isinstance(value, BaseModel)}
+    lists = {key: value for key, value in table if isinstance(value, tuple) and value and _is_table(value[0])}
+    values = {key: value for key, value in table if key not in lists and not _is_table(value)}
     for key, value in values.items():
         field = type(table).model_fields[key]
         for line in textwrap.wrap(field.description or "", _WIDTH) if comments else ():
@@ -35,13 +36,22 @@ def _write(into: "TOMLDocument | Table", table: BaseModel, *, comments: bool) ->
             into.add(key, toml_item(value))
         elif comments and field.examples:
             into.add(tomlkit.comment(f"{key} = {toml_item(field.examples[0]).as_string()}"))
+    for key, tables in lists.items():
+        array = tomlkit.aot()
+        for one in tables:
+            array.append(tomlkit.item({name: toml_item(value) for name, value in one if value is not None}))
+        into.add(key, array)
     for key, value in table:
-        if isinstance(value, BaseModel):
+        if _is_table(value):
             inner = tomlkit.table()
             if comments:
                 inner.comment((type(value).__doc__ or "").partition("\n")[0])
             _write(inner, value, comments=comments)
             into.add(key, inner)
+
+
+def _is_table(value: Any) -> TypeGuard[BaseModel]:
+    return isinstance(value, BaseModel)
 
 
 def toml_item(value: Any) -> "Item":

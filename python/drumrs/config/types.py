@@ -1,12 +1,13 @@
 """Types of the configuration's values: what they accept, and their limits in words for error messages."""
 
 import numbers
+import re
 from dataclasses import dataclass
 from typing import Annotated, Any, Literal
 
-from pydantic import BeforeValidator, Field
+from pydantic import AfterValidator, BeforeValidator, Field
 
-from drumrs.config.derived import GREATEST_BAFFLES, GREATEST_COUNT, GREATEST_SPECIES
+from drumrs.config.derived import GREATEST_BAFFLES, GREATEST_COUNT
 
 
 @dataclass(frozen=True)
@@ -85,11 +86,6 @@ GREATEST_SEED = 2**63 - 1
 BundleCount = Annotated[int, _COUNT, _within(1, GREATEST_COUNT), _whole(1, GREATEST_COUNT)]
 BaffleCount = Annotated[int, _COUNT, _within(0, GREATEST_BAFFLES), _whole(0, GREATEST_BAFFLES)]
 RepeatCount = Annotated[int, _COUNT, _within(1, GREATEST_BAFFLES), _whole(1, GREATEST_BAFFLES)]
-SpeciesCount = Annotated[int, _COUNT, _within(1, GREATEST_SPECIES), _whole(1, GREATEST_SPECIES)]
-Species = Annotated[int, _COUNT, _within(0, GREATEST_SPECIES - 1), _whole(0, GREATEST_SPECIES - 1)]
-TwoSpecies = Annotated[
-    tuple[Species, Species], BeforeValidator(_plain), Limit("a pair [species, species] of whole numbers")
-]
 Seed = Annotated[int, _COUNT, _within(0, GREATEST_SEED), _whole(0, GREATEST_SEED)]
 
 PartName = Annotated[
@@ -98,6 +94,29 @@ PartName = Annotated[
     Limit("a name that begins with a small letter, then letters, digits and _, such as 'lifter'"),
 ]
 Recordings = Annotated[tuple[Literal["gross_work"], ...], Limit("a list of 'gross_work'")]
+
+_NAME = re.compile(r"[^\W\d_][\w-]*")
+
+
+def _is_name(value: str) -> str:
+    if not _NAME.fullmatch(value) or value == DRUM:
+        raise ValueError
+    return value
+
+
+# How a pair of contact laws calls the drum.
+DRUM = "drum"
+SpeciesName = Annotated[
+    str,
+    Field(strict=True),
+    AfterValidator(_is_name),
+    Limit("a word of letters, digits, - and _, which begins with a letter and is not 'drum'"),
+]
+TwoNames = Annotated[tuple[str, str], BeforeValidator(_plain), Limit("a pair of names, of species or 'drum'")]
+Measure = Annotated[Literal["mass", "area", "number"], Limit("'mass', 'area' or 'number'")]
+Numbers = Annotated[
+    tuple[Real, ...], BeforeValidator(_plain), Field(min_length=1), Limit("a list of numbers")
+]
 
 Vector = Annotated[tuple[Real, Real], BeforeValidator(_plain), Limit("a pair [x, y] of finite numbers")]
 Interval = Annotated[

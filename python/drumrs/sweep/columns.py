@@ -40,7 +40,7 @@ def row(case: Case, summary: Summary, statistics: "Mapping[str, Any]") -> "pl.Da
 def parameters(config: Config) -> dict[str, Any]:
     """Return the configuration by dotted key, without the seed; "auto" among numbers is null."""
     kinds = _kinds()
-    values = dict(_flat(config.model_dump(mode="json"), kinds))
+    values = dict(_flat(config.model_dump(mode="json", exclude_none=True), kinds))
     return {key: _plain(values.get(key), kinds[key]) for key in kinds if key != _SEED_KEY}
 
 
@@ -106,7 +106,7 @@ def _flat(values: dict[str, Any], kinds: "Mapping[str, Any]", at: str = "") -> I
 
 def _plain(value: Any, kind: Any) -> Any:
     if value is not None and _is_table(_element(kind)):
-        return [json.dumps({key: item for key, item in table.items() if item is not None}) for table in value]
+        return [json.dumps(table) for table in value]
     return None if isinstance(value, str) and get_origin(_bare(kind)) is not Literal else value
 
 

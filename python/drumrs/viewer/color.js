@@ -33,7 +33,7 @@ function shade(value, [lowest, highest]) {
 
 // Each mode gives every bundle a number, shown times `factor` in a unit. The ends of the scale are the least and the
 // greatest number unless the mode has a range. A mode with `marked` shows where bundles were at a time of the reader's
-// choice, so that mixing shows.
+// choice, so that mixing shows; in one with names, a number is the place of a name.
 export const MODES = {
   speed: {
     label: "Speed",
@@ -62,7 +62,20 @@ export const MODES = {
     factor: 1000,
     value: (recording, k) => 2 * recording.radii[k],
   },
+  species: {
+    label: "Species",
+    unit: "",
+    factor: 1,
+    range: (recording) => [0, recording.species.names.length - 1],
+    value: (recording, k) => recording.species.of[k],
+    name: (recording, value) => recording.species.names[value],
+  },
 };
+
+// The modes of a recording: of species only where it has some.
+export function modesOf(recording) {
+  return Object.keys(MODES).filter((name) => name !== "species" || recording.species);
+}
 
 // How a recording is colored: by a mode, with the frame `mark` for the modes that have a marked time.
 export class Coloring {

@@ -2,7 +2,7 @@
 //
 // The markup is player.html; its parts are found by their classes, so nothing needs an id.
 
-import { GRADIENT, MODES } from "./color.js";
+import { GRADIENT, MODES, modesOf } from "./color.js";
 import { formatNumber } from "./format.js";
 
 const KEYS = {
@@ -37,7 +37,7 @@ export class Controls {
     on("corotating", "change", ({ target }) => player.show({ corotating: target.checked }));
     root.addEventListener("keydown", (event) => this.press(event), { signal });
     this.part("bar").style.background = GRADIENT;
-    for (const [name, { label }] of Object.entries(MODES)) this.part("mode").add(new Option(label, name));
+    for (const name of modesOf(player.recording)) this.part("mode").add(new Option(MODES[name].label, name));
     this.describe();
   }
 
@@ -88,21 +88,23 @@ export class Controls {
   writeLegend() {
     const { recording, coloring, scene } = this.player;
     const { mode, mark } = coloring;
-    const [lowest, highest] = coloring.range(scene).map((value) => formatNumber(value * mode.factor));
+    const text = (value) => (mode.name ? mode.name(recording, value) : formatNumber(value * mode.factor));
+    const [lowest, highest] = coloring.range(scene).map(text);
     const moment = mode.marked ? `, t\u00a0=\u00a0${recording.frames[mark].time.toFixed(2)}\u00a0s` : "";
-    this.part("quantity").textContent = `${mode.label}${moment} [${mode.unit}]`;
+    this.part("quantity").textContent = `${mode.label}${moment}${mode.unit && ` [${mode.unit}]`}`;
     this.part("lowest").textContent = lowest;
     // Speeds beyond the end of the scale have its last color.
     this.part("highest").textContent = coloring.name === "speed" ? `≥ ${highest}` : highest;
   }
 
   writeSelected() {
-    const { selected, scene } = this.player;
+    const { selected, scene, recording } = this.player;
     let words = "Click a bundle to follow its path.";
     if (selected !== null) {
       const { x, y, speed } = scene.bundles[selected];
       const distance = formatNumber(1000 * Math.hypot(x, y));
-      words = `Bundle ${selected}: ${formatNumber(speed)} m/s, ${distance} mm from the axis`;
+      const kind = recording.species ? `, ${MODES.species.name(recording, recording.species.of[selected])}` : "";
+      words = `Bundle ${selected}${kind}: ${formatNumber(speed)} m/s, ${distance} mm from the axis`;
     }
     this.part("bundle").textContent = words;
   }

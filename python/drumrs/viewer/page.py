@@ -3,6 +3,7 @@
 import html
 import json
 import math
+from collections import Counter
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
@@ -115,7 +116,7 @@ class Player:
             Added to the title.
         """
         fill = math.fsum((2.0 * frames.radii) ** 2) / config.drum.diameter**2
-        title = config.title_of(frames.count, fill)
+        title = config.title_of(Counter(frames.species) or frames.count, fill)
         return cls(
             frames,
             series,

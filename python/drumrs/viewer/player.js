@@ -13,7 +13,7 @@
 
 import { MARKUP, STYLE } from "./assets.js";
 import { readTheme } from "./canvas.js";
-import { Coloring, MODES } from "./color.js";
+import { Coloring, modesOf } from "./color.js";
 import { Controls } from "./controls.js";
 import { Panel } from "./panel.js";
 import { Stage } from "./stage.js";
@@ -153,7 +153,7 @@ export class Player extends EventTarget {
   }
 
   nextMode() {
-    const names = Object.keys(MODES);
+    const names = modesOf(this.recording);
     this.setMode(names[(names.indexOf(this.coloring.name) + 1) % names.length]);
   }
 

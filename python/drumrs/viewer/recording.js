@@ -7,10 +7,11 @@
 export class Recording extends EventTarget {
   // `facts` is a line below the title; `reach` is half the width [m] of a square about the axis that holds everything;
   // `shell` is the outline of a drum that is not round, or null; `window` is the interval of the averages [s] or null;
-  // `speedScale` is the speed [m/s] at the end of the color scale; there is at least one frame.
-  constructor({ title = "", facts = "", radii, drumRadius, shell = null, reach, baffles = [], walls = [], window = null, speedScale = 1, panels = [], frames }) {
+  // `speedScale` is the speed [m/s] at the end of the color scale; there is at least one frame;
+  // `species` is null or { names, of }, of[k] being the place of bundle k's name.
+  constructor({ title = "", facts = "", radii, drumRadius, shell = null, reach, baffles = [], walls = [], window = null, speedScale = 1, panels = [], species = null, frames }) {
     super();
-    Object.assign(this, { title, facts, radii, drumRadius, shell, reach, baffles, walls, window, speedScale, panels, frames });
+    Object.assign(this, { title, facts, radii, drumRadius, shell, reach, baffles, walls, window, speedScale, panels, species, frames });
   }
 
   get count() {
@@ -118,8 +119,9 @@ export function unpack(data) {
     times: decode(panel.times, Float32Array),
     lines: panel.lines.map((line) => ({ ...line, values: decode(line.values, Float32Array) })),
   }));
+  const species = data.species && { ...data.species, of: decode(data.species.of, Uint16Array) };
   const { title, facts, shell, reach, baffles, walls, window, drum_radius: drumRadius, speed_scale: speedScale } = data;
-  return new Recording({ title, facts, radii, drumRadius, shell, reach, baffles, walls, window, speedScale, panels, frames });
+  return new Recording({ title, facts, radii, drumRadius, shell, reach, baffles, walls, window, speedScale, panels, species, frames });
 }
 
 // Typed arrays follow the machine's byte order, which is little-endian wherever a browser runs.

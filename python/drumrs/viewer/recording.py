@@ -57,6 +57,7 @@ def pack(
         "times": _base64(frames.times, "<f8"),
         "drum_angles": _base64(frames.drum_angles, "<f8"),
         "radii": _base64(frames.radii, "<f4"),
+        "species": _species(frames),
         "positions": _base64(np.rint((frames.positions / reach + 1.0) / 2.0 * _FULL), "<u2"),
         "angles": _base64(np.rint(frames.angles / math.tau * _TURN) % _TURN, "<u2"),
         "speeds": _base64(np.rint(frames.speeds / fastest * _FULL), "<u2"),
@@ -70,6 +71,14 @@ def pack(
         "window": list(window) if window is not None else None,
         "panels": [_panel(panel) for panel in panels],
     }
+
+
+def _species(frames: Frames) -> dict[str, Any] | None:
+    """Return the names of the species, and which of them each bundle is of."""
+    if not frames.species:
+        return None
+    names, places = np.unique(frames.species, return_inverse=True)
+    return {"names": names.tolist(), "of": _base64(places, "<u2")}
 
 
 def _base64(values: NDArray[Any], kind: str) -> str:

@@ -76,14 +76,20 @@ impl SpeciesTable {
         self.pairs.first().map_or(Base::Linear, |parameters| parameters.base)
     }
 
-    /// Shortest collision times [s] for particles no lighter than one of this mass and radius: (between particles, with the
-    /// drum).
-    pub fn collision_times(&self, (mass, radius): (f64, f64)) -> (f64, f64) {
-        let shortest = |tables: &[ContactParameters], bodies: BodyPair| {
-            tables.iter().map(|table| collision_time(table, bodies)).fold(f64::INFINITY, f64::min)
-        };
-        let body = (mass, radius);
-        (shortest(&self.pairs, BodyPair::of_equals(body)), shortest(&self.walls, BodyPair::at_wall(body)))
+    /// Shortest collision times [s], (between particles, with the drum): of the lightest particle of each species, given as (mass,
+    /// radius); none where there is no such particle.
+    pub fn collision_times(&self, lightest: &[Option<(f64, f64)>]) -> (f64, f64) {
+        let (mut pairs, mut walls) = (f64::INFINITY, f64::INFINITY);
+        let bodies = || (0_u16..).zip(lightest).filter_map(|(species, body)| Some((species, (*body)?)));
+        for (one, body) in bodies() {
+            walls = collision_time(self.wall(one), BodyPair::at_wall(body)).min(walls);
+            for (other, second) in bodies() {
+                let bodies =
+                    if one == other { BodyPair::of_equals(body) } else { BodyPair::of_discs(body, second) };
+                pairs = collision_time(self.pair(one, other), bodies).min(pairs);
+            }
+        }
+        (pairs, walls)
     }
 }
 

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from pydantic import BaseModel
 
 import drumrs
-from drumrs.config import Config, Outline, PairContact, Phase, WallContact
+from drumrs.config import Config, Outline, PairContact, Phase, Sizes, Species
 from drumrs.config.messages import dotted_keys, table_type
 from drumrs.errors import ConfigError
 
@@ -38,8 +38,26 @@ contact_keys = {
     "tangential_damping_ratio": non_negative,
     "adhesion": non_negative,
 }
-pair_law = st.fixed_dictionaries({"between": st.just((0, 0))}, optional=contact_keys)
-wall_law = st.fixed_dictionaries({"species": st.just(0)}, optional=contact_keys)
+pair_law = st.fixed_dictionaries({"between": st.just(("steel", "drum"))}, optional=contact_keys)
+STEEL = ({"name": "steel"},)
+sizes = st.just(Sizes(law="normal", by="mass", mean=0.02, sigma=1e-3)) | st.just(
+    Sizes(law="table", by="number", diameters=(0.01, 0.02), passing=(0.0, 1.0))
+)
+species = st.fixed_dictionaries(
+    {"name": st.just("ore")},
+    optional={
+        "density": positive,
+        "sizes": sizes,
+        "contact": st.fixed_dictionaries({}, optional=contact_keys),
+    },
+)
+
+# What a key needs beside it.
+BESIDE = {
+    "load.mass": {"drum.depth": 0.3},
+    "load.solid_fraction": {"load.bulk_fill": 0.3},
+    "contact.pair": {"load.species": STEEL},
+}
 
 beside_the_axis = st.lists(st.tuples(st.floats(0.1, 9.0), real), min_size=3, max_size=6).map(tuple)
 
@@ -60,6 +78,7 @@ phase = st.recursive(
 # A strategy for every other key. Keys whose limits depend on others have values that suit the baseline.
 VALUES = {
     "drum.diameter": st.floats(0.2, 2.0),
+    "drum.depth": positive,
     "drum.rim": st.booleans(),
     "drum.tilt": st.floats(-89.0, 89.0),
     "drum.walls": st.lists(st.lists(point, min_size=2, max_size=4).map(tuple), max_size=3).map(tuple),
@@ -88,12 +107,16 @@ VALUES = {
     "load.density": positive,
     "load.fill": st.floats(0.1, 0.8),
     "load.count": st.integers(1, 1000),
+    "load.bulk_fill": st.floats(0.1, 0.8),
+    "load.solid_fraction": st.floats(0.5, 0.9),
+    "load.mass": st.floats(1.0, 1000.0),
+    "load.moisture": st.floats(0.0, 5.0),
+    "load.share_by": st.sampled_from(["mass", "area", "number"]),
+    "load.species": st.tuples(species.map(lambda own: Species(**own))),
     "load.start_speed": non_negative,
     "load.spin_locked": st.booleans(),
     "contact.base": st.sampled_from(["linear", "hertz"]),
-    "contact.species": st.integers(1, 256),
-    "contact.pairs": st.lists(pair_law.map(lambda law: PairContact(**law)), max_size=1).map(tuple),
-    "contact.walls": st.lists(wall_law.map(lambda law: WallContact(**law)), max_size=1).map(tuple),
+    "contact.pair": st.tuples(pair_law.map(lambda law: PairContact(**law))),
     "gravity": point,
     "run.time_step": positive | st.just("auto"),
     "run.duration": st.floats(30.0, 1e6),
@@ -136,7 +159,7 @@ def _is_table(key: str) -> bool:
 @given(data=st.data())
 def test_key_survives_toml_and_json(key, data):
     value = data.draw(VALUES[key])
-    config = drumrs.baseline().replace({key: value})
+    config = drumrs.baseline().replace({**BESIDE.get(key, {}), key: value})
     assert value_at(config, key) == value
     for comments in (True, False):
         again = Config.from_toml(config.to_toml(comments=comments))

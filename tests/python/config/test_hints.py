@@ -1,5 +1,6 @@
 """Values in another unit than they are read in: one sentence that says what to write."""
 
+import math
 import warnings
 
 import pytest
@@ -95,6 +96,7 @@ def test_lengths_in_millimeters_are_told_once_each_and_nothing_of_what_follows()
         {},
         {"rotation.rpm": 0.0},
         {"rotation.rpm": -2.0},
+        {"rotation.rpm": math.sqrt(1e-3 * 9.81 / 0.2375) * 30.0 / math.pi},
         {"rotation.rpm": 105.0},
         {"rotation.program": [[0.0, 0.0], [5.0, 54.0], [10.0, 800.0]]},
         {"load.diameter": 0.1, "load.count": 2},

@@ -39,9 +39,16 @@ VALID: dict[str, Any] = {
     "load.fill": 0.1,
     "load.start_speed": 0.5,
     "load.spin_locked": False,
-    "contact.species": 2,
-    "contact.pairs": [{"between": [0, 1], "friction": 0.3}],
-    "contact.walls": [{"species": 1, "normal_damping": 4e3}],
+    "load.species": [
+        {"name": "steel", "share": 0.5, "density": 7800.0, "diameter": 0.02, "contact": {"friction": 0.1}},
+        {"name": "ore", "share": 0.5, "sizes": {"law": "normal", "by": "mass", "mean": 0.02, "sigma": 1e-3}},
+    ],
+    "load.share_by": "mass",
+    "load.moisture": 0.1,
+    "contact.pair": [
+        {"between": ["steel", "ore"], "friction": 0.3},
+        {"between": ["ore", "drum"], "normal_damping": 4e3},
+    ],
     "contact.bundle.normal_stiffness": 9.25e7,
     "contact.bundle.stiffness_ratio": 1.0,
     "contact.bundle.restitution": 0.1,
@@ -62,6 +69,7 @@ VALID: dict[str, Any] = {
 OTHERS = {
     "rotation.program": [[0.0, 0.0], [0.01, 54.0], [0.02, -54.0]],
     "load.count": 20,
+    "load.bulk_fill": 0.1,
     "contact.bundle.normal_damping": 5e3,
     "contact.drum.restitution": 0.4,
 }
@@ -100,6 +108,7 @@ def mutations(draw: st.DrawFn) -> dict[str, Any]:
         other = {
             "program": "rpm",
             "count": "fill",
+            "bulk_fill": "fill",
             "normal_damping": "restitution",
             "restitution": "normal_damping",
         }

@@ -3,6 +3,7 @@
 import base64
 import io
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -130,6 +131,20 @@ def test_space_on_a_button_presses_the_button_only(show):
     shown.part("play").focus()
     shown.press(" ")
     shown.wait("player.playing")
+
+
+def test_species_have_colors_and_names_where_there_are_some(show):
+    frames = replace(scene(), species=("steel-ball", "ore", "steel-ball"))
+    shown = show(Player(frames).page(autoplay=False))
+    shown.part("marks").uncheck()
+    shown.part("mode").select_option("species")
+    ore, steel = (68, 1, 84), (253, 231, 37)
+    places = ((0.0, -0.15), (-0.15, 0.0), (0.1, 0.0))
+    assert [shown.color(*place) for place in places] == [steel, ore, steel]
+    assert [shown.part(end).inner_text() for end in ("lowest", "highest")] == ["ore", "steel-ball"]
+    assert "Species" in shown.part("quantity").inner_text()
+    shown.press("n")
+    assert shown.part("bundle").inner_text().startswith("Bundle 0, steel-ball: ")
 
 
 def test_colors_say_what_is_chosen(show):
