@@ -205,6 +205,15 @@ impl Error {
         Self::Config { key: key.into(), value: value.into(), limit: limit.into(), bound: None, hint: "" }
     }
 
+    /// The same error with advice, where it is an `Error::Config`.
+    #[must_use]
+    pub fn with_hint(mut self, advice: &'static str) -> Self {
+        if let Self::Config { hint, .. } = &mut self {
+            *hint = advice;
+        }
+        self
+    }
+
     /// The name of what is refused, as a user writes it.
     pub fn key(&self) -> Option<&str> {
         match self {

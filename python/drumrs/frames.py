@@ -47,6 +47,8 @@ class Frames:
         Name of each bundle's species, n of them; empty where the load has none.
     drum_radius
         Radius of the rim [m], or `None` for a scene without one.
+    shell
+        The closed outline of a drum that is not round, in the drum's own frame [m], of shape (k, 2), or `None`.
     baffles, walls
         Closed baffles and open walls in the drum's own frame [m], each of shape (k, 2).
     """
@@ -59,6 +61,7 @@ class Frames:
     radii: NDArray[np.float64]
     species: tuple[str, ...] = ()
     drum_radius: float | None = None
+    shell: NDArray[np.float64] | None = None
     baffles: tuple[NDArray[np.float64], ...] = ()
     walls: tuple[NDArray[np.float64], ...] = ()
 
@@ -70,6 +73,11 @@ class Frames:
     def count(self) -> int:
         """Number of bundles n."""
         return len(self.radii)
+
+    @property
+    def reach(self) -> float | None:
+        """Radius of the rim, or of the shell's farthest corner [m]; `None` for a scene without either."""
+        return self.drum_radius if self.shell is None else float(np.hypot(*self.shell.T).max())
 
     def nearest(self, time: float) -> int:
         """Return the index of the frame nearest to `time` [s]."""
@@ -128,6 +136,7 @@ class Frames:
         """Return the drum's outline in plain numbers."""
         return {
             "drum_radius": self.drum_radius,
+            "shell": None if self.shell is None else self.shell.tolist(),
             "baffles": [line.tolist() for line in self.baffles],
             "walls": [line.tolist() for line in self.walls],
         }
@@ -253,6 +262,7 @@ class FramesFile:
             speeds=np.empty(shape, speed),
             radii=np.empty(self.count),
             drum_radius=scene["drum_radius"],
+            shell=None if scene.get("shell") is None else np.array(scene["shell"]),
             baffles=tuple(np.array(line) for line in scene["baffles"]),
             walls=tuple(np.array(line) for line in scene["walls"]),
         )

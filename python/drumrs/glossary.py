@@ -87,9 +87,8 @@ def quantities() -> QuantityTable:
 
     Columns are ``name``, ``unit``, ``reading``, ``symbol``, ``formula``, ``meaning``, as `drumrs.quantity` has them,
     and ``found_in``: series, summary, table (of a sweep), study (of the paper), drums (that were
-    published), frames, facts (of a
-    case), phases (of a program). Baffles and walls are numbered
-    from 1; only the first of each is listed.
+    published), frames, facts (of a case), phases (of a program). Baffles, walls and the parts that
+    a liner names are numbered from 1; only the first baffle and wall are listed.
 
     Examples
     --------
@@ -110,7 +109,7 @@ def quantities() -> QuantityTable:
 
 def _places() -> Mapping[str, Sequence[str]]:
     """Return the names that are found in each place."""
-    series = [column.name for column in registry.recorded(1, 1, registry.RECORDINGS)]
+    series = [column.name for column in registry.recorded(record=registry.RECORDINGS)]
     summary = [field.name for field in fields(Summary)]
     table = [one.name for one in registry.known(schema()) if one.name not in summary]
     drums = registry.PUBLISHED_DRUMS

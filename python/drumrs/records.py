@@ -50,8 +50,8 @@ class Core(Protocol):
     def untaken_size(self) -> int:
         """Memory of what was not taken yet [bytes]."""
 
-    def outlines(self) -> list[Array]:
-        """Baffles, then walls [m]."""
+    def outlines(self) -> tuple[Array | None, list[Array], list[Array]]:
+        """Return the shell, if there is one, the baffles and the walls [m]."""
 
     def series(self) -> dict[str, Array]:
         """Columns of the samples in memory."""
@@ -208,7 +208,7 @@ class Records:
 
     def as_frames(self, arrays: dict[str, NDArray[Any]]) -> Frames:
         """Return the core's arrays as frames of this load in this drum."""
-        drum, outlines = self._drum, self._core.outlines()
+        drum, (shell, baffles, walls) = self._drum, self._core.outlines()
         return Frames(
             times=arrays["time"],
             drum_angles=arrays["drum_angle"],
@@ -218,8 +218,9 @@ class Records:
             radii=self._core.radii,
             species=self.species,
             drum_radius=drum.diameter / 2.0 if drum.rim else None,
-            baffles=tuple(outlines[: drum.baffles.count]),
-            walls=tuple(outlines[drum.baffles.count :]),
+            shell=shell,
+            baffles=tuple(baffles),
+            walls=tuple(walls),
         )
 
 

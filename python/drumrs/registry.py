@@ -19,6 +19,9 @@ from drumrs.errors import ConfigError
 # What is recorded on request, by the key `run.record`.
 RECORDINGS = ("gross_work",)
 
+# The parts of a drum with one baffle and one wall.
+PARTS = ("rim", "baffle 1", "wall 1")
+
 # How values are to be read.
 READINGS = MappingProxyType(
     {
@@ -145,12 +148,12 @@ def require(path: Path, names: Iterable[str], wanted: Iterable[str]) -> None:
             raise ConfigError(Path(path), problem=problem, hint=hint)
 
 
-def recorded(baffles: int, walls: int, record: Iterable[str] = ()) -> list[Quantity]:
-    """Return the columns of the series of a drum with so many baffles and walls, in their order.
+def recorded(parts: Iterable[str] = PARTS, record: Iterable[str] = ()) -> list[Quantity]:
+    """Return the columns of the series of a drum with these parts, in their order.
 
     Those of what is recorded on request, `record`, are among them.
     """
-    return [Quantity(*row) for row in _core.Simulation.columns(baffles, walls, "gross_work" in record)]
+    return [Quantity(*row) for row in _core.Simulation.columns(list(parts), "gross_work" in record)]
 
 
 def declared() -> Mapping[str, Quantity]:
@@ -160,7 +163,7 @@ def declared() -> Mapping[str, Quantity]:
 
 @cache
 def _declared() -> Mapping[str, Quantity]:
-    rows = (*recorded(1, 1, RECORDINGS), *_ROWS, *_PUBLISHED_DRUMS, *_FACTS, *_PHASES)
+    rows = (*recorded(record=RECORDINGS), *_ROWS, *_PUBLISHED_DRUMS, *_FACTS, *_PHASES)
     return MappingProxyType({row.name: row for row in rows})
 
 
@@ -169,13 +172,12 @@ def _find(name: str) -> Quantity | None:
 
 
 def _of_surface(name: str) -> Quantity | None:
-    """Return a column of a baffle or wall beyond the first."""
-    found = re.fullmatch(r"(baffle|wall)_(\d+)_\w+", name)
+    """Return a column of a part of the drum: of a baffle or wall beyond the first, or one that a liner names."""
+    found = re.fullmatch(r"([a-z]\w*)_(\d+)_(work|torque|force_x|force_y)", name)
     if found is None:
         return None
-    number = int(found[2])
-    columns = recorded(number, 0) if found[1] == "baffle" else recorded(0, number)
-    return next((column for column in columns if column.name == name), None)
+    columns = recorded([f"{found[1]} {found[2]}"])
+    return next(column for column in columns if column.name == name)
 
 
 def _by_rule(name: str) -> Quantity | None:

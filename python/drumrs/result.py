@@ -187,7 +187,7 @@ def read_series(path: Path) -> "pl.DataFrame":
     import polars as pl
 
     series = pl.read_parquet(io.BytesIO(read_plain(path)))
-    require(path, series.columns, (column.name for column in recorded(0, 0)))
+    require(path, series.columns, (column.name for column in recorded(["rim"])))
     return series
 
 

@@ -92,7 +92,7 @@ class Simulation(HasRecords):
         if state is not None and not isinstance(state, State):
             raise ConfigError("state", state, "a drumrs.State", hint="drumrs.State(positions) makes one")
         config = config if seed is None else config.replace({"run.seed": seed})
-        if state is None and not config.drum.rim:
+        if state is None and not config.drum.rim and config.drum.shell is None:
             limit = "true where no initial state is given"
             raise ConfigError("drum.rim", False, limit, problem=f"is false, but must be {limit}")
         arrays = None if state is None else state.arrays(config.load.names)
@@ -111,7 +111,7 @@ class Simulation(HasRecords):
     def _start(self, config: Config, core: _core.Simulation) -> None:
         self._config = config
         self._core = core
-        columns = recorded(config.drum.baffles.count, len(config.drum.walls), config.run.record)
+        columns = recorded(core.parts(), config.run.record)
         self._records = Records(core, config, [column.name for column in columns])
         self._stop = threading.Event()
         self._running = threading.Lock()

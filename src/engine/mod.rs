@@ -188,7 +188,7 @@ impl Engine {
 
     /// Whether the next look at the pair list needs to know the drum's rotation.
     pub fn needs_rotation(&self, world: World) -> bool {
-        world.drum.surface_count() > 1 || self.list.is_due()
+        world.drum.has_outlines() || self.list.is_due()
     }
 
     /// The longest displacement of a particle in the last drift, as seen from the drum [m].

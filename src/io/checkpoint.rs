@@ -146,7 +146,7 @@ fn check(state: &State, engine: &EngineState, config: &SimulationConfig) -> Resu
     ensure(is_run, "it holds no bundle, or more steps than a run can have")?;
     let is_there = |&species: &u16| usize::from(species) < table.count();
     ensure(particles.species.iter().all(is_there), "a bundle is of a species that is not there")?;
-    let fits = drum.radius().is_none_or(|rim| particles.largest_radius() < rim);
+    let fits = drum.bounding_radius().is_none_or(|rim| particles.largest_radius() < rim);
     ensure(fits, "a bundle is larger than its drum")?;
     let has_accounts = state.ledger.surfaces.len() == drum.surface_count();
     ensure(has_accounts, "its accounts are not those of its drum")?;

@@ -183,7 +183,7 @@ impl SimulationConfig {
     pub fn validate(&self) -> Result<(), Error> {
         self.drum.validate()?;
         self.rotation.validate()?;
-        self.load.validate(self.drum.radius)?;
+        self.load.validate(self.drum.bounding_radius())?;
         self.contact.validate()?;
         let (own, laws) = (self.load.species.len(), self.contact.species);
         let limit = format!("{own}, as many as there are of load.species");

@@ -265,11 +265,9 @@ fn impulses(account: &SurfaceAccount) -> [f64; 3] {
     [x, y, account.angular_impulse()]
 }
 
-/// The columns of a drum with so many baffles and walls, and of what is recorded on request.
-pub fn columns(baffles: usize, walls: usize, record: &[Recording]) -> Vec<Column> {
-    let baffles = (1..=baffles).map(|k| format!("baffle_{k}"));
-    let walls = (1..=walls).map(|k| format!("wall_{k}"));
-    let surfaces = std::iter::once("rim".to_owned()).chain(baffles).chain(walls);
+/// The columns of a drum with surfaces of these names, and of what is recorded on request.
+pub fn columns(surfaces: &[String], record: &[Recording]) -> Vec<Column> {
+    let surfaces = surfaces.iter().map(|name| name.replace(' ', "_"));
     let on_request = record.contains(&Recording::GrossWork).then(gross_work).into_iter().flatten();
     quantities().chain(on_request).chain(surfaces.flat_map(|surface| columns_of(&surface))).collect()
 }
@@ -410,7 +408,8 @@ mod tests {
 
     #[test]
     fn every_column_has_a_name_of_its_own_and_a_unit() {
-        let columns = columns(3, 1, &[Recording::GrossWork]);
+        let surfaces = ["rim", "baffle 1", "high lifter 1", "wall 1", "wall 2"].map(String::from);
+        let columns = columns(&surfaces, &[Recording::GrossWork]);
         let mut names: Vec<_> = columns.iter().map(|column| &column.name).collect();
         names.sort_unstable();
         names.dedup();

@@ -301,9 +301,22 @@ impl Simulation {
         Ok(times)
     }
 
-    fn outlines<'py>(&self, py: Python<'py>) -> Vec<Bound<'py, PyArray2<f64>>> {
-        let outlines: Vec<_> = self.with(py, |core| core.drum().outlines().map(<[_]>::to_vec).collect());
-        outlines.iter().map(|outline| arrays::vectors(py, outline)).collect()
+    /// The shell, if the drum has one, the baffles and the walls.
+    #[allow(clippy::type_complexity)] // Three things, named in the stub.
+    fn outlines<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> (Option<Bound<'py, PyArray2<f64>>>, Vec<Bound<'py, PyArray2<f64>>>, Vec<Bound<'py, PyArray2<f64>>>)
+    {
+        let drum = self.with(py, |core| core.drum().clone());
+        let mut baffles: Vec<_> = drum.outlines().map(|outline| arrays::vectors(py, outline)).collect();
+        let walls = baffles.split_off(drum.baffle_count());
+        (drum.shell().map(|shell| arrays::vectors(py, shell)), baffles, walls)
+    }
+
+    /// What the parts of the drum are called, in the order of their columns in the series.
+    fn parts(&self, py: Python<'_>) -> Vec<String> {
+        self.with(py, |core| core.drum().surface_names().to_vec())
     }
 
     fn series<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
@@ -393,9 +406,9 @@ impl Simulation {
 
     /// The columns of the series: name, symbol, unit, reading, formula, meaning.
     #[staticmethod]
-    fn columns(baffles: usize, walls: usize, record_gross_work: bool) -> Vec<[String; 6]> {
+    fn columns(parts: Vec<String>, record_gross_work: bool) -> Vec<[String; 6]> {
         let record = record_gross_work.then_some(Recording::GrossWork);
-        let told = columns(baffles, walls, record.as_slice()).into_iter();
+        let told = columns(&parts, record.as_slice()).into_iter();
         told.map(|c| {
             [c.name, c.symbol, c.unit.into(), c.reading.name().into(), c.formula, c.meaning]
                 .map(Cow::into_owned)

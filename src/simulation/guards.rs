@@ -75,9 +75,10 @@ impl Simulation {
         let inside = |place: usize| drum.solid_at(rotation.apply_inverse(particles.positions[place]));
         let mut near = (0..particles.len()).filter(is_near);
         match near.find_map(|place| Some((place, inside(place)?))) {
-            Some((place, surface)) => {
-                Err(Error::Escaped { incident: self.incident(place), surface: drum.surface_name(surface) })
-            }
+            Some((place, surface)) => Err(Error::Escaped {
+                incident: self.incident(place),
+                surface: drum.surface_name(surface).to_owned(),
+            }),
             None => Ok(()),
         }
     }

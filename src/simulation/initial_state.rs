@@ -94,7 +94,7 @@ pub const START_OVERLAP_LIMIT: f64 = 0.1;
 /// `Error::Config` naming the first of them.
 pub fn require_inside(drum: &Drum, particles: &Particles, rotation: Rotation) -> Result<(), Error> {
     let (radii, positions) = (&particles.radii, &particles.positions);
-    let rim = drum.radius().unwrap_or(f64::INFINITY);
+    let rim = drum.bounding_radius().unwrap_or(f64::INFINITY);
     if let Some(i) = radii.iter().position(|&radius| radius >= rim) {
         let limit = format!("smaller than the drum's radius {rim}");
         return Err(Error::config(format!("state.radii[{i}]"), radii[i], limit));

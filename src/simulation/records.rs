@@ -24,7 +24,7 @@ pub struct Records {
 impl Records {
     /// No records of a drum's load yet; `record` is what is recorded on request.
     pub fn new(drum: &Drum, record: &[Recording]) -> Self {
-        let columns = columns(drum.baffle_count(), drum.wall_count(), record);
+        let columns = columns(drum.surface_names(), record);
         Self { series: Series::new(columns), ..Self::default() }
     }
 

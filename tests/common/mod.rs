@@ -72,20 +72,28 @@ pub fn respond(
 
 pub fn baffles(count: usize) -> BaffleParameters {
     BaffleParameters {
+        name: "baffle".into(),
         count,
         shape: BaffleShape::Triangle,
         height: 0.05,
         base: 0.06,
         tip: 0.02,
         points: None,
+        corner_radius: 0.0,
+        chord_error: 1e-4,
         phase: 0.0,
     }
+}
+
+/// The drum of Table 1 with these baffles.
+pub fn drum_with(baffles: BaffleParameters) -> DrumParameters {
+    DrumParameters { radius: Some(DRUM_RADIUS), shell: None, baffles: vec![baffles], walls: Vec::new() }
 }
 
 /// Table 1 with `count` bundles and `baffle_count` baffles.
 pub fn baseline(count: usize, baffle_count: usize) -> SimulationConfig {
     SimulationConfig {
-        drum: DrumParameters { radius: Some(DRUM_RADIUS), baffles: baffles(baffle_count), walls: Vec::new() },
+        drum: drum_with(baffles(baffle_count)),
         rotation: RotationSchedule { knots: vec![[0.0, SPEED]] },
         load: LoadParameters {
             count,

@@ -35,14 +35,9 @@ const KEYS: &[&str] = &[
     "contact.pairs",
     "contact.species",
     "contact.walls",
-    "drum.baffles.base",
-    "drum.baffles.count",
-    "drum.baffles.height",
-    "drum.baffles.phase",
-    "drum.baffles.points",
-    "drum.baffles.shape",
-    "drum.baffles.tip",
+    "drum.baffles",
     "drum.radius",
+    "drum.shell",
     "drum.walls",
     "gravity",
     "load.count",
@@ -91,9 +86,9 @@ fn refusal(tree: &Value) -> String {
 /// A configuration with every option taken and numbers that have no short decimal form.
 fn elaborate() -> SimulationConfig {
     let mut config = baseline(7, 4);
-    config.drum.baffles.shape = BaffleShape::Polygon;
-    config.drum.baffles.points = Some(vec![[0.0, 0.1 + 0.2 - 0.28], [1.0 / 30.0, 0.01], [0.0, -0.02]]);
-    config.drum.baffles.phase = -std::f64::consts::PI / 7.0;
+    config.drum.baffles[0].shape = BaffleShape::Polygon;
+    config.drum.baffles[0].points = Some(vec![[0.0, 0.1 + 0.2 - 0.28], [1.0 / 30.0, 0.01], [0.0, -0.02]]);
+    config.drum.baffles[0].phase = -std::f64::consts::PI / 7.0;
     config.drum.walls = vec![vec![[0.1 / 3.0, -0.05], [f64::MIN_POSITIVE, 1e-300]]];
     config.rotation.knots = vec![[0.1, SPEED], [2.0 / 3.0, -SPEED / 3.0]];
     config.contact.drum.restitution = None;

@@ -56,8 +56,8 @@ fn tumbled(config: &SimulationConfig, initial: InitialState, steps: u64) -> Simu
 fn large() -> SimulationConfig {
     let mut config = baseline(9000, 3);
     config.drum.radius = Some(1.8);
-    config.drum.baffles.height = 0.3;
-    config.drum.baffles.base = 0.38;
+    config.drum.baffles[0].height = 0.3;
+    config.drum.baffles[0].base = 0.38;
     config.load.start_speed = 5.0;
     config
 }
@@ -198,7 +198,7 @@ fn restarts_while_contacts_are_open_do_not_show() {
     let mut many = large();
     many.load.count = 5000;
     let mut many_bare = many.clone();
-    many_bare.drum.baffles.count = 0;
+    many_bare.drum.baffles[0].count = 0;
     let small = [(100, 0), (100, 3), (300, 0), (240, 3)].map(|(count, baffles)| baseline(count, baffles));
     for mut config in small.into_iter().chain([two_chunks(0), two_chunks(3), many, many_bare]) {
         config.load.start_speed = 4.0;
@@ -313,9 +313,9 @@ fn pieces_of_a_run_do_not_show() {
 fn scaled(config: &SimulationConfig, mass_factor: f64) -> SimulationConfig {
     let mut scaled = config.clone();
     scaled.drum.radius = scaled.drum.radius.map(|radius| 4.0 * radius);
-    scaled.drum.baffles.height *= 4.0;
-    scaled.drum.baffles.base *= 4.0;
-    scaled.drum.baffles.tip *= 4.0;
+    scaled.drum.baffles[0].height *= 4.0;
+    scaled.drum.baffles[0].base *= 4.0;
+    scaled.drum.baffles[0].tip *= 4.0;
     scaled.load.diameter *= 4.0;
     scaled.load.density *= mass_factor / 16.0;
     scaled.load.start_speed *= 2.0;
@@ -376,7 +376,7 @@ fn a_mirrored_drum_gives_the_mirrored_trajectory() {
         let mut mirrored_config = config.clone();
         mirrored_config.rotation.knots = vec![[0.0, -SPEED]];
         // The first baffle's axis at phase 0 mirrors to π.
-        mirrored_config.drum.baffles.phase = std::f64::consts::PI;
+        mirrored_config.drum.baffles[0].phase = std::f64::consts::PI;
         let mut mirrored = start(&mirrored_config, initial(-1.0));
         let steps = if baffle_count == 0 { STEPS } else { 4000 };
         plain.run(steps).unwrap();

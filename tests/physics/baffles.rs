@@ -156,7 +156,7 @@ fn a_disc_at_the_foot_has_two_contacts() {
     let mut config = baseline(1, 1);
     config.rotation.knots = vec![[0.0, 0.0]];
     // The baffle stands at the bottom; the disc lies beside it.
-    config.drum.baffles.phase = -std::f64::consts::FRAC_PI_2;
+    config.drum.baffles[0].phase = -std::f64::consts::FRAC_PI_2;
     config.contact.drum.friction = 0.0;
     let angle = -std::f64::consts::FRAC_PI_2 + 0.25;
     let orbit = DRUM_RADIUS - RADIUS - 1e-4;
@@ -173,7 +173,7 @@ fn a_disc_at_the_foot_has_two_contacts() {
 fn a_lifted_bundle_gives_the_torque_of_its_weight() {
     let mut config = baseline(1, 3);
     config.rotation.knots = vec![[0.0, 0.5]];
-    config.drum.baffles.phase = -1.0;
+    config.drum.baffles[0].phase = -1.0;
     let at = polar(DRUM_RADIUS - RADIUS - 2e-3, -1.0 + 0.25);
     let mut simulation = start(&config, single(at, [0.0, 0.0], 0.0));
     run(&mut simulation, 1.0);
@@ -187,8 +187,8 @@ fn trapezoids_and_polygons_run_with_a_closed_ledger() {
     let points = vec![[0.0, 0.03], [0.03, 0.02], [0.03, 0.005], [0.06, 0.005], [0.06, -0.005], [0.0, -0.03]];
     for (shape, points) in [(BaffleShape::Trapezoid, None), (BaffleShape::Polygon, Some(points))] {
         let mut config = baseline(150, 4);
-        config.drum.baffles.shape = shape;
-        config.drum.baffles.points = points;
+        config.drum.baffles[0].shape = shape;
+        config.drum.baffles[0].points = points;
         let mut simulation = Simulation::new(config, 2, 1).unwrap();
         run(&mut simulation, 0.8);
         assert!(last(&simulation, "energy_residual") < 1e-11);

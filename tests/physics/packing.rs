@@ -6,7 +6,7 @@ use drumrs::physics::drum::{Drum, DrumParameters};
 use drumrs::physics::load::packing::{pack, pack_mixed};
 use drumrs::physics::vector::{Rotation, Vec2, cross, dot};
 
-use crate::common::{DRUM_RADIUS, RADIUS, baffles};
+use crate::common::{DRUM_RADIUS, RADIUS, baffles, drum_with};
 
 /// The drum of the paper with so many triangular baffles, all lengths times a scale.
 fn scaled(scale: f64, baffle_count: usize) -> Drum {
@@ -14,7 +14,7 @@ fn scaled(scale: f64, baffle_count: usize) -> Drum {
     let (height, base) = (scale * baffles.height, scale * baffles.base);
     let radius = Some(scale * DRUM_RADIUS);
     let baffles = BaffleParameters { height, base, ..baffles };
-    Drum::new(&DrumParameters { radius, baffles, walls: vec![] }).unwrap()
+    Drum::new(&DrumParameters { radius, shell: None, baffles: vec![baffles], walls: vec![] }).unwrap()
 }
 
 /// The bare drum and the one with baffles.
@@ -219,7 +219,7 @@ fn nothing_is_placed_where_nothing_is_asked_for() {
 
 #[test]
 fn a_drum_without_bounds_and_a_disc_without_size_are_refused() {
-    let without_rim = DrumParameters { radius: None, baffles: baffles(0), walls: vec![] };
+    let without_rim = DrumParameters { radius: None, ..drum_with(baffles(0)) };
     let error = pack(&Drum::new(&without_rim).unwrap(), 1, RADIUS, 1).unwrap_err();
     assert_eq!(error.to_string(), "drum.diameter is none, but must be given when no initial state is");
     for radius in [0.0, -1.0, f64::NAN] {
@@ -311,7 +311,7 @@ fn mixes_have_the_same_bits_on_every_machine() {
 #[test]
 fn a_mix_keeps_clear_of_walls() {
     let wall = vec![[-0.15, -0.1], [0.0, 0.02], [0.17, -0.08]];
-    let parameters = DrumParameters { radius: Some(DRUM_RADIUS), baffles: baffles(0), walls: vec![wall] };
+    let parameters = DrumParameters { walls: vec![wall], ..drum_with(baffles(0)) };
     let drum = Drum::new(&parameters).unwrap();
     let radii = two_sizes(260.0, 1.4);
     let bed = pack_mixed(&drum, &radii, 1).unwrap();

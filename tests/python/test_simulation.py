@@ -247,7 +247,9 @@ def test_unstable_runs_name_the_step(short):
 def test_series_has_the_listed_quantities(short):
     simulation = drumrs.Simulation(short)
     simulation.run(steps=2000)
-    assert simulation.series.columns == [column.name for column in recorded(baffles=3, walls=0)]
+    assert simulation.series.columns == [
+        column.name for column in recorded(["rim", "baffle 1", "baffle 2", "baffle 3"])
+    ]
 
 
 def test_summary_of_a_window_not_reached(short):

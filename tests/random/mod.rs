@@ -95,7 +95,10 @@ prop_compose! {
         points in vec([-0.1..0.7_f64, -0.3..0.3_f64], 3..7),
         phase in -7.0..7.0_f64,
     ) -> BaffleParameters {
-        BaffleParameters { count, shape, height, base, tip, points: Some(points), phase }
+        BaffleParameters {
+            name: "baffle".into(), count, shape, height, base, tip, points: Some(points), corner_radius: 0.0,
+            chord_error: 1e-3, phase,
+        }
     }
 }
 
@@ -148,7 +151,7 @@ fn put_together(draw: &Draw, mut baffles: BaffleParameters, mut walls: Vec<Vec<[
         spin_locked: draw.spin_locked,
     };
     let config = SimulationConfig {
-        drum: DrumParameters { radius: Some(radius), baffles, walls },
+        drum: DrumParameters { radius: Some(radius), shell: None, baffles: vec![baffles], walls },
         rotation: RotationSchedule { knots: draw.speeds.iter().enumerate().map(knot).collect() },
         load,
         contact,

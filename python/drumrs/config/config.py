@@ -8,12 +8,14 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Self
 
-from pydantic import model_validator
+from pydantic import ModelWrapValidatorHandler, model_validator
 
 from drumrs.config.derived import GREATEST_COUNT, Derived, Facts, compose, derive
+from drumrs.config.drum_tables import Liner
 from drumrs.config.hints import hints
 from drumrs.config.laws import laws
 from drumrs.config.layers import merge, nest, read_json, read_toml
+from drumrs.config.liner import anchored, with_drawing
 from drumrs.config.load import SOLID_FRACTION
 from drumrs.config.messages import conflict
 from drumrs.config.softening import layer, softening
@@ -38,6 +40,12 @@ class Config(Tables):
     (0.3, 160)
     """
 
+    @model_validator(mode="wrap")
+    @classmethod
+    def _drawing_is_read(cls, values: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
+        config = handler(values)
+        return config if config.drum.liner.file is None else handler(with_drawing(config))
+
     @model_validator(mode="after")
     def _species_have_laws_and_sizes(self) -> Self:
         laws(self.load, self.contact)
@@ -56,6 +64,8 @@ class Config(Tables):
     @model_validator(mode="after")
     def _bundles_fit_into_the_drum(self) -> Self:
         load, drum = self.load, self.drum
+        if drum.liner.file is not None:
+            return self  # How large the drum is, the drawing tells.
         if drum.rim and not load.species and load.diameter >= drum.diameter:
             raise conflict("load.diameter", load.diameter, f"smaller than drum.diameter = {drum.diameter}")
         key, value, one = self.amount
@@ -64,7 +74,7 @@ class Config(Tables):
             does = "weighs" if key == "load.mass" else "fills"
             limit = (
                 f"between {0.5 * one:.4g} and {GREATEST_COUNT * one:.4g}: one bundle {which}{does} {one:.4g} of a drum "
-                f"of diameter {drum.diameter}"
+                f"of diameter {drum.area_diameter:.6g}"
             )
             raise conflict(key, value, limit)
         return self
@@ -95,7 +105,7 @@ class Config(Tables):
         """Number of bundles N: given, or the whole number nearest to what fill or mass ask for."""
         key, value, one = self.amount
         if key == "load.fill" and not self.load.species:
-            return round(value * (self.drum.diameter / self.load.diameter) ** 2)
+            return round(value * (self.drum.area_diameter / self.load.diameter) ** 2)
         return round(value / one)
 
     @property
@@ -115,8 +125,8 @@ class Config(Tables):
     def fill_of(self, count: float) -> float:
         """Return the fill of so many bundles of the configured sizes: N d²/D² where all are equal."""
         if self.load.species:
-            return count * self._mean_bundle()[0] / (math.pi / 4.0 * self.drum.diameter**2)
-        return count * (self.load.diameter / self.drum.diameter) ** 2
+            return count * self._mean_bundle()[0] / (math.pi / 4.0 * self.drum.area_diameter**2)
+        return count * (self.load.diameter / self.drum.area_diameter) ** 2
 
     @property
     def derived(self) -> Derived:
@@ -168,16 +178,14 @@ class Config(Tables):
         >>> drumrs.baseline().title_of(1, 0.0025)
         '1 bundle (0.25 % fill), no baffles, 54 rpm, seed 1'
         """
-        baffles = self.drum.baffles.count
         counts = (
             bundles if isinstance(bundles, Mapping) else {"bundle" if bundles == 1 else "bundles": bundles}
         )
         load = (
             f"{' + '.join(f'{count} {name}' for name, count in counts.items())} ({100.0 * fill:.3g} % fill)"
         )
-        many = "no baffles" if baffles == 0 else f"{baffles} baffle{'s' if baffles > 1 else ''}"
         turning = f"{self.rotation.rpm:g} rpm" if self.rotation.rpm is not None else "a program of speeds"
-        return f"{load}, {many}, {turning}, seed {self.run.seed}"
+        return f"{load}, {self.drum.fittings}, {turning}, seed {self.run.seed}"
 
     @property
     def facts(self) -> str:
@@ -228,6 +236,10 @@ class Config(Tables):
             said["contact"] |= {"species": 1, "pairs": [], "walls": []}
         if not self.drum.tilt:
             del said["drum"]["tilt"]
+        if self.drum.liner == Liner():
+            del said["drum"]["liner"]
+        if not self.drum.baffles.corner_radius:
+            del said["drum"]["baffles"]["corner_radius"]
         canonical = json.dumps(said, sort_keys=True)
         return hashlib.sha256(canonical.encode()).hexdigest()[:32]
 
@@ -353,7 +365,7 @@ def read_layer(path: str | Path) -> dict[str, Any]:
         problem = f"cannot be read as a file of configuration keys: {reason}"
         raise ConfigError(Path(path), problem=problem, hint=_WRITE_ONE) from None
     read = read_json if Path(path).suffix == ".json" else read_toml
-    return read(text, Path(path))
+    return anchored(read(text, Path(path)), Path(path).parent)
 
 
 def baseline(fill: float = 0.25, *, baffles: bool = False) -> Config:

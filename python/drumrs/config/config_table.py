@@ -1,4 +1,4 @@
-"""`ConfigTable`: what every table of a configuration has in common."""
+"""`ConfigTable`: what every table of a configuration has in common; `key`: a key with its meaning and unit."""
 
 from itertools import combinations
 from typing import TYPE_CHECKING, Any, ClassVar, Self

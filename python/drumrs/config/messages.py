@@ -106,7 +106,8 @@ def _is_table(annotation: Any) -> bool:
 
 def _present(annotation: Any) -> Any:
     """Return the table that an annotation may also leave out; any other annotation as it is."""
-    return next((choice for choice in get_args(annotation) if _is_table(choice)), annotation)
+    choices = () if get_origin(annotation) is tuple else get_args(annotation)
+    return next((choice for choice in choices if _is_table(choice)), annotation)
 
 
 def _refused_value(model: type[BaseModel], problem: ErrorDetails) -> ConfigError:

@@ -12,12 +12,12 @@ from pydantic import Field, model_validator
 from drumrs.config import types
 from drumrs.config.config_table import ConfigTable, key
 from drumrs.config.contact import Contact
+from drumrs.config.drum_tables import Drum
 from drumrs.config.load import Load
 from drumrs.config.messages import conflict
 from drumrs.config.program import MOST_PHASES, Interval, count_phases, knots_of, unrolled
 from drumrs.config.types import Flag, Limit, NonNegative, Positive, Real
 
-Shape = Annotated[Literal["triangle", "trapezoid", "polygon"], Limit("'triangle', 'trapezoid' or 'polygon'")]
 TimeStep = Annotated[Literal["auto"] | Positive, Limit("'auto' or a positive finite number")]
 Skin = Annotated[Literal["auto"] | NonNegative, Limit("'auto' or a finite number of at least 0")]
 
@@ -25,58 +25,6 @@ _GRAVITY = (0.0, -9.81)
 _PHASES = Limit(
     "a list of phases: tables with name, duration, and rpm or ramp, or a group with phase and repeat"
 )
-
-
-class Baffles(ConfigTable):
-    """Equal baffles, spread evenly round the rim.
-
-    The paper's drawing of them is lost. The default shape is inferred from its text, which leaves others: docs/study.
-    """
-
-    count: types.BaffleCount = key(0, "Number of baffles; 0 is a bare drum")
-    shape: Shape = key("triangle", "'triangle', 'trapezoid' or 'polygon'")
-    height: Positive = key(0.04, "Distance of the tip from the rim, along the baffle's axis", "m")
-    base: Positive = key(0.02, "Distance (chord) of the two base corners, which lie on the rim", "m")
-    tip: Positive = key(0.01, "Distance of the two tip corners of a trapezoid", "m")
-    points: types.Points | None = key(
-        None,
-        "Corners [x, y] of a polygon: x along the baffle's axis inwards from the rim, y across",
-        "m",
-        [[0.0, -0.01], [0.04, 0.0], [0.0, 0.01]],
-    )
-    phase: Real = key(0.0, "Angle of the first baffle's axis at t = 0, counter-clockwise from +x", "degrees")
-
-    @model_validator(mode="after")
-    def _polygon_has_points(self) -> Self:
-        if self.shape == "polygon" and self.points is None:
-            limit = "given where {at}shape is 'polygon'"
-            raise conflict("{at}points", limit=limit, problem=f"is missing, but must be {limit}")
-        return self
-
-
-class Drum(ConfigTable):
-    """The drum: rim, baffles and straight walls, one rigid body that turns about the origin."""
-
-    diameter: Positive = key(0.475, "Inner diameter D", "m")
-    depth: Positive | None = key(
-        None, "Depth along the axis; it serves load.mass alone, all results are per meter of depth", "m", 0.35
-    )
-    rim: Flag = key(default=True, meaning="Whether there is a rim; false leaves the walls alone")
-    tilt: types.Tilt = key(
-        0.0,
-        "Angle of the axis to the horizontal; gravity along the axis is left out. Instead of gravity",
-        "degrees",
-    )
-    walls: Annotated[tuple[types.Polyline, ...], Limit("a list of polylines")] = key(
-        (), "Further walls: open polylines of points [x, y] at t = 0, which turn with the drum", "m"
-    )
-    baffles: Baffles = Field(default=Baffles())
-
-    @model_validator(mode="after")
-    def _baffles_stand_on_a_rim(self) -> Self:
-        if self.baffles.count and not self.rim:
-            raise conflict("{at}baffles.count", self.baffles.count, "0 where {at}rim is false")
-        return self
 
 
 class Phase(ConfigTable):

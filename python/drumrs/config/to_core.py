@@ -7,15 +7,18 @@ from drumrs.config.laws import laws
 from drumrs.config.types import DRUM
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from drumrs.config.contact import Contact, LinearContact
+    from drumrs.config.drum_tables import Drum
     from drumrs.config.load import Load
-    from drumrs.config.tables import Drum, Rotation, Run, Tables
+    from drumrs.config.tables import Rotation, Run, Tables
 
 
 def core_config(config: "Tables", bundle_count: int) -> dict[str, Any]:
     """Return the tree of the core's `SimulationConfig`; every field is given, for defaults live here."""
     return {
-        "drum": _drum(config.drum),
+        "drum": _drum(config.drum, chord_error(config.load)),
         "rotation": {"knots": _knots(config.rotation)},
         "load": _load(config.load, bundle_count),
         "contact": _contact(config.contact, config.load),
@@ -24,13 +27,42 @@ def core_config(config: "Tables", bundle_count: int) -> dict[str, Any]:
     }
 
 
-def _drum(drum: "Drum") -> dict[str, Any]:
+def _drum(drum: "Drum", chord_error: float) -> dict[str, Any]:
     baffles = drum.baffles.model_dump()
+    own = {"name": "baffle", **baffles, "phase": math.radians(drum.baffles.phase)}
     return {
         "radius": drum.diameter / 2.0 if drum.rim else None,
-        "baffles": {**baffles, "phase": math.radians(drum.baffles.phase)},
+        "shell": drum.shell.points if drum.shell else None,
+        "baffles": [{**one, "chord_error": chord_error} for one in (own, *_lifters(drum))],
         "walls": drum.walls,
     }
+
+
+def _lifters(drum: "Drum") -> "Iterator[dict[str, Any]]":
+    """List the sets of lifters that a liner has beside the shell."""
+    # The keys of other shapes do not count.
+    shape = {"shape": "outline", "height": 1.0, "base": 1.0, "tip": 0.0, "corner_radius": 0.0}
+    for one in drum.liner.outlines:
+        if one is not drum.shell:
+            yield {**shape, "name": one.name, "count": drum.liner.repeat, "points": one.points, "phase": 0.0}
+    rail = drum.liner.rail
+    if rail.count:
+        turned = {"count": rail.count, "phase": math.radians(rail.phase)}
+        yield {**shape, "name": "rail", "points": rail.outline(drum.diameter / 2.0), **turned}
+
+
+def chord_error(load: "Load") -> float:
+    """Return how far a chord may be from the curve it stands for [m]: 1/50 of the radius of the smallest bundle."""
+    return min(_diameters(load), default=load.diameter) / 100.0
+
+
+def _diameters(load: "Load") -> "Iterator[float]":
+    """List the least diameters that species are given [m]."""
+    for own in load.species or ():
+        if own.sizes is None:
+            yield own.diameter or load.diameter
+        else:
+            yield from (one for one in (*(own.sizes.diameters or ()), own.sizes.smallest) if one)
 
 
 def _load(load: "Load", bundle_count: int) -> dict[str, Any]:

@@ -76,14 +76,23 @@ Tilt = Annotated[
     float, _NUMBER, _FINITE, Field(gt=-90, lt=90), Limit("an angle above -90 and below 90 degrees")
 ]
 OpenFraction = Annotated[float, _NUMBER, _FINITE, Field(gt=0, lt=1), Limit("between 0 and 1")]
+FaceAngle = Annotated[
+    float, _NUMBER, Field(strict=True, gt=-90, lt=90), Limit("above -90 and below 90 degrees")
+]
 Flag = Annotated[bool, Field(strict=True), Limit("true or false")]
 
 GREATEST_SEED = 2**63 - 1
 
 BundleCount = Annotated[int, _COUNT, _within(1, GREATEST_COUNT), _whole(1, GREATEST_COUNT)]
 BaffleCount = Annotated[int, _COUNT, _within(0, GREATEST_BAFFLES), _whole(0, GREATEST_BAFFLES)]
+RepeatCount = Annotated[int, _COUNT, _within(1, GREATEST_BAFFLES), _whole(1, GREATEST_BAFFLES)]
 Seed = Annotated[int, _COUNT, _within(0, GREATEST_SEED), _whole(0, GREATEST_SEED)]
 
+PartName = Annotated[
+    str,
+    Field(strict=True, pattern=r"^[a-z]\w*$"),
+    Limit("a name that begins with a small letter, then letters, digits and _, such as 'lifter'"),
+]
 Recordings = Annotated[tuple[Literal["gross_work"], ...], Limit("a list of 'gross_work'")]
 
 _NAME = re.compile(r"[^\W\d_][\w-]*")

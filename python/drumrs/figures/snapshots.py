@@ -8,7 +8,7 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.collections import EllipseCollection, LineCollection, PolyCollection
 from matplotlib.colors import Colormap, Normalize
-from matplotlib.patches import Circle, FancyArrowPatch
+from matplotlib.patches import Circle, FancyArrowPatch, Polygon
 
 from drumrs.figures import labels
 from drumrs.figures.shared import INK, STEEL, Array, drumrs_style, new_figure
@@ -121,8 +121,8 @@ def _draw_view(axes: "Axes", view: View, norm: Normalize) -> EllipseCollection:
 
 def _reach(frames: Frames, index: int) -> float:
     """Return the half width of a picture that holds the drum, or else everything there is."""
-    if frames.drum_radius is not None:
-        return frames.drum_radius
+    if frames.reach is not None:
+        return frames.reach
     points = np.concatenate([frames.positions[index], *frames.walls])
     return float(np.abs(points).max(initial=0.0) + frames.radii.max(initial=0.0))
 
@@ -133,12 +133,13 @@ def _draw_drum(axes: "Axes", frames: Frames, index: int) -> None:
         PolyCollection([line @ turn.T for line in frames.baffles], facecolors=STEEL, edgecolors=STEEL)
     )
     axes.add_collection(LineCollection([line @ turn.T for line in frames.walls], colors=STEEL, linewidths=2))
-    if frames.drum_radius is None:
-        return
-    axes.add_patch(Circle((0.0, 0.0), frames.drum_radius, fill=False, edgecolor=STEEL, linewidth=2.0))
+    if frames.shell is not None:
+        axes.add_patch(Polygon(frames.shell @ turn.T, fill=False, edgecolor=STEEL, linewidth=2.0))
+    if frames.drum_radius is not None:
+        axes.add_patch(Circle((0.0, 0.0), frames.drum_radius, fill=False, edgecolor=STEEL, linewidth=2.0))
     sense = frames.turning(index)
-    if sense:
-        _draw_arrow(axes, 1.09 * frames.drum_radius, sense)
+    if sense and frames.reach is not None:
+        _draw_arrow(axes, 1.09 * frames.reach, sense)
 
 
 def _draw_arrow(axes: "Axes", radius: float, sense: int) -> None:

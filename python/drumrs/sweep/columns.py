@@ -142,4 +142,4 @@ def _type(kind: Any) -> Any:
         return pl.List(_type(get_args(kind)[0]))
     if get_origin(kind) is Literal:
         return pl.String
-    return {float: pl.Float64, int: pl.Int64, bool: pl.Boolean}[kind]
+    return {float: pl.Float64, int: pl.Int64, bool: pl.Boolean, str: pl.String}[kind]

@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from drumrs.config import Config, read_layer
+from drumrs.config import Config, anchored, read_layer
 from drumrs.config.messages import dotted_keys
 from drumrs.errors import ConfigError
 from drumrs.sweep.sweep import Sweep
@@ -49,9 +49,10 @@ def read_sweep(path: str | Path, seeds: "Seeds" = None) -> Sweep:
         if key not in _KEYS:
             raise ConfigError(key, content[key], problem="is not a key of a sweep file", hint=_meant(key))
     axes = _table(content, "axes")
+    folder = Path(path).parent
     return Sweep(
-        _base(content, Path(path).parent),
-        None if axes is None else dict(_flat(axes)),
+        _base(content, folder),
+        None if axes is None else dict(_flat(anchored(axes, folder))),
         content.get("seeds") if seeds is None else seeds,
     )
 
@@ -63,10 +64,10 @@ def _base(content: Mapping[str, Any], folder: Path) -> Config:
     keys = dict(_table(content, "base") or {})
     file = keys.pop("file", None)
     if file is None:
-        return Config().replace(keys)
+        return Config().replace(anchored(keys, folder))
     if not isinstance(file, str):
         raise ConfigError("base.file", file, "the path of a case file")
-    return Config.read(folder / file).replace(keys)
+    return Config.read(folder / file).replace(anchored(keys, folder))
 
 
 def _table(content: Mapping[str, Any], key: str) -> Mapping[str, Any] | None:

@@ -5,16 +5,22 @@
 // logarithmic, times, lines: [{ name, color, values }] }.
 
 export class Recording extends EventTarget {
-  // `reach` is half the width [m] of a square about the axis that holds everything; `window` is the interval of the
-  // averages [s] or null; `facts` is a line below the title; `speedScale` is the speed [m/s] at the end of the color scale;
-  // there is at least one frame; `species` is null or { names, of }, of[k] being the place of bundle k's name.
-  constructor({ title = "", facts = "", radii, drumRadius, reach, baffles = [], walls = [], window = null, speedScale = 1, panels = [], species = null, frames }) {
+  // `facts` is a line below the title; `reach` is half the width [m] of a square about the axis that holds everything;
+  // `shell` is the outline of a drum that is not round, or null; `window` is the interval of the averages [s] or null;
+  // `speedScale` is the speed [m/s] at the end of the color scale; there is at least one frame;
+  // `species` is null or { names, of }, of[k] being the place of bundle k's name.
+  constructor({ title = "", facts = "", radii, drumRadius, shell = null, reach, baffles = [], walls = [], window = null, speedScale = 1, panels = [], species = null, frames }) {
     super();
-    Object.assign(this, { title, facts, radii, drumRadius, reach, baffles, walls, window, speedScale, panels, species, frames });
+    Object.assign(this, { title, facts, radii, drumRadius, shell, reach, baffles, walls, window, speedScale, panels, species, frames });
   }
 
   get count() {
     return this.radii.length;
+  }
+
+  // Radius of the rim, or of the farthest corner of a shell [m]; null without either.
+  get outerRadius() {
+    return this.shell ? Math.max(...this.shell.map(([x, y]) => Math.hypot(x, y))) : this.drumRadius;
   }
 
   get greatestRadius() {
@@ -114,8 +120,8 @@ export function unpack(data) {
     lines: panel.lines.map((line) => ({ ...line, values: decode(line.values, Float32Array) })),
   }));
   const species = data.species && { ...data.species, of: decode(data.species.of, Uint16Array) };
-  const { title, facts, reach, baffles, walls, window, drum_radius: drumRadius, speed_scale: speedScale } = data;
-  return new Recording({ title, facts, radii, drumRadius, reach, baffles, walls, window, speedScale, panels, species, frames });
+  const { title, facts, shell, reach, baffles, walls, window, drum_radius: drumRadius, speed_scale: speedScale } = data;
+  return new Recording({ title, facts, radii, drumRadius, shell, reach, baffles, walls, window, speedScale, panels, species, frames });
 }
 
 // Typed arrays follow the machine's byte order, which is little-endian wherever a browser runs.

@@ -65,6 +65,7 @@ def pack(
         "fastest": fastest,
         "speed_scale": _speed_scale(frames.speeds),
         "drum_radius": frames.drum_radius,
+        "shell": None if frames.shell is None else frames.shell.tolist(),
         "baffles": [line.tolist() for line in frames.baffles],
         "walls": [line.tolist() for line in frames.walls],
         "window": list(window) if window is not None else None,
@@ -109,8 +110,8 @@ def _reach(frames: Frames) -> float:
     """Return the half width of a square about the axis that holds the drum and every bundle's center."""
     farthest = float(np.abs(frames.positions).max(initial=0.0))
     outlines = [float(np.abs(line).max(initial=0.0)) for line in frames.walls]
-    if frames.drum_radius is not None:
-        return max(frames.drum_radius, farthest)
+    if frames.reach is not None:
+        return max(frames.reach, farthest)
     return max([farthest + float(frames.radii.max(initial=0.0)), *outlines]) or 1.0
 
 

@@ -66,6 +66,14 @@ export class Stage {
       this.drawTicks(recording.drumRadius + 2 * pixel);
       context.fillStyle = theme.steel;
     }
+    if (recording.shell) {
+      this.trace(recording.shell);
+      context.closePath();
+      context.fillStyle = theme.inside;
+      context.fill();
+      context.stroke();
+      context.fillStyle = theme.steel;
+    }
     for (const line of recording.baffles) {
       this.trace(line);
       context.closePath();
@@ -156,8 +164,9 @@ export class Stage {
   // An arc over the top of the drum with a head: which way the drum turns.
   drawArrow({ spin }) {
     const { context, recording, theme, width, height } = this;
-    if (!recording.drumRadius || spin === 0) return;
-    const radius = ARROW * recording.drumRadius * (1 / this.pixel);
+    const outer = recording.outerRadius;
+    if (!outer || spin === 0) return;
+    const radius = ARROW * outer * (1 / this.pixel);
     const sense = Math.sign(spin);
     const point = (degrees, r) => {
       const angle = ((90 + sense * degrees) * Math.PI) / 180;

@@ -158,7 +158,7 @@ impl<L: ContactLaw> Chunk<L> {
         let step = &mut ChunkStep { motion, inputs, sums, totals, scratch };
         pairs::evaluate(pairs, &mut neighbors.pairs, step);
         surfaces[0] = walls::evaluate_rim(rim, &mut neighbors.rim, step);
-        if inputs.drum.surface_count() > 1 {
+        if inputs.drum.has_outlines() {
             surfaces[1..].fill(SurfaceLoad::default());
             outlines::evaluate(outlines, &mut neighbors.features, step, surfaces);
         }

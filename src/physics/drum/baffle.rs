@@ -1,16 +1,19 @@
-//! Baffles: equal solid shapes on the rim, spread evenly round the drum.
+//! Baffles and lifters: sets of equal solid shapes, spread evenly round the drum.
 
 use std::f64::consts::TAU;
 
 use serde::{Deserialize, Serialize};
 
 use super::polygon::signed_area;
+use super::rounding::rounded;
 use crate::physics::vector::{Rotation, Vec2};
 
-/// The baffles of a drum: `count` copies of one shape, every 2π/`count`, the first at angle `phase`.
+/// One set of baffles: `count` copies of one shape, every 2π/`count`, the first at angle `phase`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct BaffleParameters {
+    /// What the parts are called, each with its number behind it: "lifter 1", "lifter 2", …
+    pub name: String,
     /// Number of baffles; 0 leaves the drum without.
     pub count: usize,
     /// Shape of each.
@@ -19,12 +22,15 @@ pub struct BaffleParameters {
     pub height: f64,
     /// Triangle, trapezoid: straight distance [m] between the two corners on the rim.
     pub base: f64,
-    /// Trapezoid: distance [m] between the two inner corners.
+    /// Trapezoid: distance [m] between the two inner corners; with 0 it is a triangle.
     pub tip: f64,
-    /// Polygon: its corners in order, each as (distance [m] inwards from the rim along the baffle's axis,
-    /// distance [m] across, positive towards growing angle). They may reach through the rim.
+    /// Polygon, outline: its corners in order; the last may repeat the first.
     #[serde(deserialize_with = "Option::deserialize")]
     pub points: Option<Vec<[f64; 2]>>,
+    /// Radius [m] of the arcs that replace the corners inside of the rim; 0 leaves them sharp.
+    pub corner_radius: f64,
+    /// Greatest distance [m] of such an arc from the chords that stand for it.
+    pub chord_error: f64,
     /// Angle [rad] of the first baffle's axis when the drum's angle is 0, counter-clockwise from +x.
     pub phase: f64,
 }
@@ -37,23 +43,43 @@ pub enum BaffleShape {
     Triangle,
     /// Symmetric, with its base corners on the rim.
     Trapezoid,
-    /// Any simple polygon.
+    /// Any simple polygon, each corner as (distance [m] inwards from the rim along the baffle's axis, distance
+    /// [m] across, positive towards growing angle). It may reach through the rim.
     Polygon,
+    /// Any simple polygon, each corner as (x, y) [m] in the drum's frame: a part of a liner. It may reach through
+    /// the rim, and needs none.
+    Outline,
 }
 
 impl BaffleParameters {
+    /// The key of its points, in words of the user.
+    pub(super) fn points_key(&self) -> &'static str {
+        if self.shape == BaffleShape::Outline { "drum.liner" } else { "drum.baffles.points" }
+    }
+
+    /// The corners as given, without a last one that repeats the first.
+    pub(super) fn corners(&self) -> &[[f64; 2]] {
+        match self.points.as_deref().unwrap_or_default() {
+            [first, between @ .., last] if first == last && between.len() >= 2 => {
+                &self.points.as_deref().unwrap_or_default()[..=between.len()]
+            }
+            corners => corners,
+        }
+    }
+
     /// Number of corners of one baffle.
-    pub(super) fn corner_count(&self) -> usize {
+    pub(super) fn corner_count(&self, radius: Option<f64>) -> usize {
         match self.shape {
+            _ if self.count > 0 && self.corner_radius > 0.0 => self.profile(radius).len(),
             BaffleShape::Triangle => 3,
             BaffleShape::Trapezoid => 4,
-            BaffleShape::Polygon => self.points.as_ref().map_or(0, Vec::len),
+            BaffleShape::Polygon | BaffleShape::Outline => self.corners().len(),
         }
     }
 
     /// The outlines of all baffles in the body frame, each counter-clockwise, for a rim of this radius [m].
-    pub(super) fn outlines(&self, radius: f64) -> Vec<Vec<Vec2>> {
-        let profile = self.profile(radius);
+    pub(super) fn outlines(&self, radius: Option<f64>) -> Vec<Vec<Vec2>> {
+        let profile = if self.count > 0 { self.profile(radius) } else { Vec::new() };
         (0..self.count).map(|index| self.copy(&profile, index)).collect()
     }
 
@@ -64,17 +90,30 @@ impl BaffleParameters {
     }
 
     /// One baffle with its axis along +x, counter-clockwise.
-    pub(super) fn profile(&self, radius: f64) -> Vec<Vec2> {
+    pub(super) fn profile(&self, radius: Option<f64>) -> Vec<Vec2> {
+        let sharp = self.sharp_profile(radius);
+        if self.corner_radius == 0.0 {
+            return sharp;
+        }
+        rounded(&sharp, (self.corner_radius, self.chord_error), radius.unwrap_or(f64::INFINITY))
+    }
+
+    /// The same before its corners are rounded.
+    pub(super) fn sharp_profile(&self, radius: Option<f64>) -> Vec<Vec2> {
+        let radius = radius.unwrap_or(f64::INFINITY);
         let foot = half_chord(radius, 0.5 * self.base);
         let (across, inner) = (0.5 * self.base, radius - self.height);
         let corners = match self.shape {
-            BaffleShape::Triangle => vec![[foot, across], [inner, 0.0], [foot, -across]],
-            BaffleShape::Trapezoid => {
+            BaffleShape::Trapezoid if self.tip > 0.0 => {
                 vec![[foot, across], [inner, 0.5 * self.tip], [inner, -0.5 * self.tip], [foot, -across]]
             }
-            BaffleShape::Polygon => {
-                self.points.iter().flatten().map(|&[inwards, across]| [radius - inwards, across]).collect()
+            BaffleShape::Triangle | BaffleShape::Trapezoid => {
+                vec![[foot, across], [inner, 0.0], [foot, -across]]
             }
+            BaffleShape::Polygon => {
+                self.corners().iter().map(|&[inwards, across]| [radius - inwards, across]).collect()
+            }
+            BaffleShape::Outline => self.corners().to_vec(),
         };
         let mut points: Vec<Vec2> = corners.into_iter().map(Vec2::from).collect();
         if signed_area(&points) < 0.0 {

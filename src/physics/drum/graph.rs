@@ -14,7 +14,8 @@ pub(super) struct Graph {
     pub(super) segments: Vec<Segment>,
     /// For each vertex its edges: first those that end there, then those that start there.
     pub(super) incidences: Vec<Vec<Incidence>>,
-    /// Whether it is a closed polygon, counter-clockwise, felt from outside only; others are lines felt from both sides.
+    /// Whether it is a closed polygon, felt from its right only: from outside where its points run counter-clockwise, from
+    /// inside where they run clockwise. Others are lines felt from both sides.
     pub(super) is_solid: bool,
 }
 

@@ -1,9 +1,9 @@
-//! The drum in its own frame: a rim, handled analytically, and outlines (baffles, straight walls), whose edges are
-//! queried with parry2d.
+//! The drum in its own frame: a rim, handled analytically, or the shell of a drum that is not round, and outlines
+//! (baffles, straight walls), whose edges are queried with parry2d.
 //!
 //! A `Drum` never moves; `rotation` says how its frame turns. What a disc can touch is counted in features:
 //! the rim, and every edge and vertex of the outlines. Each contact belongs to one of them. Walls that meet are
-//! one outline. Lengths enter by comparison with each other only, so that a drum four times as large answers
+//! one outline. A shell is an outline whose solid lies outside of it; to users it is the rim. Lengths enter by comparison with each other only, so that a drum four times as large answers
 //! with the same bits, scaled.
 
 pub mod baffle;
@@ -12,7 +12,9 @@ mod graph;
 mod network;
 mod outline;
 mod parameters;
+mod parts;
 mod polygon;
+mod rounding;
 mod segment;
 mod validate;
 mod visibility;
@@ -23,6 +25,7 @@ use feature::{Feature, FeatureShape};
 use graph::Graph;
 use outline::Outline;
 pub use parameters::DrumParameters;
+use parts::part_names;
 use polygon::length;
 use segment::Segment;
 pub use validate::MOST_BAFFLES;
@@ -47,16 +50,23 @@ pub struct Proximity {
 #[derive(Debug, Clone)]
 pub struct Drum {
     radius: Option<f64>,
+    bounding_radius: Option<f64>,
+    /// The points of a shell, in clockwise order.
+    shell: Option<Vec<Vec2>>,
     baffle_count: usize,
     /// The points of the baffles, then of the walls, as users see them.
     shapes: Vec<Vec<Vec2>>,
-    /// Baffles, then what the walls make up.
+    /// What users call the surfaces.
+    names: Vec<String>,
+    /// The shell, the baffles, then what the walls make up.
     outlines: Vec<Outline>,
+    /// Number of those that are solid: shell and baffles.
+    solid_count: usize,
     /// All features by id.
     features: Vec<Feature>,
     /// The edges of all outlines.
     segments: Vec<Segment>,
-    /// Every baffle lies at least this far [m] from the axis.
+    /// Every solid but the rim lies at least this far [m] from the axis.
     free_radius: f64,
 }
 
@@ -64,21 +74,32 @@ impl Drum {
     /// Builds the drum; refuses what `DrumParameters::validate` refuses.
     pub fn new(parameters: &DrumParameters) -> Result<Self, Error> {
         parameters.validate()?;
-        let baffles = parameters.radius.map_or_else(Vec::new, |radius| parameters.baffles.outlines(radius));
+        let sets = &parameters.baffles;
+        let baffles: Vec<_> = sets.iter().flat_map(|set| set.outlines(parameters.radius)).collect();
         let walls = parameters.walls.iter().map(|wall| wall.iter().map(|&point| point.into()).collect());
+        let named = sets.iter().map(|set| (set.name.as_str(), set.count));
+        let parts = part_names(named.chain([("wall", parameters.walls.len())]));
         let mut drum = Self {
             radius: parameters.radius,
+            bounding_radius: parameters.bounding_radius(),
+            shell: parameters.shell_corners(),
             baffle_count: baffles.len(),
             shapes: baffles.iter().cloned().chain(walls).collect(),
+            names: std::iter::once("rim".to_owned()).chain(parts).collect(),
             outlines: Vec::new(),
+            solid_count: 0,
             features: vec![Feature { shape: FeatureShape::Rim, links: [].into(), surface: 0 }],
             segments: Vec::new(),
             free_radius: f64::INFINITY,
         };
+        if let Some(shell) = drum.shell.clone() {
+            drum.push(&Graph::solid(shell, 0));
+        }
         for (index, points) in baffles.into_iter().enumerate() {
             drum.push(&Graph::solid(points, 1 + index));
         }
-        let clearances = drum.outlines.iter().map(|baffle| baffle.signed_distance(Vec2::zeros()));
+        drum.solid_count = drum.outlines.len();
+        let clearances = drum.outlines.iter().map(|solid| solid.signed_distance(Vec2::zeros()));
         drum.free_radius = clearances.fold(f64::INFINITY, f64::min);
         parameters.joined_walls()?.iter().for_each(|walls| drum.push(walls));
         Ok(drum)
@@ -95,6 +116,16 @@ impl Drum {
     /// Radius of the rim [m].
     pub fn radius(&self) -> Option<f64> {
         self.radius
+    }
+
+    /// Radius [m] of the smallest circle round the axis that holds all free space; none where that has no end.
+    pub fn bounding_radius(&self) -> Option<f64> {
+        self.bounding_radius
+    }
+
+    /// The corners of the shell in the body frame, clockwise, where the drum has one for a rim.
+    pub fn shell(&self) -> Option<&[Vec2]> {
+        self.shell.as_deref()
     }
 
     /// The points of every baffle (a closed polygon, counter-clockwise), then of every wall, as it was drawn, in
@@ -123,7 +154,13 @@ impl Drum {
         self.features.len() as FeatureId
     }
 
-    /// Number of surfaces that forces and work are counted for: the rim, each baffle, each wall.
+    /// Whether a disc can touch anything but a round rim.
+    #[inline]
+    pub fn has_outlines(&self) -> bool {
+        !self.outlines.is_empty()
+    }
+
+    /// Number of surfaces that forces and work are counted for: the rim or shell, each baffle, each wall.
     pub fn surface_count(&self) -> usize {
         1 + self.shapes.len()
     }
@@ -135,20 +172,21 @@ impl Drum {
         self.features.get(feature as usize).map_or(0, |feature| feature.surface)
     }
 
-    /// What users call a surface: "rim", "baffle 1", "wall 2".
-    pub fn surface_name(&self, surface: usize) -> String {
-        match surface.checked_sub(1) {
-            None => "rim".to_owned(),
-            Some(index) if index < self.baffle_count => format!("baffle {}", index + 1),
-            Some(index) => format!("wall {}", index + 1 - self.baffle_count),
-        }
+    /// What users call a surface: "rim" (a shell, too), "baffle 1", "lifter 3", "wall 2".
+    pub fn surface_name(&self, surface: usize) -> &str {
+        &self.names[surface]
+    }
+
+    /// What users call the surfaces, in their order.
+    pub fn surface_names(&self) -> &[String] {
+        &self.names
     }
 
     /// Appends, in ascending order, every feature of an outline (never the rim) whose distance from `center`
     /// (body frame) is at most `reach` [m].
     pub fn features_near(&self, center: Vec2, reach: f64, found: &mut Vec<FeatureId>) {
-        let clear_of_baffles = length(center) + reach < self.free_radius;
-        let skipped = if clear_of_baffles { self.baffle_count } else { 0 };
+        let clear_of_solids = length(center) + reach < self.free_radius;
+        let skipped = if clear_of_solids { self.solid_count } else { 0 };
         for outline in &self.outlines[skipped..] {
             outline.features_near((center, reach), &self.features, found);
         }
@@ -181,8 +219,8 @@ impl Drum {
         a == b || linked(a).iter().any(|&between| between == b || linked(between).contains(&b))
     }
 
-    /// Signed distance [m] from `point` (body frame) to the nearest solid: negative outside the rim or inside
-    /// a baffle, infinite where there is no boundary at all.
+    /// Signed distance [m] from `point` (body frame) to the nearest solid: negative outside the rim or shell or
+    /// inside a baffle, infinite where there is no boundary at all.
     pub fn clearance(&self, point: Vec2) -> f64 {
         let rim = self.radius.map_or(f64::INFINITY, |radius| radius - length(point));
         self.outlines.iter().map(|outline| outline.signed_distance(point)).fold(rim, f64::min)
@@ -191,12 +229,10 @@ impl Drum {
     /// Whether the clearance of `point` is at least `distance` [m]; outlines far away cost next to nothing.
     pub fn is_clear(&self, point: Vec2, distance: f64) -> bool {
         self.radius.is_none_or(|radius| radius - length(point) >= distance)
-            && self.outlines.iter().all(|outline| {
-                outline.is_beyond(point, distance) || outline.signed_distance(point) >= distance
-            })
+            && self.outlines.iter().all(|outline| outline.is_clear(point, distance))
     }
 
-    /// The surface whose solid contains `point` (body frame): the rim outside of it, or a baffle. None in free
+    /// The surface whose solid contains `point` (body frame): the rim or shell outside of it, or a baffle. None in free
     /// space, which costs next to nothing to find out. Walls have no inside.
     #[inline]
     pub fn solid_at(&self, point: Vec2) -> Option<usize> {
@@ -207,7 +243,7 @@ impl Drum {
         if distance < self.free_radius {
             return None;
         }
-        let baffles = &self.outlines[..self.baffle_count];
-        baffles.iter().position(|baffle| baffle.contains(point)).map(|index| 1 + index)
+        let solid = self.outlines[..self.solid_count].iter().position(|solid| solid.contains(point))?;
+        Some(solid + usize::from(self.shell.is_none()))
     }
 }

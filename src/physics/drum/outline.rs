@@ -1,9 +1,10 @@
-//! One outline: a baffle, or walls that hang together. Its features and where they are.
+//! One outline: a baffle, the shell of a drum that is not round, or walls that hang together. Its features and where
+//! they are.
 
 use super::FeatureId;
 use super::feature::{Edge, Feature, FeatureShape, Spoke, Vertex};
 use super::graph::{Element, Graph, GraphEdge, Incidence};
-use super::polygon::contains;
+use super::polygon::{contains, signed_area};
 use super::segment::{Segment, SegmentRegion};
 use super::visibility::{edge_occluders, neighbors, vertex_occluders};
 use crate::physics::vector::{Vec2, bounds, cross, dot};
@@ -19,6 +20,8 @@ const MARGIN: f64 = 1.0 + 1e-9;
 #[derive(Debug, Clone)]
 pub(super) struct Outline {
     is_solid: bool,
+    /// Whether the solid is all that lies outside of it: its points run clockwise.
+    is_shell: bool,
     segments: Vec<Segment>,
     /// The id of its first feature.
     first: FeatureId,
@@ -31,7 +34,7 @@ pub(super) struct Outline {
 
 /// A rectangle.
 #[derive(Debug, Clone, Copy)]
-struct Bounds {
+pub(super) struct Bounds {
     low: Vec2,
     high: Vec2,
 }
@@ -42,6 +45,7 @@ impl Outline {
         let elements = graph.elements();
         let outline = Self {
             is_solid: graph.is_solid,
+            is_shell: graph.is_solid && signed_area(&graph.vertices) < 0.0,
             segments: graph.segments.clone(),
             first,
             bounds: Bounds::of(&graph.vertices),
@@ -60,18 +64,21 @@ impl Outline {
     pub(super) fn signed_distance(&self, point: Vec2) -> f64 {
         let squares = self.segments.iter().map(|segment| segment.distance_squared(point));
         let distance = squares.fold(f64::INFINITY, f64::min).sqrt();
-        let inside = self.is_solid && contains(&self.segments, point);
+        let inside = self.is_solid && contains(&self.segments, point) != self.is_shell;
         if inside { -distance } else { distance }
     }
 
     /// Whether `point` lies inside of a solid.
     pub(super) fn contains(&self, point: Vec2) -> bool {
-        self.is_solid && !self.bounds.is_outside(point, 0.0) && contains(&self.segments, point)
+        let is_enclosed = || !self.bounds.is_outside(point, 0.0) && contains(&self.segments, point);
+        self.is_solid && is_enclosed() != self.is_shell
     }
 
-    /// Whether the bounding box tells that every point of the outline is farther than `distance` [m].
-    pub(super) fn is_beyond(&self, point: Vec2, distance: f64) -> bool {
-        self.bounds.is_outside(point, distance * MARGIN)
+    /// Whether the signed distance of `point` is at least `distance` [m]; far from a box round the outline it costs
+    /// next to nothing.
+    pub(super) fn is_clear(&self, point: Vec2, distance: f64) -> bool {
+        let is_beyond = !self.is_shell && self.bounds.is_outside(point, distance * MARGIN);
+        is_beyond || self.signed_distance(point) >= distance
     }
 
     /// Appends every feature at most `reach` [m] away from `center`, in ascending order; `features` are all of the
@@ -115,6 +122,18 @@ impl Bounds {
         };
         let points: Vec<Vec2> = elements.iter().flat_map(ends).map(|vertex| graph.vertices[vertex]).collect();
         Self::of(&points)
+    }
+
+    /// The box round the ends of these segments.
+    pub(super) fn of_segments(segments: &[Segment]) -> Self {
+        let points: Vec<Vec2> = segments.iter().flat_map(|segment| [segment.start, segment.end]).collect();
+        Self::of(&points)
+    }
+
+    /// Whether two boxes share a point.
+    pub(super) fn overlaps(&self, other: &Self) -> bool {
+        let apart = |axis: usize| self.low[axis] > other.high[axis] || other.low[axis] > self.high[axis];
+        !apart(0) && !apart(1)
     }
 
     /// Whether `point` is more than `reach` [m] beside the box.

@@ -4,19 +4,24 @@ use serde::{Deserialize, Serialize};
 
 use super::baffle::BaffleParameters;
 use super::graph::Graph;
+use super::validate::{MOST_BAFFLES, simple_polygon, validate_spacing, validate_unit};
 use super::{network, polygon};
 use crate::error::{Error, require, require_finite, require_positive};
 use crate::physics::vector::Vec2;
 
-/// Rim, baffles and straight walls, as a user describes them.
+/// Rim or shell, baffles and straight walls, as a user describes them.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct DrumParameters {
     /// Radius of the rim [m]; none leaves the drum without a rim.
     #[serde(deserialize_with = "Option::deserialize")]
     pub radius: Option<f64>,
-    /// The baffles.
-    pub baffles: BaffleParameters,
+    /// A closed outline round the axis, as points [m] in the drum's frame: the boundary of a drum that is not round,
+    /// instead of a rim.
+    #[serde(deserialize_with = "Option::deserialize")]
+    pub shell: Option<Vec<[f64; 2]>>,
+    /// Sets of equal baffles or lifters.
+    pub baffles: Vec<BaffleParameters>,
     /// Polylines without thickness, felt from both sides, as points [m] in the drum's frame; they turn with it. A
     /// polyline that ends at its first point is closed. Where polylines share a point, end to end or in a T or X,
     /// they are one: a disc feels the joint as it feels a corner.
@@ -30,27 +35,81 @@ impl DrumParameters {
             // Users write the diameter.
             require_positive("drum.diameter", 2.0 * radius)?;
         }
-        self.baffles.validate(self.radius)?;
+        self.validate_shell()?;
+        self.baffles.iter().try_for_each(|set| set.validate(self.radius))?;
         self.validate_size()?;
-        self.walls.iter().enumerate().try_for_each(|(index, wall)| validate_wall(index + 1, wall))?;
+        validate_spacing(&self.baffles, self.radius)?;
+        for (index, wall) in self.walls.iter().enumerate() {
+            validate_wall(index + 1, wall)?;
+            if let Some(radius) = self.radius {
+                let points: Vec<Vec2> = wall.iter().map(|&point| point.into()).collect();
+                validate_unit("drum.walls", &points, radius)?;
+            }
+        }
         self.joined_walls().map(drop)
+    }
+
+    /// Radius [m] of the smallest circle round the axis that holds all free space; none where that has no end.
+    pub fn bounding_radius(&self) -> Option<f64> {
+        let corners = self.shell.iter().flatten().map(|&corner| polygon::length(corner.into()));
+        self.radius.or_else(|| corners.reduce(f64::max))
+    }
+
+    /// The corners of the shell in clockwise order: the solid lies outside, to their left.
+    pub(super) fn shell_corners(&self) -> Option<Vec<Vec2>> {
+        let mut corners: Vec<Vec2> = self.shell.as_ref()?.iter().map(|&corner| corner.into()).collect();
+        if corners.len() > 3 && corners.first() == corners.last() {
+            corners.pop();
+        }
+        if polygon::signed_area(&corners) > 0.0 {
+            corners.reverse();
+        }
+        Some(corners)
+    }
+
+    fn validate_shell(&self) -> Result<(), Error> {
+        let (Some(shell), Some(corners)) = (&self.shell, self.shell_corners()) else { return Ok(()) };
+        let key = "drum.liner";
+        for coordinate in shell.iter().flatten() {
+            require_finite(key, *coordinate)?;
+        }
+        require(
+            self.radius.is_none(),
+            "drum.rim",
+            "true",
+            "false where a closed outline is the drum itself",
+        )?;
+        let found = format!("an outline of {} corners", corners.len());
+        require(corners.len() >= 3, key, found, "an outline of at least 3 corners")?;
+        let sides = simple_polygon(key, &corners)?;
+        let axis = Vec2::zeros();
+        let surrounds = polygon::contains(&sides, axis) && !sides.iter().any(|side| side.holds(axis));
+        require(surrounds, key, "an outline beside the drum's axis", "an outline round the axis for a shell")
     }
 
     /// The walls, validated one by one, as outlines: what meets is one.
     pub(super) fn joined_walls(&self) -> Result<Vec<Graph>, Error> {
-        let baffles = if self.radius.is_some() { self.baffles.count } else { 0 };
+        let baffles: usize = self.baffles.iter().map(|set| set.count).sum();
         network::join(&self.walls, 1 + baffles)
     }
 
     /// Refuses outlines of so many corners that they would take memory and time without bound.
     fn validate_size(&self) -> Result<(), Error> {
         let (each, all) = MOST_CORNERS;
-        let corners = self.baffles.corner_count();
+        let sizes: Vec<_> =
+            self.baffles.iter().map(|set| (set.count, set.corner_count(self.radius))).collect();
+        let corners = sizes.iter().map(|&(_, corners)| corners).max().unwrap_or(0);
+        let of_baffles = sizes.iter().map(|&(count, corners)| count.saturating_mul(corners)).sum::<usize>();
+        let count: usize = sizes.iter().map(|&(count, _)| count).sum();
+        let shell = self.shell.as_ref().map_or(0, Vec::len);
         let longest = self.walls.iter().map(Vec::len).max().unwrap_or(0);
         let of_walls = self.walls.iter().map(Vec::len).sum::<usize>();
-        let total = of_walls + self.baffles.count.saturating_mul(corners);
+        let total = of_walls + of_baffles + shell;
+        let limit = format!("at most {MOST_BAFFLES}");
+        require(count <= MOST_BAFFLES, "drum.baffles.count", count, limit)?;
         for (key, found, limit, place) in [
-            ("drum.baffles.points", corners, each, ""),
+            ("drum.baffles.points", corners, each, " in one baffle"),
+            ("drum.liner", shell, each, " in its shell"),
             ("drum.walls", longest, each, " in one wall"),
             ("drum", total, all, " in baffles and walls together"),
         ] {

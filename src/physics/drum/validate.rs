@@ -1,7 +1,10 @@
-//! Which baffles are possible: their numbers, their shape inside the rim, and the space between them.
+//! Which baffles are possible: their numbers, their shape inside the rim, and the space between them and others.
 
 use super::baffle::{BaffleParameters, BaffleShape, half_chord};
+use super::outline::Bounds;
+use super::parts::part_names;
 use super::polygon::{contains, empty_segment, first_crossing, length, segments};
+use super::rounding::greatest_radius;
 use super::segment::Segment;
 use crate::error::{Error, require, require_finite, require_non_negative, require_positive};
 use crate::physics::vector::Vec2;
@@ -10,13 +13,10 @@ use crate::physics::vector::Vec2;
 pub const MOST_BAFFLES: usize = 1000;
 
 impl BaffleParameters {
-    /// Checks the numbers, and that the shapes stand free of the axis and of each other inside a rim of this
-    /// radius [m], itself validated.
+    /// Checks the numbers, and that the shape stands free of the axis inside a rim of this radius [m], itself
+    /// validated, or in a drum without one.
     pub(super) fn validate(&self, radius: Option<f64>) -> Result<(), Error> {
         self.validate_numbers()?;
-        let Some(radius) = radius else {
-            return require(self.count == 0, "drum.baffles.count", self.count, "0 where the drum has no rim");
-        };
         if self.count == 0 {
             return Ok(());
         }
@@ -26,21 +26,29 @@ impl BaffleParameters {
             self.count,
             format!("at most {MOST_BAFFLES}"),
         )?;
-        match self.shape {
-            BaffleShape::Triangle => self.validate_base(radius)?,
-            BaffleShape::Trapezoid => self.validate_base(radius).and_then(|()| self.validate_tip(radius))?,
-            BaffleShape::Polygon => self.validate_points(radius)?,
+        match (self.shape, radius) {
+            (BaffleShape::Outline, _) => self.validate_points(radius)?,
+            (_, None) => {
+                return Err(Error::config("drum.baffles.count", self.count, "0 where the drum has no rim"));
+            }
+            (BaffleShape::Triangle, Some(radius)) => self.validate_base(radius)?,
+            (BaffleShape::Trapezoid, Some(radius)) => {
+                self.validate_base(radius).and_then(|()| self.validate_tip(radius))?;
+            }
+            (BaffleShape::Polygon, Some(_)) => self.validate_points(radius)?,
         }
-        self.validate_spacing(radius)
+        self.validate_rounding(radius)
     }
 
     fn validate_numbers(&self) -> Result<(), Error> {
         require_positive("drum.baffles.height", self.height)?;
         require_positive("drum.baffles.base", self.base)?;
         require_non_negative("drum.baffles.tip", self.tip)?;
+        require_non_negative("drum.baffles.corner_radius", self.corner_radius)?;
+        require_positive("drum.baffles.chord_error", self.chord_error)?;
         require_finite("drum.baffles.phase", self.phase)?;
         for coordinate in self.points.iter().flatten().flatten() {
-            require_finite("drum.baffles.points", *coordinate)?;
+            require_finite(self.points_key(), *coordinate)?;
         }
         Ok(())
     }
@@ -57,54 +65,117 @@ impl BaffleParameters {
     }
 
     fn validate_tip(&self, radius: f64) -> Result<(), Error> {
-        require_positive("drum.baffles.tip", self.tip)?;
         let widest = 2.0 * half_chord(radius, radius - self.height);
         let limit = format!("smaller than {widest}, the width of the drum at that height");
         require(self.tip < widest, "drum.baffles.tip", self.tip, limit)
     }
 
-    fn validate_points(&self, radius: f64) -> Result<(), Error> {
-        let Some(points) = &self.points else {
-            return Err(Error::config("drum.baffles.points", "missing", "given for the shape 'polygon'"));
-        };
+    fn validate_points(&self, radius: Option<f64>) -> Result<(), Error> {
+        let key = self.points_key();
+        if self.points.is_none() {
+            return Err(Error::config(key, "missing", "given for the shape 'polygon'"));
+        }
+        let points = self.corners();
         let found = format!("a list of length {}", points.len());
-        require(points.len() >= 3, "drum.baffles.points", found, "a list of at least 3 points")?;
+        require(points.len() >= 3, key, found, "a list of at least 3 points")?;
         // In the user's order, which `profile` may reverse: the messages count segments.
-        let corners: Vec<Vec2> =
-            points.iter().map(|&[inwards, across]| [radius - inwards, across].into()).collect();
-        let segments = segments(&corners, true);
-        if let Some(index) = empty_segment(&segments) {
-            let found = format!("a polygon whose side {} has no length", index + 1);
-            return Err(Error::config("drum.baffles.points", found, "a polygon of distinct corners"));
+        let corner = |&[x, y]: &[f64; 2]| match (self.shape, radius) {
+            (BaffleShape::Polygon, Some(radius)) => Vec2::new(radius - x, y),
+            _ => Vec2::new(x, y),
+        };
+        let corners: Vec<Vec2> = points.iter().map(corner).collect();
+        if let Some(radius) = radius {
+            validate_unit(key, &corners, radius)?;
         }
-        if let Some((a, b)) = first_crossing(&segments) {
-            let found = format!("a polygon whose sides {} and {} cross or touch", a + 1, b + 1);
-            return Err(Error::config("drum.baffles.points", found, "a polygon that never meets itself"));
-        }
-        validate_position(&segments, radius)
+        let segments = simple_polygon(key, &corners)?;
+        let (axis, covered) = (Vec2::zeros(), "a polygon that covers the drum's axis");
+        let covers = contains(&segments, axis) || segments.iter().any(|segment| segment.holds(axis));
+        require(!covers, key, covered, "a polygon beside the axis")?;
+        let reaches =
+            segments.iter().any(|side| length(side.project(axis).point) < radius.unwrap_or(f64::INFINITY));
+        require(reaches, key, "a polygon outside the rim", "a polygon that reaches into the drum")
     }
 
-    /// Refuses baffles that touch or overlap. It is enough to compare neighbors: by Hopf's theorem on the
-    /// chords of plane continua, a shape that is clear of its copy one step on is clear of every other copy.
-    /// And congruent shapes cannot contain one another, so comparing their edges is enough too.
-    fn validate_spacing(&self, radius: f64) -> Result<(), Error> {
-        if self.count < 2 {
+    fn validate_rounding(&self, radius: Option<f64>) -> Result<(), Error> {
+        if self.corner_radius == 0.0 {
             return Ok(());
         }
-        let profile = self.profile(radius);
-        let [first, second] = [0, 1].map(|index| segments(&self.copy(&profile, index), true));
-        let are_clear = !first.iter().any(|segment| second.iter().any(|other| segment.meets(other)));
-        let limit = "so small that neighboring baffles of this size neither touch nor overlap";
-        require(are_clear, "drum.baffles.count", self.count, limit)
+        let most = greatest_radius(&self.sharp_profile(radius), radius.unwrap_or(f64::INFINITY));
+        let limit =
+            format!("smaller than {most}, so that rounded corners leave a part of every side straight");
+        require(self.corner_radius < most, "drum.baffles.corner_radius", self.corner_radius, limit)
     }
 }
 
-/// Refuses a polygon on the axis or wholly outside the rim.
-fn validate_position(segments: &[Segment], radius: f64) -> Result<(), Error> {
-    let (key, axis) = ("drum.baffles.points", Vec2::zeros());
-    let covers = contains(segments, axis) || segments.iter().any(|segment| segment.holds(axis));
-    require(!covers, key, "a polygon that covers the drum's axis", "a polygon beside the axis")?;
-    let is_inside = |segment: &Segment| length(segment.project(axis).point) < radius;
-    let reaches = segments.iter().any(is_inside);
-    require(reaches, key, "a polygon outside the rim", "a polygon that reaches into the drum")
+/// Refuses baffles that touch or overlap each other, of whatever set; `sets` are validated one by one.
+///
+/// Of one set it is enough to compare two neighbors: by Hopf's theorem on the chords of plane continua, a shape that is
+/// clear of its copy one step on is clear of every other copy. Congruent shapes cannot contain one another, so
+/// comparing their edges is enough; those of two sets can.
+pub(super) fn validate_spacing(sets: &[BaffleParameters], radius: Option<f64>) -> Result<(), Error> {
+    let names = part_names(sets.iter().map(|set| (set.name.as_str(), set.count)));
+    let mut earlier: Vec<(String, Vec<Segment>, Bounds)> = Vec::new();
+    let mut names = names.into_iter();
+    for set in sets {
+        let profile = set.profile(radius);
+        let copies: Vec<Vec<Segment>> =
+            (0..set.count).map(|index| segments(&set.copy(&profile, index), true)).collect();
+        if let [first, second, ..] = copies.as_slice() {
+            let limit = "so small that neighboring baffles of this size neither touch nor overlap";
+            let key = if set.shape == BaffleShape::Outline { "drum.liner" } else { "drum.baffles.count" };
+            require(are_apart(first, second), key, set.count, limit)?;
+        }
+        let known = earlier.len();
+        for (copy, name) in copies.into_iter().zip(names.by_ref()) {
+            let bounds = Bounds::of_segments(&copy);
+            let meets = |(_, other, around): &&(String, Vec<Segment>, Bounds)| {
+                bounds.overlaps(around)
+                    && (!are_apart(&copy, other)
+                        || contains(other, copy[0].start)
+                        || contains(&copy, other[0].start))
+            };
+            if let Some((other, ..)) = earlier[..known].iter().find(meets) {
+                let found = format!("a drum in which {other} and {name} touch or overlap");
+                return Err(Error::config(
+                    "drum.baffles",
+                    found,
+                    "a drum of baffles and lifters that are apart",
+                ));
+            }
+            earlier.push((name, copy, bounds));
+        }
+    }
+    Ok(())
+}
+
+fn are_apart(one: &[Segment], other: &[Segment]) -> bool {
+    !one.iter().any(|segment| other.iter().any(|side| segment.meets(side)))
+}
+
+/// The sides of a closed polygon; refuses one that is not simple.
+pub(super) fn simple_polygon(key: &str, corners: &[Vec2]) -> Result<Vec<Segment>, Error> {
+    let segments = segments(corners, true);
+    if let Some(index) = empty_segment(&segments) {
+        let found = format!("a polygon whose side {} has no length", index + 1);
+        return Err(Error::config(key, found, "a polygon of distinct corners"));
+    }
+    if let Some((a, b)) = first_crossing(&segments) {
+        let found = format!("a polygon whose sides {} and {} cross or touch", a + 1, b + 1);
+        return Err(Error::config(key, found, "a polygon that never meets itself"));
+    }
+    Ok(segments)
+}
+
+/// Points farther from the axis than this many radii of the rim are in another unit than meters.
+const FARTHEST: f64 = 20.0;
+
+/// Refuses points so far outside of a rim of this radius [m] that they must be in another unit.
+pub(super) fn validate_unit(key: &str, points: &[Vec2], radius: f64) -> Result<(), Error> {
+    let farthest = points.iter().copied().map(length).fold(0.0, f64::max);
+    if farthest <= FARTHEST * radius {
+        return Ok(());
+    }
+    let found = format!("of points as far as {farthest:.4} m from the axis of a drum of radius {radius} m");
+    let limit = format!("of points within {FARTHEST} radii");
+    Err(Error::config(key, found, limit).with_hint("lengths are in meters: are these millimeters?"))
 }

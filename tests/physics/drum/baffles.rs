@@ -17,7 +17,7 @@ fn polygon(points: &[[f64; 2]]) -> BaffleParameters {
 }
 
 fn in_rim(baffles: &BaffleParameters) -> DrumParameters {
-    DrumParameters { baffles: baffles.clone(), ..triangles() }
+    drum_with(baffles.clone())
 }
 
 fn outlines(baffles: &BaffleParameters) -> Vec<Vec<Vec2>> {
@@ -117,9 +117,8 @@ fn sizes_that_do_not_fit_the_rim_are_refused() {
 
 #[test]
 fn unusable_numbers_are_refused() {
-    let (triangle, trapezoid) = (baffles(BaffleShape::Triangle), baffles(BaffleShape::Trapezoid));
+    let triangle = baffles(BaffleShape::Triangle);
     refuses(&[
-        (BaffleParameters { tip: 0.0, ..trapezoid }, "tip is 0, but must be a positive finite number"),
         (
             BaffleParameters { tip: -1.0, ..triangle.clone() },
             "tip is -1, but must be a finite number of at least 0",
@@ -172,4 +171,110 @@ fn unusable_polygons_are_refused() {
         ),
     ]);
     assert!(in_rim(&polygon(&hooked)).validate().is_ok());
+}
+
+#[test]
+fn a_trapezoid_without_a_tip_is_a_triangle() {
+    let pointed = BaffleParameters { tip: 0.0, ..baffles(BaffleShape::Trapezoid) };
+    assert_eq!(outlines(&pointed), outlines(&baffles(BaffleShape::Triangle)));
+}
+
+#[test]
+fn a_last_point_may_repeat_the_first() {
+    let points = [[0.0, 0.02], [0.05, 0.01], [0.04, -0.02]];
+    let closed = [points[0], points[1], points[2], points[0]];
+    assert_eq!(outlines(&polygon(&closed)), outlines(&polygon(&points)));
+    assert!(in_rim(&polygon(&closed)).validate().is_ok());
+    let wedge = [[0.0, 0.02], [0.05, 0.01], [0.0, 0.02]];
+    let message = in_rim(&polygon(&wedge)).validate().unwrap_err().to_string();
+    assert!(message.starts_with("drum.baffles.points is a polygon whose side"), "{message}");
+}
+
+#[test]
+fn rounded_corners_lie_inside_of_the_sharp_ones_and_the_base_stays_on_the_rim() {
+    let sharp = baffles(BaffleShape::Trapezoid);
+    let round = BaffleParameters { corner_radius: 0.005, chord_error: 1e-5, ..sharp.clone() };
+    let (sharp, round) = (outlines(&sharp), outlines(&round));
+    assert!(round[0].len() > 8 && round[0].first() == sharp[0].first() && round[0].last() == sharp[0].last());
+    // The arcs stay as high as the baffle, and cut its corners.
+    let innermost = round[0].iter().map(|point| point.x).fold(1.0, f64::min);
+    assert!((innermost - 0.1875).abs() < 1e-15);
+    assert!(0.97 * doubled_area(&sharp[0]) < doubled_area(&round[0]));
+    assert!(doubled_area(&round[0]) < doubled_area(&sharp[0]));
+}
+
+#[test]
+fn corners_too_round_for_their_sides_are_refused() {
+    let most = |shape, corner_radius| {
+        let round = BaffleParameters { corner_radius, ..baffles(shape) };
+        in_rim(&round).validate().map_err(|error| error.to_string())
+    };
+    let message = most(BaffleShape::Triangle, 0.05).unwrap_err();
+    let (start, end) = ("drum.baffles.corner_radius is 0.05, but must be smaller than 0.0", "straight");
+    assert!(message.starts_with(start) && message.ends_with(end), "{message}");
+    assert!(most(BaffleShape::Triangle, 0.01).is_ok());
+    assert!(most(BaffleShape::Trapezoid, f64::NAN).is_err());
+}
+
+/// Two sets of lifters in turn: rails of the drum's frame, one set higher than the other.
+fn high_and_low(phase: f64) -> DrumParameters {
+    let rail = |name: &str, inner: f64, phase: f64| BaffleParameters {
+        name: name.into(),
+        count: 4,
+        phase,
+        points: Some(vec![[inner, -0.01], [0.24, -0.02], [0.24, 0.02], [inner, 0.01]]),
+        ..baffles(BaffleShape::Outline)
+    };
+    DrumParameters {
+        baffles: vec![rail("high", 0.17, 0.0), rail("low", 0.2, phase), baffles(BaffleShape::Triangle)],
+        ..triangles()
+    }
+}
+
+#[test]
+fn several_sets_stand_in_one_drum() {
+    let mut parameters = high_and_low(TAU / 8.0);
+    (parameters.baffles[2].count, parameters.baffles[2].phase) = (1, TAU / 16.0);
+    let drum = drum(&parameters);
+    let names =
+        ["rim", "high 1", "high 2", "high 3", "high 4", "low 1", "low 2", "low 3", "low 4", "baffle 1"];
+    assert_eq!(drum.surface_names(), names);
+    let first = drum.outlines().next().unwrap();
+    assert_eq!(first[0], Vec2::new(0.17, -0.01));
+    assert_eq!(drum.solid_at(Vec2::new(0.0, 0.2)), Some(2));
+    assert_eq!(drum.solid_at(Vec2::new(0.18, 0.0)), Some(1));
+}
+
+#[test]
+fn sets_that_meet_are_refused_by_the_names_of_the_two() {
+    let found = |parameters: &DrumParameters| parameters.validate().unwrap_err().to_string();
+    let limit = "touch or overlap, but must be a drum of baffles and lifters that are apart";
+    assert_eq!(
+        found(&high_and_low(0.1)),
+        format!("drum.baffles is a drum in which high 1 and low 1 {limit}")
+    );
+    let crossing = high_and_low(TAU / 8.0);
+    assert_eq!(found(&crossing), format!("drum.baffles is a drum in which high 1 and baffle 1 {limit}"));
+    // One within the other, without a common point of their sides.
+    let mut nested = high_and_low(0.0);
+    nested.baffles[1].points = Some(vec![[0.21, -0.005], [0.22, -0.005], [0.22, 0.005]]);
+    assert_eq!(found(&nested), format!("drum.baffles is a drum in which high 1 and low 1 {limit}"));
+}
+
+#[test]
+fn lengths_in_millimeters_are_told() {
+    let hint = "lengths are in meters: are these millimeters?";
+    let mut parameters = in_rim(&polygon(&[[0.0, 20.0], [50.0, 10.0], [40.0, -20.0]]));
+    let message = parameters.validate().unwrap_err().to_string();
+    let found = "of points as far as 50.7573 m from the axis of a drum of radius 0.2375 m";
+    assert_eq!(
+        message,
+        format!("drum.baffles.points is {found}, but must be of points within 20 radii; {hint}")
+    );
+    parameters = DrumParameters { walls: vec![vec![[0.0, -50.0], [100.0, -50.0]]], ..triangles() };
+    let message = parameters.validate().unwrap_err().to_string();
+    assert!(
+        message.starts_with("drum.walls is of points as far as 111.8") && message.ends_with(hint),
+        "{message}"
+    );
 }

@@ -1,24 +1,26 @@
-//! Drums at rest: culls, scaling, clearance, errors; baffles, proximities and joints of walls in files of their own.
+//! Drums at rest: culls, scaling, clearance, errors; baffles, shells, proximities and joints of walls in files of their
+//! own.
 
 mod baffles;
 mod joints;
 mod proximity;
+mod shells;
 
 use drumrs::physics::drum::baffle::{BaffleParameters, BaffleShape};
 use drumrs::physics::drum::{Drum, DrumParameters, FeatureId, Proximity, RIM};
 use drumrs::physics::vector::{Vec2, cross, dot};
 
-use crate::common::{DRUM_RADIUS, baffles};
+use crate::common::{baffles, drum_with};
 
 /// The default drum: three triangles, 0.05 m high on a base of 0.06 m, in a rim of 0.475 m diameter.
 fn triangles() -> DrumParameters {
-    DrumParameters { radius: Some(DRUM_RADIUS), baffles: baffles(3), walls: vec![] }
+    drum_with(baffles(3))
 }
 
 fn trapezoids() -> DrumParameters {
     let mut parameters = triangles();
-    parameters.baffles =
-        BaffleParameters { shape: BaffleShape::Trapezoid, count: 4, phase: 0.3, ..parameters.baffles };
+    let [baffles] = &mut parameters.baffles[..] else { unreachable!() };
+    (baffles.shape, baffles.count, baffles.phase) = (BaffleShape::Trapezoid, 4, 0.3);
     parameters
 }
 
@@ -26,8 +28,8 @@ fn trapezoids() -> DrumParameters {
 fn hooks() -> DrumParameters {
     let mut parameters = triangles();
     let hook = [[-0.01, 0.02], [0.06, 0.01], [0.07, -0.03], [0.05, -0.03], [0.05, 0.0], [-0.01, -0.01]];
-    parameters.baffles.shape = BaffleShape::Polygon;
-    parameters.baffles.points = Some(hook.to_vec());
+    parameters.baffles[0].shape = BaffleShape::Polygon;
+    parameters.baffles[0].points = Some(hook.to_vec());
     parameters
 }
 
@@ -39,7 +41,7 @@ fn walls() -> DrumParameters {
     parameters.walls.push(vec![[-0.2, -0.2], [0.2, -0.2]]);
     let spiral = [[-0.2, 0.0], [-0.05, 0.0], [-0.05, -0.12], [-0.15, -0.12], [-0.15, -0.05], [-0.1, -0.05]];
     parameters.walls.push(spiral.to_vec());
-    parameters.baffles.count = 0;
+    parameters.baffles[0].count = 0;
     parameters
 }
 
@@ -134,7 +136,7 @@ fn a_drum_four_times_as_large_gives_the_same_bits() {
     for parameters in all().into_iter().chain([joints::drawing()]) {
         let mut large = parameters.clone();
         large.radius = large.radius.map(|radius| 4.0 * radius);
-        let baffles = &mut large.baffles;
+        let baffles = &mut large.baffles[0];
         for length in [&mut baffles.height, &mut baffles.base, &mut baffles.tip] {
             *length *= 4.0;
         }
@@ -191,7 +193,7 @@ fn solids_contain_what_has_negative_clearance() {
 fn surfaces_have_names() {
     let wall = vec![[0.0, 0.0], [0.01, 0.0]];
     let drum = drum(&DrumParameters { walls: vec![wall.clone(), wall], ..triangles() });
-    let names: Vec<String> = (0..drum.surface_count()).map(|surface| drum.surface_name(surface)).collect();
+    let names = drum.surface_names();
     assert_eq!(names, ["rim", "baffle 1", "baffle 2", "baffle 3", "wall 1", "wall 2"]);
 }
 

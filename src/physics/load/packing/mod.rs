@@ -57,7 +57,8 @@ pub fn pack(drum: &Drum, count: usize, radius: f64, seed: u64) -> Result<Vec<Vec
 
 /// The radius of the drum's rim [m], without which there is no end to where a bed may be.
 fn bound_of(drum: &Drum) -> Result<f64, Error> {
-    drum.radius().ok_or_else(|| Error::config("drum.diameter", "none", "given when no initial state is"))
+    drum.bounding_radius()
+        .ok_or_else(|| Error::config("drum.diameter", "none", "given when no initial state is"))
 }
 
 /// The space inside a drum and the size of the discs that go into it; all tests of a position happen here.
