@@ -74,10 +74,8 @@ def _means(config: "Config", rows: "pl.DataFrame") -> dict[str, float | None]:
         return {}
     mass = _mass(config, rows)
     window = (float(rows["time"][0]), float(rows["time"][-1]))
-    drum = config.drum
-    columns = recorded(drum.baffles.count, len(drum.walls), config.run.record)
-    surfaces = (drum.baffles.count, len(drum.walls))
-    summary = summary_of(rows.select(column.name for column in columns), surfaces, config.run.record, mass)
+    columns = recorded(["rim"], config.run.record)
+    summary = summary_of(rows.select(column.name for column in columns), config.run.record, mass)
     work = float(rows["drum_work"][-1] - rows["drum_work"][0])
     told = {name: value for name, value in summary.items() if name not in _NOT_SHOWN}
     energy = {"phase_work": work, "phase_specific_work": work / mass}
