@@ -117,9 +117,6 @@ def test_the_kept_study_has_the_names_of_today():
         *parameters(CONFIG),
         "dissipated_tangential_power",
         "dissipated_rolling_power",
-        # Not recorded when it was made.
-        "gross_work_ratio",
-        "gross_work_ratio_error",
     }
 
 
