@@ -44,6 +44,13 @@ fn config(stored: &Value) -> SimulationConfig {
     contact.insert("pairs".into(), Value::Array(Vec::new()));
     contact.insert("walls".into(), Value::Array(Vec::new()));
     config["load"]["species"] = Value::Array(Vec::new());
+    let drum = config["drum"].as_object_mut().expect("a table");
+    drum.insert("shell".into(), Value::Null);
+    let baffles = drum.get_mut("baffles").expect("baffles");
+    baffles["name"] = "baffle".into();
+    baffles["corner_radius"] = 0.0.into();
+    baffles["chord_error"] = 1e-4.into();
+    *baffles = Value::Array(vec![baffles.take()]);
     config["load"]["share_by"] = "mass".into();
     let mut config = SimulationConfig::from_json(&config.to_string()).expect("a valid configuration");
     let time = number(&stored["time"]);
