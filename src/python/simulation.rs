@@ -406,6 +406,7 @@ impl Simulation {
 
     /// The columns of the series: name, symbol, unit, reading, formula, meaning.
     #[staticmethod]
+    #[allow(clippy::needless_pass_by_value)] // Arguments from Python arrive by value.
     fn columns(parts: Vec<String>, record_gross_work: bool) -> Vec<[String; 6]> {
         let record = record_gross_work.then_some(Recording::GrossWork);
         let told = columns(&parts, record.as_slice()).into_iter();

@@ -27,7 +27,7 @@ impl BaffleParameters {
             format!("at most {MOST_BAFFLES}"),
         )?;
         match (self.shape, radius) {
-            (BaffleShape::Outline, _) => self.validate_points(radius)?,
+            (BaffleShape::Outline, _) | (BaffleShape::Polygon, Some(_)) => self.validate_points(radius)?,
             (_, None) => {
                 return Err(Error::config("drum.baffles.count", self.count, "0 where the drum has no rim"));
             }
@@ -35,7 +35,6 @@ impl BaffleParameters {
             (BaffleShape::Trapezoid, Some(radius)) => {
                 self.validate_base(radius).and_then(|()| self.validate_tip(radius))?;
             }
-            (BaffleShape::Polygon, Some(_)) => self.validate_points(radius)?,
         }
         self.validate_rounding(radius)
     }
