@@ -173,7 +173,7 @@ def _find(name: str) -> Quantity | None:
 
 def _of_surface(name: str) -> Quantity | None:
     """Return a column of a part of the drum: of a baffle or wall beyond the first, or one that a liner names."""
-    found = re.fullmatch(r"([a-z]\w*)_(\d+)_(work|torque|force_x|force_y)", name)
+    found = re.fullmatch(r"([a-z]\w*)_([1-9]\d*)_(work|torque|force_x|force_y)", name)
     if found is None:
         return None
     columns = recorded([f"{found[1]} {found[2]}"])

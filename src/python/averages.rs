@@ -55,17 +55,18 @@ pub fn mean_sampled(samples: Column<'_>, interval: f64) -> PyResult<MeanTuple> {
     Ok(mean_tuple(averages::mean_sampled(samples.as_slice()?, interval)))
 }
 
-/// The summary of the samples of a part of a run: rows of the series, of the drum's parts the rim's columns alone, and
-/// the mass of the load [kg/m].
+/// The summary of the samples of a part of a run: rows of the series of a drum with these parts, and the mass of the load
+/// [kg/m].
 #[pyfunction]
 pub fn summary<'py>(
     py: Python<'py>,
+    parts: Vec<String>,
     record_gross_work: bool,
     rows: PyReadonlyArray2<'py, f64>,
     mass: f64,
 ) -> PyResult<Bound<'py, PyDict>> {
     let record = record_gross_work.then_some(Recording::GrossWork);
-    let mut series = Series::new(columns(&["rim".to_owned()], record.as_slice()));
+    let mut series = Series::new(columns(&parts, record.as_slice()));
     let values = rows.as_slice()?;
     let is_whole = rows.as_array().ncols() == series.width();
     let times: Vec<f64> = values.iter().step_by(series.width()).copied().collect();

@@ -23,8 +23,8 @@ from drumrs.viewer.curves import panels_of_series
 DOCS = Path(__file__).parents[2] / "docs"
 CONFIG = drumrs.baseline(0.1, baffles=True).replace(
     {
-        "run.duration": 0.06,
-        "run.window": [0.02, 0.06],
+        "run.duration": 0.2,
+        "run.window": [0.05, 0.2],
         "run.sample_every": 0.002,
         "run.frame_every": 0.02,
         "run.record": registry.RECORDINGS,

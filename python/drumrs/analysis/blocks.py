@@ -167,20 +167,24 @@ def ratio_with_error(
     return _mean(*found) if found is not None else None
 
 
-def summary_of(rows: "pl.DataFrame", record: Sequence[str], mass: float) -> dict[str, float | None]:
+def summary_of(
+    rows: "pl.DataFrame", parts: Sequence[str], record: Sequence[str], mass: float
+) -> dict[str, float | None]:
     """Return the numbers of a `Summary` that a part of a series tells, from its first row to its last.
 
     Parameters
     ----------
     rows
-        Two rows at least, with the columns that are recorded, in their order; of the drum's parts the rim's alone.
+        Two rows at least, with the columns that are recorded, in their order.
+    parts
+        The drum's parts, as columns name them.
     record
         What is recorded on request.
     mass
         Mass of the load per meter of depth [kg/m].
     """
     values = np.ascontiguousarray(rows.to_numpy(), dtype=np.float64)
-    return _core.summary("gross_work" in record, values, mass)
+    return _core.summary(list(parts), "gross_work" in record, values, mass)
 
 
 def ratio_of_sums(numerators: Array, denominators: Array) -> Mean | None:

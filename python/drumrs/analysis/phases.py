@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 _NOT_SHOWN = ("window_start", "window_end", "energy_residual")
 # Samples below which there is no mean.
 _FEWEST = 2
+# How the name of a column of one part of the drum ends that every part has.
+_OF_PART = "_force_x"
 
 
 def phases(result: "Result") -> "pl.DataFrame":
@@ -74,8 +76,9 @@ def _means(config: "Config", rows: "pl.DataFrame") -> dict[str, float | None]:
         return {}
     mass = _mass(config, rows)
     window = (float(rows["time"][0]), float(rows["time"][-1]))
-    columns = recorded(["rim"], config.run.record)
-    summary = summary_of(rows.select(column.name for column in columns), config.run.record, mass)
+    parts = [name.removesuffix(_OF_PART) for name in rows.columns if name.endswith(_OF_PART)]
+    columns = [column.name for column in recorded(parts, config.run.record)]
+    summary = summary_of(rows.select(columns), parts, config.run.record, mass)
     work = float(rows["drum_work"][-1] - rows["drum_work"][0])
     told = {name: value for name, value in summary.items() if name not in _NOT_SHOWN}
     energy = {"phase_work": work, "phase_specific_work": work / mass}

@@ -109,7 +109,7 @@ class Outline(ConfigTable):
         """Whether the axis lies inside: then the outline is the drum itself, a shell."""
         sides = pairwise((*self.points, self.points[0]))
         crossed = [
-            (x0 * y1 - x1 * y0) * (y1 - y0) > 0.0 for (x0, y0), (x1, y1) in sides if (y0 > 0.0) != (y1 > 0.0)
+            (x0 * y1 > x1 * y0) == (y1 > y0) for (x0, y0), (x1, y1) in sides if (y0 > 0.0) != (y1 > 0.0)
         ]
         return sum(crossed) % 2 == 1
 

@@ -90,7 +90,6 @@ BAFFLES = [
     (["shape=polygon"], "drum.baffles.points"),
     (["shape=polygon", "points=[[0, -0.03], [0.05, 0.03], [0.05, -0.03], [0, 0.03]]"], "drum.baffles.points"),
     (["shape=polygon", "points=[[0, -0.03], [0, -0.03], [0.05, 0], [0, 0.03]]"], "drum.baffles.points"),
-    (["shape=trapezoid", "tip=0"], "drum.baffles.tip"),
     (["shape=trapezoid", "tip=-0.01"], "drum.baffles.tip"),
 ]
 

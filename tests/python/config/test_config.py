@@ -224,7 +224,8 @@ def test_documented_toml_names_every_key():
 
 def test_constructor_by_hand_raises_one_sentence():
     with pytest.raises(
-        ConfigError, match=r"^load\.fill is missing, but must be given, or load\.count instead"
+        ConfigError,
+        match=r"^load\.fill is missing, but must be given, or load\.count or load\.bulk_fill or load\.mass instead",
     ):
         Config(load={"diameter": 0.02})
     with pytest.raises(

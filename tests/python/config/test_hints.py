@@ -43,8 +43,9 @@ HINTS = {
         "load.diameter is 2.375e-05 m, below 0.0001: is it in m?",
     ),
     "walls": (
-        {"drum.walls": [[[0.0, 0.1], [0.1, 0.1]], [[-100.0, 50.0], [-100.0, 120.0]]]},
-        "drum.walls[1] is 120 m from the axis, above 0.475: write 0.12 where millimeters were meant",
+        {"drum.walls": [[[0.0, 0.1], [0.1, 0.1]], [[-1.0, 0.5], [-1.0, 1.2]]]},
+        "drum.walls[1] is 1.2 m from the axis, above 0.475: write 0.012 where centimeters were meant or 0.0012 where "
+        "millimeters were meant",
     ),
     "density": (
         {"load.density": 1.2},

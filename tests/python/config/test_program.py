@@ -59,10 +59,12 @@ def test_phases_and_their_knots_are_one_simulation():
     phases = [
         {"duration": 0.02, "rpm": 54.0},
         {"duration": 0.01, "ramp": [54.0, 0.0]},
-        {"duration": 9.0, "rpm": -54.0},
+        {"duration": 0.02, "rpm": -54.0},
     ]
     by_phase = config.replace({"rotation.phase": phases})
-    by_knots = config.replace({"rotation.program": [[0.0, 54.0], [0.02, 54.0], [0.03, 0.0], [0.03, -54.0]]})
+    by_knots = config.replace(
+        {"rotation.program": [[0.0, 54.0], [0.02, 54.0], [0.03, 0.0], [0.03, -54.0], [0.05, -54.0]]}
+    )
     ends = []
     for each in (by_phase, by_knots):
         simulation = drumrs.Simulation(each)
@@ -86,7 +88,8 @@ def test_thousands_of_repeats_cost_no_time():
         began = time.process_time()
         simulation.run(steps=20_000)
         took.append(time.process_time() - began)
-    assert took[1] < 3.0 * took[0]
+    # A search knot by knot would cost a hundred times as much.
+    assert took[1] < 10.0 * took[0]
 
 
 BAD = {

@@ -64,7 +64,9 @@ def test_the_examples_of_the_documentation_are_valid(page, text):
     assert page.endswith(".md")
     case = tomllib.loads(text)
     VALIDATOR.validate(case)
-    drumrs.baseline().replace(case)
+    # Drawings are not there.
+    if "file" not in case.get("drum", {}).get("liner", {}):
+        drumrs.baseline().replace(case)
 
 
 def test_there_are_examples():
@@ -85,7 +87,7 @@ def test_there_are_examples():
         {"drum": {"walls": [[[0, 0]]]}},
         {"gravity": [0, 0, -9.81]},
         {"run": {"time_step": "aut"}},
-        {"contact": {"pairs": [{"friction": 0.1}]}},
+        {"contact": {"pair": [{"friction": 0.1}]}},
         {"contact": {"drum": {"restitution": 0.1, "normal_damping": 3}}},
     ],
 )
@@ -101,11 +103,14 @@ def test_what_is_refused_is_not_valid(case):
         {},
         {"load": {"count": 100}, "run": {"time_step": "auto", "skin": 0.001}},
         {
+            "load": {
+                "share_by": "mass",
+                "species": [{"name": "steel", "share": 0.4}, {"name": "ore", "share": 0.6}],
+            },
             "contact": {
                 "bundle": {"friction": 0.3},
-                "species": 2,
-                "pairs": [{"between": [0, 1], "friction": 0}],
-            }
+                "pair": [{"between": ["steel", "ore"], "friction": 0}],
+            },
         },
         {"rotation": {"program": [[0, 0], [2, 54]]}},
     ],
