@@ -10,7 +10,9 @@ use drumrs::simulation::Simulation;
 const CONFIG: &str = r#"{
   "drum": {
     "radius": 0.2375,
-    "baffles": {"count": 3, "shape": "triangle", "height": 0.04, "base": 0.02, "tip": 0.01, "points": null, "phase": 0.0},
+    "shell": null,
+    "baffles": [{"name": "baffle", "count": 3, "shape": "triangle", "height": 0.04, "base": 0.02, "tip": 0.01,
+                 "corner_radius": 0.0, "chord_error": 1e-4, "points": null, "phase": 0.0}],
     "walls": []
   },
   "rotation": {"knots": [[0.0, 5.6548667764616276]]},
