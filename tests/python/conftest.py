@@ -2,12 +2,17 @@
 
 import os
 import shutil
+import signal
 
 import hypothesis
 import pytest
 
 import drumrs
 from drumrs.cli import run_command
+
+# A shell that starts the tests in the background has them ignore Ctrl-C, which some are about.
+if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 # How long an example takes depends on what else the machine does.
 hypothesis.settings.register_profile("drumrs", deadline=None)

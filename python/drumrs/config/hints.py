@@ -102,9 +102,9 @@ def _others(config: "Tables") -> Iterator[str]:
         if species.density is not None:
             yield from replace(_DENSITY, key=f"load.species[{index}].density").hint(species.density)
     if config.contact.base == "hertz":
-        for side in ("bundle", "drum"):
-            modulus = getattr(config.contact, side).young_modulus
-            yield from replace(_MODULUS, key=f"contact.{side}.{_MODULUS.key}").hint(modulus)
+        for table in ("bundle", "drum"):
+            modulus = getattr(config.contact, table).young_modulus
+            yield from replace(_MODULUS, key=f"contact.{table}.{_MODULUS.key}").hint(modulus)
     if config.drum.baffles.count:
         yield from _degrees("drum.baffles.phase", config.drum.baffles.phase)
     yield from _degrees("drum.tilt", config.drum.tilt)

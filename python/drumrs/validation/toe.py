@@ -50,8 +50,8 @@ def toe_and_shoulder(frames: FrameWindow, diameter: float, drum_radius: float) -
     >>> from drumrs.validation.toe import toe_and_shoulder
     >>> angles = np.radians(np.arange(225.0, 315.5, 0.5))
     >>> shell = 0.95 * np.column_stack([np.cos(angles), np.sin(angles)])
-    >>> seen = FrameWindow(np.array([shell, shell]), np.array([0.0, 0.01]), np.array([0.0, 0.01]))
-    >>> found = toe_and_shoulder(seen, diameter=0.1, drum_radius=1.0)
+    >>> frames = FrameWindow(np.array([shell, shell]), np.array([0.0, 0.01]), np.array([0.0, 0.01]))
+    >>> found = toe_and_shoulder(frames, diameter=0.1, drum_radius=1.0)
     >>> bool(abs(np.degrees(found.toe) - 225.0) < 3.0), bool(abs(np.degrees(found.shoulder) + 45.0) < 3.0)
     (True, True)
     """

@@ -182,7 +182,7 @@ _MEANS = ("drum_specific_power", "dissipated_normal_power", "dissipated_sliding_
 def time_step() -> Evidence:
     """Halving the time step changes window means within their statistical error: eight seeds, 2 s of a soft drum.
 
-    99.9 % of Student's t for the difference of two means of eight, from the spread of the seeds.
+    99.9 % of Student's t for the difference of two means of eight, from the scatter of the seeds.
     """
     from scipy import special
 

@@ -157,7 +157,7 @@ def test_parts_of_a_liner_and_baffles_that_meet_are_named():
     drumrs.Simulation(config({**both, "drum.liner.rail.phase": 22.5}))
 
 
-def test_a_drum_of_many_sides_takes_the_power_of_a_round_one():
+def test_a_bundle_in_many_sides_rests_as_low_as_in_a_round_drum():
     still = {"rotation.rpm": 0.0, "run.duration": 0.5, "run.window": [0.1, 0.5]}
     start = drumrs.State([[0.0, -0.2]])
     heights = {}
