@@ -6,11 +6,12 @@ from typing import TYPE_CHECKING
 from drumrs.analysis import Estimate
 from drumrs.analysis.blocks import Array
 from drumrs.config import Config, baseline
+from drumrs.measures.frame_window import with_errors
+from drumrs.measures.profile import Profile, profile
 from drumrs.validation.cases import BED, Scale, contacts, stiffness, teeth, times, turning, with_seeds
 from drumrs.validation.check import NOTHING, Check
 from drumrs.validation.drum import PublishedDrum
-from drumrs.validation.profile import Profile, profile
-from drumrs.validation.results import Results, check_of_overlap, with_errors
+from drumrs.validation.results import Results, check_of_overlap
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from drumrs.analysis import Mean
-    from drumrs.analysis.frame_window import FrameWindow
+    from drumrs.measures.frame_window import FrameWindow
 
 # The experiment.
 _DIAMETER, _BEAD, _RPM, _BELOW_AXIS = 0.24, 0.003, 11.6, 0.03
@@ -58,8 +59,8 @@ def point(scale: Scale, friction: float = _FRICTION) -> Config:
 def measures(config: Config, seen: "FrameWindow") -> "Mapping[str, Mean]":
     """Return what frames tell of the velocity across the bed, by name of the registry."""
 
-    def of(piece: "FrameWindow") -> dict[str, float]:
-        found = profile(piece, config.load.diameter, config.drum.diameter / 2.0)
+    def of(chosen: slice) -> dict[str, float]:
+        found = profile(seen.piece(chosen), config.load.diameter, config.drum.diameter / 2.0)
         return {
             "surface_velocity_ratio": found.surface_velocity / (found.angular_velocity * found.drum_radius),
             "bed_depth": found.depth,
@@ -69,7 +70,7 @@ def measures(config: Config, seen: "FrameWindow") -> "Mapping[str, Mean]":
             "surface_slope": found.slope,
         }
 
-    return with_errors(of, seen)
+    return with_errors(of, seen.times)
 
 
 def _cases(scale: Scale) -> list[Config]:

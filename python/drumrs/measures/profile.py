@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from drumrs.analysis.blocks import Array
-from drumrs.analysis.frame_window import FrameWindow
+from drumrs.measures.frame_window import FrameWindow
 
 # Half the width of the strip about the line in which bundles count, over the drum's radius.
 _STRIP = 0.125
@@ -116,8 +116,8 @@ def profile(frames: FrameWindow, diameter: float, drum_radius: float) -> Profile
     A heap of discs that turns with the drum.
 
     >>> import numpy as np
-    >>> from drumrs.analysis.frame_window import FrameWindow
-    >>> from drumrs.validation.profile import profile
+    >>> from drumrs.measures.frame_window import FrameWindow
+    >>> from drumrs.measures.profile import profile
     >>> before = np.array([[0.0, -0.05 - 0.1 * k] for k in range(10)])
     >>> after = before + 0.001 * np.column_stack([-before[:, 1], before[:, 0]])
     >>> seen = FrameWindow(np.array([before, after]), np.array([0.0, 0.001]), np.array([0.0, 0.001]))

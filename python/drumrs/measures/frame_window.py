@@ -1,17 +1,20 @@
-"""`FrameWindow`: the frames of a window, pair by pair, for measures of motion."""
+"""`FrameWindow`: the frames of a window, pair by pair; and the errors of what is measured over it."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
-from itertools import count
+from itertools import count, pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from drumrs.analysis.blocks import Array
+from drumrs.analysis.blocks import Array, Mean, mean_with_error
 from drumrs.errors import ConfigError
 
 if TYPE_CHECKING:
     from drumrs.frames import Frames
+
+# A window is cut into so many pieces, whose scatter gives the error of what is measured over all of it.
+_PIECES = 16
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,6 +68,16 @@ class FrameWindow:
         """The same as a number of turns, never negative."""
         return abs(self.turned) / (2.0 * np.pi)
 
+    def piece(self, chosen: slice) -> "FrameWindow":
+        """Return the frames with these indices."""
+        return FrameWindow(self.positions[chosen], self.times[chosen], self.angles[chosen])
+
+    def counter_clockwise(self) -> "FrameWindow":
+        """Return the frames of the mirror image where the drum turns clockwise, the same where it does not."""
+        if self.turned >= 0.0:
+            return self
+        return FrameWindow(self.positions * np.array([-1.0, 1.0]), self.times, -self.angles)
+
     def pairs(self, every: int = 1) -> Iterator[tuple[Array, Array, float]]:
         """Give the positions at two successive frames, and the angle by which the drum turned between them."""
         for k in range(0, len(self.positions) - 1, every):
@@ -74,6 +87,33 @@ class FrameWindow:
         """Give the same in the frame of the turning drum."""
         for k, (before, after, angle) in zip(count(0, every), self.pairs(every), strict=False):
             yield before @ turn_back(self.angles[k]), after @ turn_back(self.angles[k + 1]), angle
+
+
+def with_errors(measure: Callable[[slice], Mapping[str, float]], times: Array) -> dict[str, Mean]:
+    """Return what is measured over a window, with errors from the pieces that it is cut into.
+
+    Parameters
+    ----------
+    measure
+        Function from the indices of some frames to numbers by name.
+    times
+        Times of the frames [s].
+
+    Returns
+    -------
+    dict
+        The error is `None` where the window has few frames, or a piece has no such number.
+    """
+    whole = measure(slice(None))
+    bounds = np.linspace(0, len(times) - 1, min(_PIECES, len(times) - 1) + 1).astype(int)
+    pieces = [measure(slice(first, last + 1)) for first, last in pairwise(bounds)]
+    interval = float(times[-1] - times[0]) / len(pieces)
+    found = {}
+    for name, value in whole.items():
+        values = [piece[name] for piece in pieces]
+        error = mean_with_error(values, interval).error if np.isfinite(values).all() else None
+        found[name] = Mean(value, error)
+    return found
 
 
 def turn_back(angle: float) -> Array:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from drumrs.analysis.blocks import Array, Mean, ratio_of_sums
-from drumrs.analysis.frame_window import FrameWindow
+from drumrs.measures.frame_window import FrameWindow
 
 if TYPE_CHECKING:
     from drumrs.frames import Frames
