@@ -163,7 +163,7 @@ def declared() -> Mapping[str, Quantity]:
 
 @cache
 def _declared() -> Mapping[str, Quantity]:
-    rows = (*recorded(record=RECORDINGS), *_ROWS, *_PUBLISHED_DRUMS, *_FACTS, *_PHASES)
+    rows = (*recorded(record=RECORDINGS), *_ROWS, *_PUBLISHED_DRUMS, *_MEASURES, *_FACTS, *_PHASES)
     return MappingProxyType({row.name: row for row in rows})
 
 
@@ -387,6 +387,35 @@ _PUBLISHED_DRUMS = (
     _made("shoulder_angle", "rad", "mean", "angle of the upper end of the charge at a mill's shell"),
 )
 PUBLISHED_DRUMS = tuple(row.name for row in _PUBLISHED_DRUMS)
+
+# What `drumrs.measures` returns by name, beyond that.
+_MEASURES = (
+    # charge
+    _made(
+        "center_slope",
+        "rad",
+        "mean",
+        "slope of the bed by its center of mass",
+        symbol="α",
+        formula="atan2(x, −y)",
+    ),
+    _made(
+        "s_shape",
+        "1",
+        "mean",
+        "greatest distance of the bed's surface from its chord, over the chord",
+        symbol="κ",
+    ),
+    _made("filling", "1", "mean", "area between rim and surface of the bed, over the drum's", symbol="J"),
+    _made(
+        "arm",
+        "1",
+        "mean",
+        "arm of the load's weight about the axis, over the drum's radius, positive on the rising side",
+        formula="x/R",
+    ),
+)
+MEASURES = tuple(row.name for row in _MEASURES)
 
 # What places a case among others.
 _FACTS = (

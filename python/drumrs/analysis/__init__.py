@@ -1,7 +1,7 @@
 """Statistics of tables: means with errors, tests of steadiness.
 
 `blocks` averages inside a run, `seeds` over runs, `estimate` calculates with the results; `drift` asks whether a
-window was steady; `statistics` puts what a series tells into columns, `phases` phase by phase. Measures of frames are in
+window was steady; `statistics` puts what a series tells into columns, `phases` phase by phase. Measures are in
 `drumrs.measures`. Nothing here sees a simulation.
 """
 

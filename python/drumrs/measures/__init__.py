@@ -5,15 +5,22 @@
 """
 
 from drumrs.measures.bed import bulk_fill
+from drumrs.measures.charge import Occupancy, charge, occupancy
 from drumrs.measures.depth import depth_profile
 from drumrs.measures.motion import along_the_rim, carried_round
 from drumrs.measures.neighbors import mixed_in_a_turn, mixing
+from drumrs.measures.surface import FreeSurface, free_surface
 
 __all__ = [
+    "FreeSurface",
+    "Occupancy",
     "along_the_rim",
     "bulk_fill",
     "carried_round",
+    "charge",
     "depth_profile",
+    "free_surface",
     "mixed_in_a_turn",
     "mixing",
+    "occupancy",
 ]

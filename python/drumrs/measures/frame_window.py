@@ -1,7 +1,7 @@
 """`FrameWindow`: the frames of a window, pair by pair; and the errors of what is measured over it."""
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import count, pairwise
 from typing import TYPE_CHECKING
 
@@ -15,6 +15,38 @@ if TYPE_CHECKING:
 
 # A window is cut into so many pieces, whose scatter gives the error of what is measured over all of it.
 _PIECES = 16
+
+
+def within(frames: "Frames", window: tuple[float, float]) -> "Frames":
+    """Return the frames of a window.
+
+    Raises
+    ------
+    ConfigError
+        Where it holds fewer than two.
+    """
+    # Frames fall on whole steps, a hair beyond the time that was asked for.
+    slack = 1e-3 * (window[1] - window[0])
+    inside = np.flatnonzero((frames.times >= window[0] - slack) & (frames.times <= window[1] + slack))
+    if len(inside) <= 1:
+        raise ConfigError("window", window, "one that holds at least two frames of the run")
+    return frames.picked(slice(inside[0], inside[-1] + 1))
+
+
+def counter_clockwise(frames: "Frames") -> "Frames":
+    """Return the frames as they are where the drum turns counter-clockwise, else their mirror image."""
+    if frames.drum_angles[-1] >= frames.drum_angles[0]:
+        return frames
+    flip = np.array([-1.0, 1.0])
+    return replace(
+        frames,
+        drum_angles=-frames.drum_angles,
+        positions=frames.positions * flip,
+        angles=-frames.angles,
+        shell=None if frames.shell is None else frames.shell * flip,
+        baffles=tuple(line * flip for line in frames.baffles),
+        walls=tuple(line * flip for line in frames.walls),
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,14 +76,8 @@ class FrameWindow:
         ConfigError
             Where it holds fewer than two.
         """
-        # Frames fall on whole steps, a hair beyond the time that was asked for.
-        slack = 1e-3 * (window[1] - window[0])
-        inside = (frames.times >= window[0] - slack) & (frames.times <= window[1] + slack)
-        if inside.sum() <= 1:
-            raise ConfigError("window", window, "one that holds at least two frames of the run")
-        return cls(
-            frames.positions[inside].astype(np.float64), frames.times[inside], frames.drum_angles[inside]
-        )
+        inside = within(frames, window)
+        return cls(inside.positions.astype(np.float64), inside.times, inside.drum_angles)
 
     @property
     def interval(self) -> float:
@@ -71,12 +97,6 @@ class FrameWindow:
     def piece(self, chosen: slice) -> "FrameWindow":
         """Return the frames with these indices."""
         return FrameWindow(self.positions[chosen], self.times[chosen], self.angles[chosen])
-
-    def counter_clockwise(self) -> "FrameWindow":
-        """Return the frames of the mirror image where the drum turns clockwise, the same where it does not."""
-        if self.turned >= 0.0:
-            return self
-        return FrameWindow(self.positions * np.array([-1.0, 1.0]), self.times, -self.angles)
 
     def pairs(self, every: int = 1) -> Iterator[tuple[Array, Array, float]]:
         """Give the positions at two successive frames, and the angle by which the drum turned between them."""

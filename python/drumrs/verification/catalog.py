@@ -8,6 +8,7 @@ from drumrs.verification import (
     adhesion,
     balances,
     bodies,
+    charge,
     friction,
     hertz,
     impacts,
@@ -31,6 +32,7 @@ FAMILIES = MappingProxyType(
         "Hertz–Mindlin": hertz.CASES,
         "Balances of a whole drum": balances.CASES,
         "Promises": promises.CASES,
+        "Measures, on made-up loads": charge.CASES,
     }
 )
 
