@@ -1,26 +1,54 @@
-"""What designers of rotating drums measure: pure functions on frames and tables, one short module for each family.
+"""What designers of rotating drums measure: pure functions on frames and tables, in short modules by family.
 
-`motion`, `depth` and `bed` look at the load as a whole, `neighbors` at how it mixes, `profile` at the flowing layer,
-`toe` at the ends of the charge. Statistics are those of `drumrs.analysis`; nothing here sees a simulation.
+- the load as a whole: `motion`, `depth`, `bed`
+- shape of the charge: `shape`, `surface`, `toe`
+- mixing and segregation: `colors`, `cells`, `segregation`, `rate`, `neighbors`
+- the flowing layer: `profile`
+
+Statistics are those of `drumrs.analysis`; nothing here sees a simulation.
 """
 
 from drumrs.measures.bed import bulk_fill
-from drumrs.measures.charge import Occupancy, charge, occupancy
+from drumrs.measures.cells import entropy, lacey, mixing_curve, relative_deviation
+from drumrs.measures.colors import COLORINGS, cell_side, coloring
 from drumrs.measures.depth import depth_profile
 from drumrs.measures.motion import along_the_rim, carried_round
 from drumrs.measures.neighbors import mixed_in_a_turn, mixing
+from drumrs.measures.rate import MixingRate, mixing_rate
+from drumrs.measures.segregation import (
+    RadialSegregation,
+    mean_position_index,
+    memory_of_places,
+    radial_segregation,
+    unlike_contacts,
+)
+from drumrs.measures.shape import Occupancy, charge, occupancy
 from drumrs.measures.surface import FreeSurface, free_surface
 
 __all__ = [
+    "COLORINGS",
     "FreeSurface",
+    "MixingRate",
     "Occupancy",
+    "RadialSegregation",
     "along_the_rim",
     "bulk_fill",
     "carried_round",
+    "cell_side",
     "charge",
+    "coloring",
     "depth_profile",
+    "entropy",
     "free_surface",
+    "lacey",
+    "mean_position_index",
+    "memory_of_places",
     "mixed_in_a_turn",
     "mixing",
+    "mixing_curve",
+    "mixing_rate",
     "occupancy",
+    "radial_segregation",
+    "relative_deviation",
+    "unlike_contacts",
 ]

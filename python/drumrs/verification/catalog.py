@@ -12,6 +12,7 @@ from drumrs.verification import (
     friction,
     hertz,
     impacts,
+    mixing,
     promises,
     rolling,
     rotation,
@@ -32,7 +33,7 @@ FAMILIES = MappingProxyType(
         "Hertz–Mindlin": hertz.CASES,
         "Balances of a whole drum": balances.CASES,
         "Promises": promises.CASES,
-        "Measures, on made-up loads": charge.CASES,
+        "Measures, on made-up loads": charge.CASES + mixing.CASES,
     }
 )
 

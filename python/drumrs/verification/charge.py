@@ -9,8 +9,8 @@ from drumrs.verification import made_up
 from drumrs.verification.case import case
 from drumrs.verification.evidence import Check, Evidence, Panel, Trace
 
-_RADIUS = 0.02
-_HALF_ANGLES, _SLOPE = (1.2, 1.5, 1.7), 0.5
+_RADIUS = 0.025
+_HALF_ANGLES, _SLOPE = (1.2, 1.6), 0.5
 # The bins of angle of toe and shoulder.
 _BIN = math.radians(3.0)
 
@@ -24,8 +24,8 @@ _BIN = math.radians(3.0)
 def charge() -> Evidence:
     """Toe, shoulder, slopes, S-shape, filling and arm of a packing in a tilted segment.
 
-    Toe and shoulder: a bin of 3°. Slopes and the bulge of the surface: a radius over the half chord. Filling: a quarter
-    of a radius all along the chord. Arm: a quarter of a radius, by which discs keep from the rim.
+    Toe and shoulder: a bin of 3°. Slopes and the bulge of the surface: a radius over the half chord. Filling: half a
+    radius all along the chord. Arm: half a radius, for discs keep off the rim.
     """
     found, traces = [], []
     for half_angle in _HALF_ANGLES:
@@ -39,8 +39,8 @@ def charge() -> Evidence:
             ("surface_slope", "rad", _SLOPE, slope),
             ("center_slope", "rad", _SLOPE, slope),
             ("s_shape", "1", 0.0, slope),
-            ("filling", "1", area / math.pi, 0.25 * _RADIUS * chord / math.pi),
-            ("arm", "1", 2.0 / 3.0 * math.sin(half_angle) ** 3 * math.sin(_SLOPE) / area, 0.25 * _RADIUS),
+            ("filling", "1", area / math.pi, 0.5 * _RADIUS * chord / math.pi),
+            ("arm", "1", 2.0 / 3.0 * math.sin(half_angle) ** 3 * math.sin(_SLOPE) / area, 0.5 * _RADIUS),
         ]
         values = [seen[name].value for name, *_ in rows]
         found += [

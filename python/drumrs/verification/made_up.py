@@ -54,7 +54,7 @@ def lattice(radius: float, draws: np.random.Generator | None = None) -> Array:
     return inside
 
 
-def segment(half_angle: float, slope: float, radius: float, count: int = 32) -> Frames:
+def segment(half_angle: float, slope: float, radius: float, count: int = 16) -> Frames:
     """Return frames of a packing, each turned and moved at random, that fills a segment of the drum.
 
     Parameters

@@ -13,8 +13,8 @@ from drumrs.verification import catalog
 WRONG = [
     ("charge", "surface", "self.tilt + math.atan(", "self.tilt - 0.1 + math.atan("),
     ("charge", "surface", "- self.bundle_radius\n", "+ self.bundle_radius\n"),
-    ("charge", "charge", "centers[:, 0] / drum_radius", "-centers[:, 0] / drum_radius"),
-    ("charge", "charge", "math.atan2(x, -y)", "math.atan2(x, y)"),
+    ("charge", "shape", "centers[:, 0] / drum_radius", "-centers[:, 0] / drum_radius"),
+    ("charge", "shape", "math.atan2(x, -y)", "math.atan2(x, y)"),
     ("charge", "toe", "_HALF = 0.5", "_HALF = 0.0"),
     (
         "occupancy",
@@ -22,6 +22,23 @@ WRONG = [
         "tree.query_ball_point(positions, seen.radii)",
         "tree.query_ball_point(positions, seen.radii / 2)",
     ),
+    (
+        "mixing-null",
+        "mixing",
+        "float(cells.max()) / (len(cells) - 1.0)",
+        "float(cells.max()) / len(cells) * 1.1",
+    ),
+    ("mixing-known", "cells", "weights * colored) / all_of_it", "colored) / np.bincount(cells)"),
+    ("mixing-known", "cells", "entr(shares) + entr(1.0 - shares)", "shares * (1.0 - shares)"),
+    ("mixing-null", "segregation", "(count - 1.0)", "(count - 30.0)"),
+    ("mixing-null", "segregation", "(inside - share)", "(inside - share**2)"),
+    ("mixing-known", "cells", "(pure - null)", "pure"),
+    ("mixing-known", "cells", "/ colored.mean()", ""),
+    ("mixing-known", "segregation", "places - places.min(axis=0)", "places"),
+    ("mixing-known", "segregation", "compute_uv=False)[0]", "compute_uv=False)[0] ** 2"),
+    ("mixing-known", "segregation", "/ points.std(axis=0)", ""),
+    ("mixing-known", "segregation", "means[0] / means[1]", "means[1] / means[0]"),
+    ("mixing-known", "rate", "- self.delay, 0.0)", "+ self.delay, 0.0)"),
 ]
 
 
