@@ -18,13 +18,13 @@ WRONG = [
     ("charge", "toe", "_HALF = 0.5", "_HALF = 0.0"),
     (
         "occupancy",
-        "charge",
+        "shape",
         "tree.query_ball_point(positions, seen.radii)",
         "tree.query_ball_point(positions, seen.radii / 2)",
     ),
     (
         "mixing-null",
-        "mixing",
+        "cells",
         "float(cells.max()) / (len(cells) - 1.0)",
         "float(cells.max()) / len(cells) * 1.1",
     ),
