@@ -345,7 +345,9 @@ _ROWS = (
     _made("x", "m", "sample", "horizontal position of a bundle's center from the axis", symbol="x"),
     _made("y", "m", "sample", "vertical position of a bundle's center from the axis", symbol="y"),
     _made("angle", "rad", "sample", "angle by which a bundle has turned, within ±π"),
-    _made("speed", "m/s", "sample", "speed of a bundle", symbol="v"),
+    _made("velocity_x", "m/s", "sample", "horizontal velocity of a bundle", symbol="v_x"),
+    _made("velocity_y", "m/s", "sample", "vertical velocity of a bundle", symbol="v_y"),
+    _made("contacts", "1", "sample", "number of a bundle's contacts, those with the drum included"),
     _made("radius", "m", "sample", "radius of a bundle", symbol="r"),
     _made("species", "1", "sample", "name of a bundle's species, where the load has species"),
 )

@@ -43,6 +43,7 @@ def counter_clockwise(frames: "Frames") -> "Frames":
         drum_angles=-frames.drum_angles,
         positions=frames.positions * flip,
         angles=-frames.angles,
+        velocities=frames.velocities * flip,
         shell=None if frames.shell is None else frames.shell * flip,
         baffles=tuple(line * flip for line in frames.baffles),
         walls=tuple(line * flip for line in frames.walls),

@@ -1,7 +1,6 @@
 """Frames that nobody simulated: loads of which every measure is known beforehand."""
 
 import math
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -15,30 +14,24 @@ Array = NDArray[np.float64]
 DRUM_RADIUS, INTERVAL = 1.0, 0.01
 
 
-def frames(
-    positions: ArrayLike,
-    radii: ArrayLike,
-    *,
-    drum_angles: ArrayLike | None = None,
-    species: Sequence[str] = (),
-) -> Frames:
+def frames(positions: ArrayLike, radii: ArrayLike, **others: Any) -> Frames:
     """Return frames of these positions, of shape (frames, n, 2) [m], in a round drum of radius 1 m.
 
-    The drum turns counter-clockwise at 1 rad/s where its angles are not given.
+    The drum turns counter-clockwise at 1 rad/s, the discs are at rest and touch nothing, unless given otherwise.
     """
     places: Any = np.asarray(positions, dtype=np.float64)
-    times: Array = INTERVAL * np.arange(len(places), dtype=np.float64)
-    still: Any = np.zeros(places.shape[:2])
-    return Frames(
-        times=times,
-        drum_angles=times if drum_angles is None else np.asarray(drum_angles, dtype=np.float64),
-        positions=places,
-        angles=still,
-        speeds=still,
-        radii=np.broadcast_to(np.asarray(radii, dtype=np.float64), places.shape[1]).copy(),
-        species=tuple(species),
-        drum_radius=DRUM_RADIUS,
-    )
+    shape, times = places.shape[:2], INTERVAL * np.arange(len(places))
+    made: dict[str, Any] = {
+        "times": times,
+        "drum_angles": times,
+        "positions": places,
+        "angles": np.zeros(shape),
+        "velocities": np.zeros_like(places),
+        "contacts": np.zeros(shape, dtype=np.uint16),
+        "radii": np.broadcast_to(np.asarray(radii, dtype=np.float64), shape[1]).copy(),
+        "drum_radius": DRUM_RADIUS,
+    }
+    return Frames(**{**made, **others})
 
 
 def lattice(radius: float, draws: np.random.Generator | None = None) -> Array:

@@ -30,7 +30,8 @@ def made_up(positions: np.ndarray, omega: float = OMEGA) -> Frames:
         drum_angles=omega * TIMES[:frames],
         positions=positions.astype(np.float32),
         angles=np.zeros((frames, count), dtype=np.float32),
-        speeds=np.zeros((frames, count), dtype=np.float32),
+        velocities=np.zeros((frames, count, 2), dtype=np.float32),
+        contacts=np.zeros((frames, count), dtype=np.uint16),
         radii=np.full(count, DIAMETER / 2.0),
         drum_radius=RADIUS,
     )
