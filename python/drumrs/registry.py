@@ -416,6 +416,40 @@ _MEASURES = (
         "arm of the load's weight about the axis, over the drum's radius, positive on the rising side",
         formula="x/R",
     ),
+    # unbalance
+    _made(
+        "unbalance",
+        "kg",
+        "mean",
+        "length of the load's first moment of mass about the axis [kg m per m]",
+        symbol="|U|",
+        formula="|Σ m r|",
+    ),
+    _made(
+        "turning_unbalance",
+        "kg",
+        "mean",
+        "length of the mean of that moment in the frame of the drum: what turns with it",
+        symbol="|⟨U⟩|",
+    ),
+    _made("eccentricity", "m", "mean", "unbalance over the mass of the load", symbol="ε", formula="|U|/M"),
+    # flight
+    _made("share_in_flight", "1", "mean", "share of mass and time without a contact"),
+    _made("falls_per_turn", "1", "mean", "falls of a disc in a turn of the drum"),
+    _made("mean_drop", "m", "ratio", "height from take-off to landing, mean over falls"),
+    _made(
+        "landing_on_drum",
+        "1",
+        "ratio",
+        "share of the energy of landing falls that meets the drum, not the load",
+    ),
+    _made("head_height", "m", "mean", "height above the axis that 99 % of the flying mass stays below"),
+    _made(
+        "impact_toe_angle",
+        "rad",
+        "mean",
+        "angle that 5 % of the energy of landing falls lies beyond, as seen from the top",
+    ),
 )
 MEASURES = tuple(row.name for row in _MEASURES)
 

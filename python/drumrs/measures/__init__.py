@@ -4,16 +4,30 @@
 - shape of the charge: `shape`, `surface`, `toe`
 - mixing and segregation: `colors`, `cells`, `segregation`, `rate`, `neighbors`
 - the flowing layer: `profile`
+- unbalance: `balance`
+- collisions and walls: `spectra`, `walls`
+- flight and fall: `airborne`, `orbit`
 
 Statistics are those of `drumrs.analysis`; nothing here sees a simulation.
 """
 
+from drumrs.measures.airborne import flight, flights
+from drumrs.measures.balance import (
+    Exceedance,
+    Suspension,
+    exceedance,
+    turning_force,
+    unbalance,
+    unbalance_vectors,
+)
 from drumrs.measures.bed import bulk_fill
 from drumrs.measures.cells import entropy, lacey, mixing_curve, relative_deviation
 from drumrs.measures.colors import COLORINGS, cell_side, coloring
 from drumrs.measures.depth import depth_profile
+from drumrs.measures.masses import disc_masses
 from drumrs.measures.motion import along_the_rim, carried_round
 from drumrs.measures.neighbors import mixed_in_a_turn, mixing
+from drumrs.measures.orbit import Orbit, davis
 from drumrs.measures.rate import MixingRate, mixing_rate
 from drumrs.measures.segregation import (
     RadialSegregation,
@@ -23,23 +37,37 @@ from drumrs.measures.segregation import (
     unlike_contacts,
 )
 from drumrs.measures.shape import Occupancy, charge, occupancy
+from drumrs.measures.spectra import collision_spectrum, enduring, impacts, sum_rule
 from drumrs.measures.surface import FreeSurface, free_surface
+from drumrs.measures.walls import finnie_f, wear, worn_outline
 
 __all__ = [
     "COLORINGS",
+    "Exceedance",
     "FreeSurface",
     "MixingRate",
     "Occupancy",
+    "Orbit",
     "RadialSegregation",
+    "Suspension",
     "along_the_rim",
     "bulk_fill",
     "carried_round",
     "cell_side",
     "charge",
+    "collision_spectrum",
     "coloring",
+    "davis",
     "depth_profile",
+    "disc_masses",
+    "enduring",
     "entropy",
+    "exceedance",
+    "finnie_f",
+    "flight",
+    "flights",
     "free_surface",
+    "impacts",
     "lacey",
     "mean_position_index",
     "memory_of_places",
@@ -50,5 +78,11 @@ __all__ = [
     "occupancy",
     "radial_segregation",
     "relative_deviation",
+    "sum_rule",
+    "turning_force",
+    "unbalance",
+    "unbalance_vectors",
     "unlike_contacts",
+    "wear",
+    "worn_outline",
 ]

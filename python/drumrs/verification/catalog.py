@@ -6,9 +6,12 @@ from types import MappingProxyType
 from drumrs import ConfigError
 from drumrs.verification import (
     adhesion,
+    balance,
     balances,
     bodies,
     charge,
+    contact_tables,
+    flight,
     friction,
     hertz,
     impacts,
@@ -33,7 +36,10 @@ FAMILIES = MappingProxyType(
         "Hertz–Mindlin": hertz.CASES,
         "Balances of a whole drum": balances.CASES,
         "Promises": promises.CASES,
-        "Measures, on made-up loads": charge.CASES + mixing.CASES,
+        "Measures: shape of the charge": charge.CASES,
+        "Measures: mixing": mixing.CASES,
+        "Measures: unbalance and flight": balance.CASES + flight.CASES,
+        "Measures: collisions and walls": contact_tables.CASES,
     }
 )
 
