@@ -433,8 +433,20 @@ _MEASURES = (
         symbol="|⟨U⟩|",
     ),
     _made("eccentricity", "m", "mean", "unbalance over the mass of the load", symbol="ε", formula="|U|/M"),
+    # motion
+    _made(
+        "circulation",
+        "1",
+        "mean",
+        "how often a disc goes round the center of circulation in a turn of the drum",
+    ),
     # flight
-    _made("share_in_flight", "1", "mean", "share of mass and time without a contact"),
+    _made(
+        "share_in_flight",
+        "1",
+        "mean",
+        "share of mass and time without contact for longer than ½ √(2 d/g)",
+    ),
     _made("falls_per_turn", "1", "mean", "falls of a disc in a turn of the drum"),
     _made("mean_drop", "m", "ratio", "height from take-off to landing, mean over falls"),
     _made(

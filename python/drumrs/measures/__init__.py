@@ -3,7 +3,7 @@
 - the load as a whole: `motion`, `depth`, `bed`
 - shape of the charge: `shape`, `surface`, `toe`
 - mixing and segregation: `colors`, `cells`, `segregation`, `rate`, `neighbors`
-- the flowing layer: `profile`
+- fields, and the flowing layer: `coarse_graining`, `profile`
 - unbalance: `balance`
 - collisions and walls: `spectra`, `walls`
 - flight and fall: `airborne`, `orbit`
@@ -22,12 +22,14 @@ from drumrs.measures.balance import (
 )
 from drumrs.measures.bed import bulk_fill
 from drumrs.measures.cells import entropy, lacey, mixing_curve, relative_deviation
+from drumrs.measures.coarse_graining import Fields, center_of_circulation, fields
 from drumrs.measures.colors import COLORINGS, cell_side, coloring
 from drumrs.measures.depth import depth_profile
 from drumrs.measures.masses import disc_masses
-from drumrs.measures.motion import along_the_rim, carried_round
+from drumrs.measures.motion import along_the_rim, carried_round, circulation
 from drumrs.measures.neighbors import mixed_in_a_turn, mixing
 from drumrs.measures.orbit import Orbit, davis
+from drumrs.measures.profile import flowing_layer
 from drumrs.measures.rate import MixingRate, mixing_rate
 from drumrs.measures.segregation import (
     RadialSegregation,
@@ -44,6 +46,7 @@ from drumrs.measures.walls import finnie_f, wear, worn_outline
 __all__ = [
     "COLORINGS",
     "Exceedance",
+    "Fields",
     "FreeSurface",
     "MixingRate",
     "Occupancy",
@@ -54,7 +57,9 @@ __all__ = [
     "bulk_fill",
     "carried_round",
     "cell_side",
+    "center_of_circulation",
     "charge",
+    "circulation",
     "collision_spectrum",
     "coloring",
     "davis",
@@ -63,9 +68,11 @@ __all__ = [
     "enduring",
     "entropy",
     "exceedance",
+    "fields",
     "finnie_f",
     "flight",
     "flights",
+    "flowing_layer",
     "free_surface",
     "impacts",
     "lacey",

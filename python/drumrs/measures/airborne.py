@@ -1,7 +1,9 @@
-"""Flight, fall and landing of the discs, from frames that count contacts: a disc without any flies.
+"""Flight, fall and landing of the discs, from frames that count contacts.
 
-Places are those of frames, so that a fall is known to the way between two of them: ten frames in a fall do. Angles are
-those of a drum that turns counter-clockwise, or of the mirror image.
+A disc flies while it is without contact for longer than ½ √(2 d/g), half the time of a fall by its diameter d: in a
+bed that is stirred, most discs touch nothing for shorter times. Places are those of frames, so a flight is known to the
+way between two of them: ten frames in a flight do. Angles are those of a drum that turns counter-clockwise, or of the
+mirror image.
 """
 
 import math
@@ -29,7 +31,7 @@ _HEAD, _TOE = 0.99, 0.05
 
 
 def flights(frames: "Frames", window: tuple[float, float], gravity: float = _GRAVITY) -> "pl.DataFrame":
-    """Return the flights that begin and end within a window, disc by disc.
+    """Return the flights that begin and end within a window, disc by disc: no contact for ½ √(2 d/g) or more.
 
     Parameters
     ----------
@@ -46,7 +48,7 @@ def flights(frames: "Frames", window: tuple[float, float], gravity: float = _GRA
         One row a flight: ``particle``; ``start``, ``end`` [s], ``start_x``, ``start_y``, ``end_x``, ``end_y`` [m] of
         the last frame with a contact before it and the first one after it; ``apex`` [m], the greatest y between;
         ``drop`` [m], start_y − end_y; ``speed`` [m/s] in the last frame of the flight; ``onto``, "drum" or "load";
-        ``is_fall``, whether it drops by more than the diameter d in more than ½ √(2 d/g), half the time of such a fall.
+        ``is_fall``, whether it drops by more than the diameter d.
 
     Raises
     ------
@@ -57,18 +59,12 @@ def flights(frames: "Frames", window: tuple[float, float], gravity: float = _GRA
 
     seen = counter_clockwise(within(frames, window))
     places = seen.positions.astype(np.float64)
-    flies = np.zeros((seen.count, len(seen) + 2), dtype=bool)
-    flies[:, 1:-1] = (seen.contacts == 0).T
-    # By disc, then by time: the k-th beginning belongs to the k-th end.
-    disc, first = np.nonzero(flies[:, 1:] & ~flies[:, :-1])
-    _, end = np.nonzero(~flies[:, 1:] & flies[:, :-1])
+    disc, first, end = _spells(seen, gravity)
     whole = (first > 0) & (end < len(seen))
     disc, start, end = disc[whole], first[whole] - 1, end[whole]
     before, after = places[start, disc], places[end, disc]
     apex = np.array([places[a : b + 1, k, 1].max() for k, a, b in zip(disc, start, end, strict=True)])
     diameter, drop = 2.0 * seen.radii[disc], before[:, 1] - after[:, 1]
-    interval = float(seen.times[-1] - seen.times[0]) / (len(seen) - 1)
-    lasts = (end - start - 1) * interval > 0.5 * np.sqrt(2.0 * diameter / gravity)
     return pl.DataFrame(
         {
             "particle": disc,
@@ -82,10 +78,22 @@ def flights(frames: "Frames", window: tuple[float, float], gravity: float = _GRA
             "drop": drop,
             "speed": seen.speeds[end - 1, disc].astype(np.float64),
             "onto": np.where(_at_the_drum(seen, end, disc), "drum", "load"),
-            "is_fall": (drop > diameter) & lasts,
+            "is_fall": drop > diameter,
         },
         schema_overrides={"particle": pl.UInt32, "onto": pl.String},
     )
+
+
+def _spells(frames: "Frames", gravity: float) -> tuple[Indices, Indices, Indices]:
+    """Return disc, first frame and frame after the last of every flight, by disc and time, cut ones included."""
+    lonely = np.zeros((frames.count, len(frames) + 2), dtype=bool)
+    lonely[:, 1:-1] = (frames.contacts == 0).T
+    # By disc, then by time: the k-th beginning belongs to the k-th end.
+    disc, first = np.nonzero(lonely[:, 1:] & ~lonely[:, :-1])
+    _, end = np.nonzero(~lonely[:, 1:] & lonely[:, :-1])
+    interval = float(frames.times[-1] - frames.times[0]) / (len(frames) - 1)
+    flies = (end - first) * interval > 0.5 * np.sqrt(4.0 * frames.radii[disc] / gravity)
+    return disc[flies], first[flies], end[flies]
 
 
 def _at_the_drum(frames: "Frames", index: Indices, disc: Indices) -> NDArray[np.bool_]:
@@ -125,7 +133,7 @@ def flight(
     -------
     dict
         By name of the registry, with standard errors:
-        ``share_in_flight``, of mass and time; ``falls_per_turn``, falls a disc in a turn of the drum, see `flights`;
+        ``share_in_flight``, of mass and time, see `flights`; ``falls_per_turn``, falls of a disc in a turn of the drum;
         ``mean_drop`` of a fall [m]; ``landing_on_drum``, the share of the energy of landing falls that meets rim,
         baffles and walls, not the load; ``head_height`` [m], above the axis, which 99 % of the flying mass stays below;
         ``impact_toe_angle`` [rad], which 5 % of the energy of landing falls lies beyond, as seen from the top.
@@ -148,14 +156,16 @@ def flight(
     seen = counter_clockwise(within(frames, window))
     weights = seen.radii**2 if masses is None else np.asarray(masses, dtype=np.float64)
     weights = weights / weights.sum()
-    flies, height = seen.contacts == 0, seen.positions[..., 1].astype(np.float64)
+    flies, height = np.zeros(seen.contacts.shape, dtype=bool), seen.positions[..., 1].astype(np.float64)
+    for disc, first, end in zip(*_spells(seen, gravity), strict=True):
+        flies[first:end, disc] = True
     interval = float(seen.times[-1] - seen.times[0]) / (len(seen) - 1)
     turns = float(seen.drum_angles[-1] - seen.drum_angles[0]) / (2.0 * math.pi)
     falls = flights(frames, window, gravity).filter("is_fall")
     # By the frame of landing.
     frame = np.searchsorted(seen.times, falls["end"].to_numpy())
-    disc, drop = falls["particle"].to_numpy(), falls["drop"].to_numpy()
-    energy = 0.5 * weights[disc] * falls["speed"].to_numpy() ** 2
+    drop = falls["drop"].to_numpy()
+    energy = 0.5 * weights[falls["particle"].to_numpy()] * falls["speed"].to_numpy() ** 2
     angle = np.arctan2(falls["end_y"].to_numpy(), falls["end_x"].to_numpy())
     # From the top on, the way of the drum: that is where falling discs come from.
     beyond = (angle - 0.5 * math.pi) % (2.0 * math.pi)

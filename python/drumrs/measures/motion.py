@@ -1,12 +1,13 @@
-"""How the bundles move: carried round by the drum, and along its rim."""
+"""How the bundles move: carried round by the drum, along its rim, and round a center."""
 
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from drumrs.analysis.blocks import Array, Mean, mean_with_error
-from drumrs.measures.frame_window import FrameWindow, turn_back
+from drumrs.measures.frame_window import FrameWindow, counter_clockwise, turn_back
 
 if TYPE_CHECKING:
     from drumrs.frames import Frames
@@ -125,6 +126,40 @@ def _passes_the_top(before: Array, after: Array, angle: float) -> NDArray[np.boo
     ahead = np.sign(angle) * (np.pi / 2.0 - np.arctan2(before[:, 1], before[:, 0])) % (2.0 * np.pi)
     passes: NDArray[np.bool_] = ahead < np.sign(angle) * _swept(before, after)
     return passes
+
+
+def circulation(frames: "Frames", window: tuple[float, float], center: ArrayLike = (0.0, 0.0)) -> Mean | None:
+    """Return how often a disc goes round a center while the drum turns once.
+
+    It is 1 for a load that rides with the drum, about the axis. A bed that turns with the drum below a thin layer goes
+    round in (Θ − sin Θ cos Θ)/(π sin²Θ) of a turn on average, with half the angle Θ that it spans: twice a turn at half
+    fill.
+
+    Parameters
+    ----------
+    frames
+        Frames of a run, so close together that no disc goes half round the center between two of them.
+    window
+        Start and end [s].
+    center
+        The center [m], such as `center_of_circulation`.
+
+    Returns
+    -------
+    Mean or None
+        `None` where the drum rests.
+
+    Raises
+    ------
+    ConfigError
+        Where the window holds fewer than two frames.
+    """
+    seen = FrameWindow.of(counter_clockwise(frames), window)
+    if seen.turned == 0.0:
+        return None
+    apart = seen.positions - np.asarray(center)
+    swept = np.array([_swept(*pair).mean() for pair in pairwise(apart)])
+    return mean_with_error(swept * len(swept) / seen.turned, seen.interval)
 
 
 def _swept(before: Array, after: Array) -> Array:

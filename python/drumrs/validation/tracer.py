@@ -6,8 +6,7 @@ from typing import TYPE_CHECKING
 from drumrs.analysis import Estimate
 from drumrs.analysis.blocks import Array
 from drumrs.config import Config, baseline
-from drumrs.measures.frame_window import with_errors
-from drumrs.measures.profile import Profile, profile
+from drumrs.measures.profile import Profile, layer_in, profile
 from drumrs.validation.cases import BED, Scale, contacts, stiffness, teeth, times, turning, with_seeds
 from drumrs.validation.check import NOTHING, Check
 from drumrs.validation.drum import PublishedDrum
@@ -58,19 +57,7 @@ def point(scale: Scale, friction: float = _FRICTION) -> Config:
 
 def measures(config: Config, seen: "FrameWindow") -> "Mapping[str, Mean]":
     """Return what frames tell of the velocity across the bed, by name of the registry."""
-
-    def of(chosen: slice) -> dict[str, float]:
-        found = profile(seen.piece(chosen), config.load.diameter, config.drum.diameter / 2.0)
-        return {
-            "surface_velocity_ratio": found.surface_velocity / (found.angular_velocity * found.drum_radius),
-            "bed_depth": found.depth,
-            "layer_thickness": found.layer,
-            "layer_to_solid_rotation": found.layer_to_solid_rotation,
-            "core_velocity_ratio": found.core_velocity_ratio,
-            "surface_slope": found.slope,
-        }
-
-    return with_errors(of, seen.times)
+    return layer_in(seen, config.load.diameter, config.drum.diameter / 2.0)
 
 
 def _cases(scale: Scale) -> list[Config]:

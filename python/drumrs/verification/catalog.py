@@ -11,6 +11,7 @@ from drumrs.verification import (
     bodies,
     charge,
     contact_tables,
+    fields,
     flight,
     friction,
     hertz,
@@ -38,6 +39,7 @@ FAMILIES = MappingProxyType(
         "Promises": promises.CASES,
         "Measures: shape of the charge": charge.CASES,
         "Measures: mixing": mixing.CASES,
+        "Measures: fields": fields.CASES,
         "Measures: unbalance and flight": balance.CASES + flight.CASES,
         "Measures: collisions and walls": contact_tables.CASES,
     }

@@ -56,7 +56,7 @@ WRONG = [
     ("davis", "orbit", "2.0 * froude * sine / math.pi", "2.0 * sine / math.pi"),
     ("davis", "orbit", "1.0 + 8.0 * sine**2", "1.0 + 4.0 * sine**2"),
     ("davis", "orbit", "- 3.0 * sine", "- sine"),
-    ("flight", "airborne", "mean_with_error(flies @ weights", "mean_with_error(~flies @ weights"),
+    ("flight", "airborne", "mean_with_error(flies @ weights", "mean_with_error(0.8 * flies @ weights"),
     ("flight", "airborne", "before[:, 1] - after[:, 1]", "before[:, 1]"),
     ("flight", "airborne", "(turns * seen.count)", "seen.count"),
     ("flight", "airborne", "- np.hypot(*places.T)", "- places[:, 0]"),
@@ -79,6 +79,16 @@ WRONG = [
     ("wear", "walls", "volume / length)", "volume)"),
     ("wear", "walls", "middles - smooth", "middles + smooth"),
     ("wear", "walls", "0.25 * padded[:-2]", "0.5 * padded[:-2]"),
+    ("fields", "coarse_graining", "(1.0 - math.exp(-0.5 * _CUT**2))", "1.0"),
+    ("fields", "coarse_graining", "off = velocity - grid.at(mean, place)", "off = velocity"),
+    ("fields", "coarse_graining", "0.5 * trace", "trace"),
+    ("fields", "coarse_graining", "-place[:, 1], place[:, 0]", "-place[:, 1], 0.9 * place[:, 0]"),
+    ("fields", "coarse_graining", "node + shift", "node - shift"),
+    ("fields", "coarse_graining", "math.pi * frames.radii**2", "math.pi * frames.radii"),
+    ("fields", "motion", "swept * len(swept)", "swept * len(apart)"),
+    ("flowing-layer", "profile", "surface - offset / (self", "surface - rate / (self"),
+    ("flowing-layer", "profile", "self.surface - self.foot", "self.surface + self.foot"),
+    ("flowing-layer", "profile", "_HALF = 0.5", "_HALF = 0.1"),
 ]
 
 
