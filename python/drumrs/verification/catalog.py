@@ -16,6 +16,7 @@ from drumrs.verification import (
     friction,
     hertz,
     impacts,
+    laundry,
     mixing,
     promises,
     rolling,
@@ -42,6 +43,7 @@ FAMILIES = MappingProxyType(
         "Measures: fields": fields.CASES,
         "Measures: unbalance and flight": balance.CASES + flight.CASES,
         "Measures: collisions and walls": contact_tables.CASES,
+        "Measures: washing, and torque over frequency": laundry.CASES,
     }
 )
 
