@@ -1,5 +1,5 @@
-//! The loads for `instructions.sh`, which counts what a step costs: `settle FILE COUNT BAFFLES` makes one in the tumble,
-//! `run FILE STEPS` goes on with it.
+//! The loads for `instructions.sh`, which counts what a step costs: `settle FILE COUNT BAFFLES` makes one in the tumble, of which
+//! with `recorded` all is recorded that can be; `run FILE STEPS` goes on with it.
 
 mod scenes;
 
@@ -18,8 +18,9 @@ fn main() {
     let arguments: Vec<String> = std::env::args().collect();
     let words: Vec<&str> = arguments[1..].iter().map(String::as_str).collect();
     match words[..] {
-        ["settle", file, count, baffles] => {
-            let mut simulation = scenes::started(number(count), number(baffles));
+        ["settle", file, count, baffles, ref more @ ..] => {
+            let record = if more == ["recorded"] { scenes::ALL_RECORDS } else { &[] };
+            let mut simulation = scenes::started_with(number(count), number(baffles), record);
             let steps = match number(count) {
                 0..=300 => (SETTLING / simulation.time_step()).round() as u64,
                 _ => LARGE_STEPS,
@@ -33,6 +34,6 @@ fn main() {
             let mut simulation = Simulation::from_checkpoint(&bytes, 1).expect("a settled load");
             simulation.run(number(steps) as u64).expect("a stable run");
         }
-        _ => panic!("settle FILE COUNT BAFFLES, or run FILE STEPS"),
+        _ => panic!("settle FILE COUNT BAFFLES [recorded], or run FILE STEPS"),
     }
 }
