@@ -7,6 +7,7 @@
 - unbalance: `balance`
 - collisions and walls: `spectra`, `walls`; torque and forces over frequency: `signals`
 - washing and drying: `laundry`
+- the regime: `regimes`
 - flight and fall: `airborne`, `orbit`
 
 Statistics are those of `drumrs.analysis`; nothing here sees a simulation.
@@ -28,11 +29,12 @@ from drumrs.measures.colors import COLORINGS, cell_side, coloring
 from drumrs.measures.depth import depth_profile
 from drumrs.measures.laundry import curtain, knocking_and_rubbing, openness, shape_factor, washing
 from drumrs.measures.masses import disc_masses
-from drumrs.measures.motion import along_the_rim, carried_round, circulation
+from drumrs.measures.motion import along_the_rim, carried_round, circulation, wall_slip
 from drumrs.measures.neighbors import mixed_in_a_turn, mixing
 from drumrs.measures.orbit import Orbit, davis
 from drumrs.measures.profile import flowing_layer
 from drumrs.measures.rate import MixingRate, mixing_rate
+from drumrs.measures.regimes import Regime, RegimeLimits, regime
 from drumrs.measures.segregation import (
     RadialSegregation,
     mean_position_index,
@@ -55,6 +57,8 @@ __all__ = [
     "Occupancy",
     "Orbit",
     "RadialSegregation",
+    "Regime",
+    "RegimeLimits",
     "Suspension",
     "along_the_rim",
     "bulk_fill",
@@ -92,6 +96,7 @@ __all__ = [
     "openness",
     "peak_factor",
     "radial_segregation",
+    "regime",
     "relative_deviation",
     "shape_factor",
     "sum_rule",
@@ -99,6 +104,7 @@ __all__ = [
     "unbalance",
     "unbalance_vectors",
     "unlike_contacts",
+    "wall_slip",
     "washing",
     "wear",
     "worn_outline",

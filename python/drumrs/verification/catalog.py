@@ -19,6 +19,7 @@ from drumrs.verification import (
     laundry,
     mixing,
     promises,
+    regimes,
     rolling,
     rotation,
     sliding,
@@ -44,6 +45,7 @@ FAMILIES = MappingProxyType(
         "Measures: unbalance and flight": balance.CASES + flight.CASES,
         "Measures: collisions and walls": contact_tables.CASES,
         "Measures: washing, and torque over frequency": laundry.CASES,
+        "Measures: the regime": regimes.CASES,
     }
 )
 

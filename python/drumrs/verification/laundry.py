@@ -22,8 +22,8 @@ _SPEED = 3.0
 def washing() -> Evidence:
     """Shape, openness and curtain of a few discs; how a load turns that rides with a drum.
 
-    Outlines are polygons of 64 corners a disc: 0.2 % of a shape factor, that of a square with corners as round as a
-    disc. Openness is counted in 72 directions, none at an edge, and the rest to round-off.
+    Outlines are polygons of 64 corners a disc: 0.2 % of a shape factor; a square has corners as round as a disc, and
+    wavy edges, 1 %. Openness is counted in 72 directions, none at an edge, and the rest to round-off.
     """
     square = np.stack(np.meshgrid(np.arange(60.0), np.arange(60.0)), axis=-1).reshape(-1, 2)
     around = np.radians(60.0 * np.arange(6) + 2.0)
@@ -47,7 +47,7 @@ def washing() -> Evidence:
     power = measures.knocking_and_rubbing(split, mass=2.0, duration=3.0)
     rows = [
         ("shape of a disc", 1.0, measures.shape_factor([[0.0, 0.0]], [1.0]), 2e-3),
-        ("shape of a square", _rounded(59.0, 2.0), measures.shape_factor(square, np.full(3600, 2.0)), 2e-3),
+        ("shape of a square", _rounded(59.0, 2.0), measures.shape_factor(square, np.full(3600, 2.0)), 1e-2),
         ("openness of one", 1.0, measures.openness([[0.0, 0.0]], [1.0], 5.0), 0.0),
         ("openness of seven, half of six", 3.0 / 7.0, measures.openness(six, np.ones(7), 0.75), 1e-12),
         (

@@ -99,6 +99,18 @@ WRONG = [
     ("frequency-spectrum", "signals", "1.0 / rows.interval", "0.9 / rows.interval"),
     ("frequency-spectrum", "signals", 'detrend="constant"', "detrend=False"),
     ("frequency-spectrum", "signals", "np.mean(values**2)", "np.mean(values) ** 2"),
+    ("wear-locked-disc", "walls", '"archard": "normal_force_slip"', '"archard": "normal_impulse"'),
+    (
+        "contact-sums",
+        "spectra",
+        '"dissipated_tangential": ("dissipated_sliding", "dissipated_tangential")',
+        '"dissipated_tangential": ("dissipated_tangential",)',
+    ),
+    ("regimes", "regimes", "** 2 * surface.drum_radius / gravity", "* surface.drum_radius / gravity"),
+    ("regimes", "regimes", "weights[falls[", "0.1 * weights[falls["),
+    ("regimes", "regimes", "early[below[0] :].max()", "early[below[0] :].min()"),
+    ("regimes", "motion", "1.0 - found.value", "found.value"),
+    ("regimes", "depth", "[top] ** 2)", "[~top] ** 2)"),
 ]
 
 
