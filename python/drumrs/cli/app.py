@@ -12,6 +12,7 @@ import drumrs
 from drumrs.cli.baseline import baseline
 from drumrs.cli.config import config
 from drumrs.cli.info import info
+from drumrs.cli.init import init
 from drumrs.cli.options import cut_by_shell
 from drumrs.cli.quantities import quantities
 from drumrs.cli.reproduce import reproduce
@@ -35,6 +36,7 @@ app = App(
     help_format="markdown",
     help_epilogue=(
         "Examples:\n\n"
+        "- `drumrs init my-mill --template ball-mill` writes a machine to start from; `drumrs init` lists them\n"
         "- `drumrs reproduce --quick` runs the paper's study in small and writes out/report.html\n"
         "- `drumrs baseline` runs the paper's drum without and with baffles\n"
         "- `drumrs config > case.toml` writes every key, with unit and meaning\n"
@@ -52,7 +54,7 @@ app = App(
     result_action="return_value",
 )
 
-for _command in (run, baseline, reproduce, sweep, view, verify, validate, config, quantities, info):
+for _command in (init, run, baseline, reproduce, sweep, view, verify, validate, config, quantities, info):
     app.command(_command, help_epilogue="")
 
 
