@@ -234,10 +234,11 @@ class FramesFile:
         """
         import polars as pl
 
+        scene = json.loads(pl.read_parquet_metadata(source)["scene"])
         table = pl.scan_parquet(source)
         path = Path("frames.parquet") if isinstance(source, io.BytesIO) else Path(source)
         require(path, table.collect_schema().names(), (name for name in COLUMNS if name != "species"))
-        return cls(table, json.loads(pl.read_parquet_metadata(source)["scene"]))
+        return cls(table, scene)
 
     def __len__(self) -> int:
         """Return the number of frames."""
