@@ -16,7 +16,7 @@ from types import MappingProxyType
 from drumrs import _core
 from drumrs.errors import ConfigError
 
-# What is recorded on request, by the key `run.record`.
+# What adds columns to the series on request, by the key `run.record`.
 RECORDINGS = ("gross_work",)
 
 # The parts of a drum with one baffle and one wall.
