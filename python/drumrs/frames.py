@@ -20,12 +20,17 @@ if TYPE_CHECKING:
     import polars as pl
 
 # Columns of the table, one row for each frame and bundle.
-COLUMNS = ("frame", "time", "drum_angle", "bundle", "x", "y", "angle", "speed", "radius", "species")
+COLUMNS = (
+    *("frame", "time", "drum_angle", "bundle", "x", "y", "angle", "velocity_x", "velocity_y", "contacts"),
+    *("radius", "species"),
+)
+# Arrays with an entry for each frame and bundle.
+SHAPED = ("positions", "angles", "velocities", "contacts")
 
 
 @dataclass(frozen=True, eq=False)
 class Frames:
-    """Positions, angles and speeds of all bundles at the frames' times, in the laboratory's frame.
+    """Positions, angles, velocities and contacts of all bundles at the frames' times, in the laboratory's frame.
 
     Single precision is plenty for them: 15 nm in a drum of half a meter.
 
@@ -39,8 +44,10 @@ class Frames:
         Centers of the bundles [m], shape (frames, n, 2).
     angles
         Angles of the bundles [rad], within ±π, shape (frames, n).
-    speeds
-        Speeds of the bundles [m/s], shape (frames, n).
+    velocities
+        Velocities of the bundles [m/s], shape (frames, n, 2).
+    contacts
+        Number of contacts of each bundle, those with the drum included, shape (frames, n); 0 for one in flight.
     radii
         Radii of the bundles [m], shape (n,).
     species
@@ -57,7 +64,8 @@ class Frames:
     drum_angles: NDArray[np.float64]
     positions: NDArray[np.float32]
     angles: NDArray[np.float32]
-    speeds: NDArray[np.float32]
+    velocities: NDArray[np.float32]
+    contacts: NDArray[np.uint16]
     radii: NDArray[np.float64]
     species: tuple[str, ...] = ()
     drum_radius: float | None = None
@@ -73,6 +81,12 @@ class Frames:
     def count(self) -> int:
         """Number of bundles n."""
         return len(self.radii)
+
+    @property
+    def speeds(self) -> NDArray[np.float32]:
+        """Speeds of the bundles [m/s], shape (frames, n)."""
+        speeds: NDArray[np.float32] = np.hypot(self.velocities[..., 0], self.velocities[..., 1])
+        return speeds
 
     @property
     def reach(self) -> float | None:
@@ -96,7 +110,8 @@ class Frames:
             drum_angles=self.drum_angles[indices],
             positions=self.positions[indices],
             angles=self.angles[indices],
-            speeds=self.speeds[indices],
+            velocities=self.velocities[indices],
+            contacts=self.contacts[indices],
         )
 
     def table(self, first: int = 0) -> "pl.DataFrame":
@@ -109,7 +124,7 @@ class Frames:
         """
         import polars as pl
 
-        frames, count = self.speeds.shape
+        frames, count = self.angles.shape
         columns = {
             "frame": np.repeat(np.arange(first, first + frames, dtype=np.uint32), count),
             "time": np.repeat(self.times, count),
@@ -118,7 +133,9 @@ class Frames:
             "x": self.positions[:, :, 0].ravel(),
             "y": self.positions[:, :, 1].ravel(),
             "angle": self.angles.ravel(),
-            "speed": self.speeds.ravel(),
+            "velocity_x": self.velocities[:, :, 0].ravel(),
+            "velocity_y": self.velocities[:, :, 1].ravel(),
+            "contacts": self.contacts.ravel(),
             "radius": np.tile(self.radii, frames),
         }
         table = pl.DataFrame(columns)
@@ -240,7 +257,9 @@ class FramesFile:
             frames.positions[here, :, 0] = columns["x"][rows]
             frames.positions[here, :, 1] = columns["y"][rows]
             frames.angles[here] = columns["angle"][rows]
-            frames.speeds[here] = columns["speed"][rows]
+            frames.velocities[here, :, 0] = columns["velocity_x"][rows]
+            frames.velocities[here, :, 1] = columns["velocity_y"][rows]
+            frames.contacts[here] = columns["contacts"][rows]
             frames.radii[:] = columns["radius"][0]
         return replace(frames, species=self._species())
 
@@ -252,14 +271,15 @@ class FramesFile:
     def _empty(self, frames: int) -> Frames:
         shape, scene = (frames, self.count), self._scene
         # As they were written: in single precision where a simulation recorded them.
-        row = self._table.select("x", "angle", "speed").head(1).collect()
-        place, angle, speed = (row[name].to_numpy().dtype for name in row.columns)
+        row = self._table.select("x", "angle", "velocity_x").head(1).collect()
+        place, angle, velocity = (row[name].to_numpy().dtype for name in row.columns)
         return Frames(
             times=np.empty(frames),
             drum_angles=np.empty(frames),
             positions=np.empty((*shape, 2), place),
             angles=np.empty(shape, angle),
-            speeds=np.empty(shape, speed),
+            velocities=np.empty((*shape, 2), velocity),
+            contacts=np.empty(shape, np.uint16),
             radii=np.empty(self.count),
             drum_radius=scene["drum_radius"],
             shell=None if scene.get("shell") is None else np.array(scene["shell"]),

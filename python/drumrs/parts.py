@@ -101,7 +101,7 @@ class Parts:
             table = pl.DataFrame(held["rows"], schema=records.columns, orient="row")
             write_table(self._name("series", held["first_sample"]), table, {})
         frames, first = records.as_frames(held["frames"]), held["first_frame"]
-        some = max(1, PART_SIZE // (16 * records.count))
+        some = max(1, PART_SIZE // records.sizes["run.frame_every"])
         for start in range(0, len(frames), some):
             part = frames.picked(slice(start, start + some))
             part.save(self._name("frames", first + start), first + start)

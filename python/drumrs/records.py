@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from drumrs.config import Config
 from drumrs.errors import CheckpointError
-from drumrs.frames import Frames
+from drumrs.frames import SHAPED, Frames
 
 if TYPE_CHECKING:
     import polars as pl
@@ -187,24 +187,23 @@ class Records:
         rows = series.to_numpy(order="c")
         self._core.put_back_rows(rows, frames is None)
         if frames is not None:
-            arrays: dict[str, NDArray[Any]] = {
-                "time": frames.times,
-                "drum_angle": frames.drum_angles,
-                "positions": frames.positions,
-            }
-            self._core.put_back_frames({**arrays, "angles": frames.angles, "speeds": frames.speeds})
+            arrays: dict[str, NDArray[Any]] = {name: getattr(frames, name) for name in SHAPED}
+            self._core.put_back_frames({"time": frames.times, "drum_angle": frames.drum_angles, **arrays})
 
     def none(self) -> Frames:
         """Return no frames of this load in this drum."""
         shape = (0, self.count)
-        single = np.empty(shape, np.float32)
-        empty: dict[str, NDArray[Any]] = {
-            "time": np.empty(0),
-            "drum_angle": np.empty(0),
-            "angles": single,
-            "speeds": single,
-        }
-        return self.as_frames({**empty, "positions": np.empty((*shape, 2), np.float32)})
+        vectors = np.empty((*shape, 2), np.float32)
+        return self.as_frames(
+            {
+                "time": np.empty(0),
+                "drum_angle": np.empty(0),
+                "positions": vectors,
+                "angles": np.empty(shape, np.float32),
+                "velocities": vectors,
+                "contacts": np.empty(shape, np.uint16),
+            }
+        )
 
     def as_frames(self, arrays: dict[str, NDArray[Any]]) -> Frames:
         """Return the core's arrays as frames of this load in this drum."""
@@ -212,9 +211,7 @@ class Records:
         return Frames(
             times=arrays["time"],
             drum_angles=arrays["drum_angle"],
-            positions=arrays["positions"],
-            angles=arrays["angles"],
-            speeds=arrays["speeds"],
+            **{name: arrays[name] for name in SHAPED},
             radii=self._core.radii,
             species=self.species,
             drum_radius=drum.diameter / 2.0 if drum.rim else None,
@@ -236,7 +233,7 @@ class HasRecords:
 
     @property
     def frames(self) -> Frames:
-        """Positions, angles and speeds of the bundles at the frames' times."""
+        """Positions, angles, velocities and numbers of contacts of the bundles at the frames' times."""
         return self._records.frames()
 
     @property

@@ -146,7 +146,7 @@ class Result:
     series
         Polars table, one row a sample; `drumrs.quantities` has the meanings and units of its columns.
     frames
-        Positions, angles and speeds of the bundles at the frames' times.
+        Positions, angles, velocities and numbers of contacts of the bundles at the frames' times.
     """
 
     config: Config

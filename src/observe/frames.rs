@@ -17,8 +17,10 @@ pub struct Frames {
     pub positions: Vec<f32>,
     /// Angles of the particles [rad], within ±π.
     pub angles: Vec<f32>,
-    /// Speeds [m/s].
-    pub speeds: Vec<f32>,
+    /// Velocities [m/s], like the positions.
+    pub velocities: Vec<f32>,
+    /// Numbers of contacts of the particles; 0 in flight.
+    pub contacts: Vec<u16>,
 }
 
 impl Frames {
@@ -31,7 +33,8 @@ impl Frames {
         memory::reserve(&mut self.drum_angles, frames, action)?;
         memory::reserve(&mut self.positions, 2 * frames * count, action)?;
         memory::reserve(&mut self.angles, frames * count, action)?;
-        memory::reserve(&mut self.speeds, frames * count, action)
+        memory::reserve(&mut self.velocities, 2 * frames * count, action)?;
+        memory::reserve(&mut self.contacts, frames * count, action)
     }
 
     /// A copy of these frames of `count` particles.
@@ -61,38 +64,44 @@ impl Frames {
         self.drum_angles.extend_from_slice(&more.drum_angles);
         self.positions.extend_from_slice(&more.positions);
         self.angles.extend_from_slice(&more.angles);
-        self.speeds.extend_from_slice(&more.speeds);
+        self.velocities.extend_from_slice(&more.velocities);
+        self.contacts.extend_from_slice(&more.contacts);
     }
 
     /// How much memory the frames take [bytes].
     pub fn size(&self) -> usize {
         8 * (self.times.len() + self.drum_angles.len())
-            + 4 * (self.positions.len() + self.angles.len() + self.speeds.len())
+            + 4 * (self.positions.len() + self.angles.len() + self.velocities.len())
+            + 2 * self.contacts.len()
     }
 
     /// How much memory a frame of `count` particles takes [bytes].
     pub fn size_of_one(count: usize) -> usize {
-        let (numbers, singles) = (2, 4);
-        8 * numbers + 4 * singles * count
+        let (numbers, singles, shorts) = (2, 5, 1);
+        8 * numbers + (4 * singles + 2 * shorts) * count
     }
 
-    /// Appends a frame.
-    pub fn push(&mut self, time: f64, drum_angle: f64, particles: &Particles) {
+    /// Appends a frame. Returns the numbers of contacts by id, all 0, to count in.
+    pub fn push(&mut self, time: f64, drum_angle: f64, particles: &Particles) -> &mut [u16] {
         self.times.push(time);
         self.drum_angles.push(drum_angle);
         let (start, end) = (self.angles.len(), self.angles.len() + particles.len());
         self.positions.resize(2 * end, 0.0);
         self.angles.resize(end, 0.0);
-        self.speeds.resize(end, 0.0);
+        self.velocities.resize(2 * end, 0.0);
+        self.contacts.resize(end, 0);
         for (i, &id) in particles.ids.iter().enumerate() {
             let place = start + id as usize;
-            let (position, angle) = (particles.positions[i], particles.angles[i]);
+            let (position, velocity, angle) =
+                (particles.positions[i], particles.velocities[i], particles.angles[i]);
             let turns = (angle / std::f64::consts::TAU).round();
-            self.positions[2 * place] = position.x as f32;
-            self.positions[2 * place + 1] = position.y as f32;
+            for axis in 0..2 {
+                self.positions[2 * place + axis] = position[axis] as f32;
+                self.velocities[2 * place + axis] = velocity[axis] as f32;
+            }
             self.angles[place] = (angle - turns * std::f64::consts::TAU) as f32;
-            self.speeds[place] = particles.velocities[i].norm() as f32;
         }
+        &mut self.contacts[start..]
     }
 
     /// Whether these are whole frames of `count` particles.
@@ -101,7 +110,8 @@ impl Frames {
         self.drum_angles.len() == self.len()
             && self.positions.len() == 2 * values
             && self.angles.len() == values
-            && self.speeds.len() == values
+            && self.velocities.len() == 2 * values
+            && self.contacts.len() == values
     }
 
     /// Number of frames.

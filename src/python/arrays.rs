@@ -34,9 +34,10 @@ pub fn frames(py: Python<'_>, frames: Frames, count: usize) -> PyResult<Bound<'_
     let table = PyDict::new(py);
     table.set_item("time", frames.times.into_pyarray(py))?;
     table.set_item("drum_angle", frames.drum_angles.into_pyarray(py))?;
-    table.set_item("positions", frame_positions(py, frames.positions, count))?;
+    table.set_item("positions", frame_vectors(py, frames.positions, count))?;
     table.set_item("angles", table_of_rows(py, frames.angles, count))?;
-    table.set_item("speeds", table_of_rows(py, frames.speeds, count))?;
+    table.set_item("velocities", frame_vectors(py, frames.velocities, count))?;
+    table.set_item("contacts", table_of_rows(py, frames.contacts, count))?;
     Ok(table)
 }
 
@@ -50,7 +51,8 @@ pub fn given_frames(table: &Bound<'_, PyDict>) -> Result<Frames, Error> {
         drum_angles: copied(table, "drum_angle")?,
         positions: copied(table, "positions")?,
         angles: copied(table, "angles")?,
-        speeds: copied(table, "speeds")?,
+        velocities: copied(table, "velocities")?,
+        contacts: copied(table, "contacts")?,
     })
 }
 
@@ -65,8 +67,8 @@ fn copied<T: Element + Copy>(table: &Bound<'_, PyDict>, key: &str) -> Result<Vec
     Ok(copy)
 }
 
-/// Positions as an array of shape (frames, particles, 2).
-fn frame_positions(py: Python<'_>, values: Vec<f32>, count: usize) -> Bound<'_, PyArray3<f32>> {
+/// Vectors as an array of shape (frames, particles, 2).
+fn frame_vectors(py: Python<'_>, values: Vec<f32>, count: usize) -> Bound<'_, PyArray3<f32>> {
     let rows = values.len().checked_div(2 * count).unwrap_or(0);
     Array3::from_shape_vec((rows, count, 2), values).expect("whole frames").into_pyarray(py)
 }

@@ -97,7 +97,9 @@ impl Simulation {
 
     fn push_frame(&mut self) {
         let (time, angle) = (self.time(), self.drum_angle());
-        self.records.frames.push(time, angle, &self.state.particles);
+        let particles = &self.state.particles;
+        let contacts = self.records.frames.push(time, angle, particles);
+        self.engine.pass().visit_bodies(&mut |particle| contacts[particles.ids[particle] as usize] += 1);
         self.state.recorded.frames += 1;
     }
 

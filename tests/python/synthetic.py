@@ -14,7 +14,8 @@ def made_up(count: int = 12, frames: int = 3, **scene) -> Frames:
         drum_angles=2.0 * times,
         positions=random.uniform(-0.6, 0.6, (frames, count, 2)),
         angles=random.uniform(0.0, 6.0, (frames, count)),
-        speeds=random.uniform(0.0, 2.0, (frames, count)),
+        velocities=random.uniform(-2.0, 2.0, (frames, count, 2)),
+        contacts=random.integers(0, 5, (frames, count), dtype=np.uint16),
         radii=np.full(count, 0.05),
         **scene,
     )

@@ -44,7 +44,7 @@ def same_frames(one: drumrs.Frames, other: drumrs.Frames) -> bool:
 # What the writing of a part takes, and leaves with the allocator [bytes].
 PART = 150e6
 
-SHAPED = ("times", "drum_angles", "positions", "angles", "speeds", "radii")
+SHAPED = ("times", "drum_angles", "positions", "angles", "velocities", "contacts", "radii")
 
 MEASURED = """
 import resource, sys, drumrs, polars, matplotlib.figure
@@ -79,7 +79,7 @@ def test_a_run_with_a_folder_needs_no_memory_for_its_frames(tmp_path):
     few = peak(code.format([*words, "--set", "run.frame_every=3.7e-4"]))
     many = peak(code.format([*words, "--set", "run.frame_every=3.7e-5"]), RLIMIT_AS=2_500_000_000)
     file = FramesFile.of(tmp_path / "out" / "frames.parquet")
-    size = 16 * file.count * len(file)
+    size = 22 * file.count * len(file)
     assert size > 290e6
     # Ten times the frames, and no more memory than a part takes: 75 to 140 MB, as the allocator pleases.
     assert many < few + 0.75 * size, f"{many / 1e6:.0f} MB, with few frames {few / 1e6:.0f} MB"
@@ -111,7 +111,7 @@ def test_the_series_of_a_run_with_a_folder_needs_what_the_rule_counts(tmp_path):
 def test_a_run_in_memory_needs_what_the_rule_counts(tmp_path):
     config = drumrs.baseline().softer(100.0).replace({"run.duration": 3.0, "run.frame_every": 3.7e-5})
     made = f"config = drumrs.Config.model_validate_json({config.model_dump_json()!r})"
-    counted = 2 * 16 * 100 * round(3.0 / 3.7e-5)
+    counted = 2 * 22 * 100 * round(3.0 / 3.7e-5)
     before = peak(made)
     kept = f"{made}; drumrs.save(drumrs.run(config, progress=False), {str(tmp_path)!r}, pictures=False)"
     assert peak(kept) < before + 1.5 * counted
@@ -414,7 +414,7 @@ def test_what_there_is_no_room_for_is_refused_before_the_run(drum, tmp_path, mon
     few = drumrs.baseline().replace({"run.frame_every": 1e-3})
     monkeypatch.setattr("drumrs.limits._memory", lambda: 1e8)
     assert drumrs.Simulation(few.replace({"run.duration": 10.0})).step == 0
-    with pytest.raises(ConfigError, match=r"run\.frame_every is 0\.001, but must be at least 0\.0023"):
+    with pytest.raises(ConfigError, match=r"run\.frame_every is 0\.001, but must be at least 0\.0031"):
         drumrs.Simulation(few.replace({"run.duration": 60.0}))
     room = shutil.disk_usage(tmp_path)._replace(free=10_000_000)
     monkeypatch.setattr("shutil.disk_usage", lambda _: room)
@@ -436,11 +436,37 @@ def test_what_is_thinned_once_is_thin(frames, count, most):
     assert not frames or kept[-1] == frames - 1
 
 
+def test_frames_hold_velocities_and_numbers_of_contacts(tmp_path):
+    """Those of the last frame are what the simulation says then; a bundle in flight is among them."""
+    config = drumrs.baseline(fill=0.3, baffles=True).softer(100.0).replace({"run.duration": 0.4})
+    simulation = drumrs.Simulation(config)
+    simulation.run(steps=10 * round(config.run.frame_every / simulation.time_step))
+    frames, contacts = simulation.frames, simulation.state.contacts
+    assert frames.times[-1] == simulation.time
+    bodies = np.concatenate(
+        [contacts["pairs"]["particle"], contacts["pairs"]["other"], contacts["walls"]["particle"]]
+    )
+    counted = np.bincount(bodies, minlength=frames.count)
+    assert counted.min() == 0
+    assert np.array_equal(frames.contacts[-1], counted)
+    assert np.array_equal(frames.velocities[-1], simulation.velocities.astype(np.float32))
+    assert np.allclose(frames.speeds[-1], np.hypot(*simulation.velocities.T), rtol=1e-6)
+    frames.save(tmp_path / "frames.parquet")
+    assert same_frames(drumrs.Frames.load(tmp_path / "frames.parquet"), frames)
+
+
 def test_sizes_are_those_of_what_is_recorded():
     config = drumrs.baseline(fill=0.1, baffles=True).replace({"drum.walls": [[[0.0, 0.0], [0.05, 0.0]]]})
     simulation = drumrs.Simulation(config)
     rows, frames = simulation.series, simulation.frames
-    arrays = (frames.times, frames.drum_angles, frames.positions, frames.angles, frames.speeds)
+    arrays = (
+        frames.times,
+        frames.drum_angles,
+        frames.positions,
+        frames.angles,
+        frames.velocities,
+        frames.contacts,
+    )
     assert simulation.records.sizes == {
         "run.sample_every": 8 * rows.width * rows.height,
         "run.frame_every": sum(array.nbytes for array in arrays),

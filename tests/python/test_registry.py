@@ -52,10 +52,21 @@ def test_every_column_and_field_is_a_quantity(sweep):
         assert one.meaning
         assert one.reading in registry.READINGS
     # And the other way round: what is listed is somewhere, but for the frames' columns and other drums' parts.
-    # The tables of the published drums and of phases, and what places a case, have tests of their own.
+    # The tables of the published drums and of phases, measures, and what places a case, have tests of their own.
     listed = {name for name in drumrs.quantities()["name"] if not name.startswith("wall_")}
-    listed -= {*registry.PUBLISHED_DRUMS, *registry.FACTS, *registry.PHASES}
-    assert listed - names == {"frame", "bundle", "x", "y", "angle", "speed", "radius", "species"}
+    listed -= {*registry.PUBLISHED_DRUMS, *registry.MEASURES, *registry.FACTS, *registry.PHASES}
+    assert listed - names == {
+        "frame",
+        "bundle",
+        "x",
+        "y",
+        "angle",
+        "velocity_x",
+        "velocity_y",
+        "contacts",
+        "radius",
+        "species",
+    }
 
 
 def test_no_quantity_has_two_names_in_a_row_of_results(sweep):

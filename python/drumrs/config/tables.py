@@ -140,7 +140,9 @@ class Run(ConfigTable):
         [20.0, 30.0],
     )
     sample_every: Positive = key(0.002, "Interval between rows of the series; means are exact for any", "s")
-    frame_every: Positive = key(0.04, "Interval between frames (positions, angles, speeds)", "s")
+    frame_every: Positive = key(
+        0.04, "Interval between frames (positions, angles, velocities, numbers of contacts)", "s"
+    )
     checkpoint_every: Positive = key(60.0, "Interval between checkpoints, in time of the wall clock", "s")
     seed: types.Seed = key(1, "Seed of the random start")
     skin: Skin = key("auto", "Margin of the neighbor lists, which changes the speed, never a result", "m")

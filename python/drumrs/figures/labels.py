@@ -3,7 +3,7 @@
 from drumrs.registry import quantity
 
 TIME = quantity("time").label
-SPEED = f"speed of the bundles [{quantity('speed').unit}]"
+SPEED = f"speed of the bundles [{quantity('velocity_x').unit}]"
 CENTER_OF_MASS = "Center of mass from the axis [mm]"
 ENERGY_STORED = f"Energy stored [{quantity('kinetic_energy').unit}]"
 ENERGY_RESIDUAL = "Energy ledger: relative residual"

@@ -9,7 +9,7 @@ use std::fmt::Debug;
 use super::chunk::Chunk;
 use super::totals::Totals;
 use super::{Bodies, StepInputs};
-use crate::engine::contacts::{ContactRecord, NOT_LISTED};
+use crate::engine::contacts::{ContactRecord, ListKind, NOT_LISTED};
 use crate::engine::motion::verlet::{DriftSums, Verlet, WHOLE};
 use crate::engine::motion::{Arrays, MotionArrays, with_arrays};
 use crate::engine::pair_list::PairList;
@@ -83,6 +83,9 @@ pub trait ForcePass: Debug + Send + Sync {
 
     /// Numbers of contacts: between particles, with the drum.
     fn counts(&self) -> (usize, usize);
+
+    /// Tells of every contact the particles that it is of, each by its place in memory.
+    fn visit_bodies(&self, visit: &mut dyn FnMut(usize));
 
     /// All contacts.
     fn contacts(&self) -> Lists;
@@ -235,6 +238,17 @@ impl<L: ContactLaw> ForcePass for Pass<L> {
         self.chunks.iter().fold((0, 0), |(pairs, walls), chunk| {
             (pairs + chunk.pairs.len(), walls + chunk.rim.len() + chunk.outlines.len())
         })
+    }
+
+    fn visit_bodies(&self, visit: &mut dyn FnMut(usize)) {
+        for list in self.chunks.iter().flat_map(Chunk::lists) {
+            for (particle, other) in (0..list.len()).map(|index| list.key(index)) {
+                visit(particle as usize);
+                if list.kind != ListKind::Walls {
+                    visit(other as usize);
+                }
+            }
+        }
     }
 
     fn contacts(&self) -> Lists {

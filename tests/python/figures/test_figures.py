@@ -111,12 +111,12 @@ def test_frames_survive_a_file(tmp_path):
     frames = SCENES["baffles"]
     frames.save(tmp_path / "frames.parquet")
     again = Frames.load(tmp_path / "frames.parquet")
-    for name in ("times", "drum_angles", "positions", "angles", "speeds", "radii"):
+    for name in ("times", "drum_angles", "positions", "angles", "velocities", "contacts", "radii"):
         assert np.array_equal(getattr(again, name), getattr(frames, name)), name
     assert again.drum_radius == frames.drum_radius
     assert np.array_equal(again.baffles[0], TRIANGLE)
     units = pl.read_parquet_metadata(tmp_path / "frames.parquet")["units"]
-    assert '"speed": "m/s"' in units
+    assert '"velocity_x": "m/s"' in units
 
 
 def test_labels_are_kept_apart():

@@ -28,7 +28,8 @@ def frames_of(count: int = 5, frames: int = 4, **scene) -> Frames:
         drum_angles=3.0 * times,
         positions=random.uniform(-0.2, 0.2, (frames, count, 2)).astype(np.float32),
         angles=random.uniform(-math.pi, math.pi, (frames, count)).astype(np.float32),
-        speeds=random.uniform(0.0, 2.0, (frames, count)).astype(np.float32),
+        velocities=random.uniform(-2.0, 2.0, (frames, count, 2)).astype(np.float32),
+        contacts=np.zeros((frames, count), np.uint16),
         radii=np.linspace(0.01, 0.02, count),
         **scene,
     )
@@ -72,7 +73,7 @@ def test_too_many_frames_are_thinned_evenly_and_the_end_stays(monkeypatch):
 
 def test_a_load_at_rest_has_a_scale():
     frames = frames_of(drum_radius=0.3)
-    still = Frames(**{**vars(frames), "speeds": np.zeros_like(frames.speeds)})
+    still = Frames(**{**vars(frames), "velocities": np.zeros_like(frames.velocities)})
     assert pack(still, None, "", None)["speed_scale"] == 1.0
 
 

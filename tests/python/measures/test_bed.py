@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import drumrs
-from drumrs.analysis import bulk_fill
 from drumrs.frames import Frames
+from drumrs.measures import bulk_fill
 
 RADIUS = 0.5
 
@@ -24,7 +24,8 @@ def segment(half_angle, slope):
         drum_angles=np.zeros(1),
         positions=points[np.newaxis],
         angles=np.zeros((1, len(points))),
-        speeds=np.zeros((1, len(points))),
+        velocities=np.zeros((1, len(points), 2)),
+        contacts=np.zeros((1, len(points)), np.uint16),
         radii=np.full(len(points), 1e-3),
         drum_radius=RADIUS,
     )
