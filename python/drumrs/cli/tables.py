@@ -57,9 +57,12 @@ def print_species(species: "pl.DataFrame") -> None:
     mass, energy = pl.col("load_mass"), pl.col("kinetic_translation")
     # A load at rest has nothing to share.
     share = pl.when(energy.sum() > 0.0).then(energy / energy.sum()).otherwise(0.0)
-    rows = species.select(
-        "species", "bundle_count", mass, mass / mass.sum() * 100.0, energy / mass, share * 100.0
-    )
+    shares = {
+        "mass_share": 100.0 * mass / mass.sum(),
+        "specific": energy / mass,
+        "energy_share": 100.0 * share,
+    }
+    rows = species.select("species", "bundle_count", "load_mass", **shares)
     table = Table(box=None, highlight=False)
     for label in ("species", "bundles", "mass [kg/m]", "[%]", "kinetic energy [J/kg]", "[%]"):
         table.add_column(escape(label), justify="left" if label == "species" else "right")
