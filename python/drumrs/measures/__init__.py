@@ -1,6 +1,6 @@
 """What designers of rotating drums measure: pure functions on frames and tables, in short modules by family.
 
-- the load as a whole: `motion`, `depth`, `bed`
+- the load as a whole: `motion`, `depth`, `bed`, `species`
 - shape of the charge: `shape`, `surface`, `toe`
 - mixing and segregation: `colors`, `cells`, `segregation`, `rate`, `neighbors`
 - fields, and the flowing layer: `coarse_graining`, `profile`
@@ -44,6 +44,7 @@ from drumrs.measures.segregation import (
 )
 from drumrs.measures.shape import Occupancy, charge, occupancy
 from drumrs.measures.signals import frequency_spectrum, peak_factor
+from drumrs.measures.species import by_species
 from drumrs.measures.spectra import collision_spectrum, enduring, impacts, sum_rule
 from drumrs.measures.surface import FreeSurface, free_surface
 from drumrs.measures.walls import finnie_f, wear, worn_outline
@@ -62,6 +63,7 @@ __all__ = [
     "Suspension",
     "along_the_rim",
     "bulk_fill",
+    "by_species",
     "carried_round",
     "cell_side",
     "center_of_circulation",
