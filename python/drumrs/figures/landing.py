@@ -1,7 +1,7 @@
 """Where falling discs land: a rose of the energy of landings, by angle."""
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
@@ -10,6 +10,7 @@ from drumrs.figures.shared import drumrs_style, line_colors, new_figure
 if TYPE_CHECKING:
     import polars as pl
     from matplotlib.figure import Figure
+    from matplotlib.projections.polar import PolarAxes
 
     from drumrs.figures.shared import Array
 
@@ -60,7 +61,7 @@ def landing_rose(flights: "pl.DataFrame", masses: "Array") -> "Figure":
     edges = np.linspace(0.0, 2.0 * math.pi, _SECTORS + 1)
     with drumrs_style():
         figure = new_figure(4.6, 4.2)
-        axes = figure.add_subplot(projection="polar")
+        axes = cast("PolarAxes", figure.add_subplot(projection="polar"))
         below = np.zeros(_SECTORS)
         for (onto, hatch), color in zip(_ONTO.items(), line_colors(), strict=False):
             chosen = (falls["onto"] == onto).to_numpy()

@@ -63,7 +63,7 @@ def wall_profile(profile: "pl.DataFrame", column: str, label: str) -> "Figure":
         outline, along = figure.subplots(1, 2, width_ratios=(1.0, 1.15))
         values = profile[column].to_numpy()
         norm = Normalize(0.0, float(np.quantile(values, _TYPICAL)) or float(values.max()) or 1.0)
-        lines = LineCollection(_bins(profile), array=values, cmap="viridis", norm=norm, linewidths=5.0)
+        lines = LineCollection(list(_bins(profile)), array=values, cmap="viridis", norm=norm, linewidths=5.0)
         lines.set_capstyle("butt")
         outline.add_collection(lines)
         outline.set(aspect="equal", xlabel="x in the drum’s frame [m]", ylabel="y in the drum’s frame [m]")
