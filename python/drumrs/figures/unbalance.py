@@ -48,7 +48,8 @@ def unbalance_histogram(unbalances: ArrayLike, *, limit: float | None = None, of
         share = np.full(values.size, 100.0 / values.size)
         axes.hist(values, bins=30, range=(0.0, reach), weights=share, color=line_colors()[0])
         marks = {name: float(np.quantile(values, share)) for name, share in _MARKS.items()}
-        top = axes.get_ylim()[1]
+        top = 1.18 * axes.get_ylim()[1]
+        axes.set_ylim(top=top)
         for row, (name, at) in enumerate({**marks, **({} if limit is None else {"limit": limit})}.items()):
             axes.axvline(at, color=INK, linewidth=1.0, linestyle="-" if name == "limit" else "--")
             place = (at, top * (1.0 - 0.08 * row))

@@ -65,12 +65,13 @@ _MIXING = Section("mixing", "Mixing", laundry.mixing)
 PAGES = {
     "washer": Page(
         "How the washer handles its load",
-        "How often does the load fall, how hard is it knocked and rubbed, does it slip, how far is it off balance?",
+        "How often does the load fall, how hard is it knocked and rubbed, does it slip, and how far off balance is "
+        "it?",
         (_POWER, _HANDLING, _FLIGHT, _GOING, _BALANCE, _PHASES, _MOTION, _DISCS, _LEDGER),
         (
             "There is no water but what the load holds: no suds, no level, no drag.",
-            "Articles do not tear, fold or tangle: a bundle is a round piece of fabric that keeps its size. What is said "
-            "here is mechanical action, never cleaning.",
+            "Articles do not tear, fold or tangle: a bundle is a round piece of fabric that keeps its size. What is "
+            "said here is mechanical action, never cleaning.",
             "A plane knows unbalance of forces only: the couple of two unbalances, front and rear, is beyond it.",
         ),
     ),

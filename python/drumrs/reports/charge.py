@@ -46,14 +46,14 @@ def flow(of: "Material") -> "Iterator[Block]":
 def layer(of: "Material") -> "Iterator[Block]":
     """Write how thick and fast the layer is that flows down the bed."""
     yield measured(
-        measures.flowing_layer(of.frames, of.window),
+        measures.flowing_layer(of.frames, of.span),
         "On the line through the axis normal to the bed’s surface. They mean little for a load that is thrown.",
     )
 
 
 def regime(of: "Material") -> "Iterator[Block]":
     """Write the regime, and the numbers that decide."""
-    found = measures.regime(of.frames, of.window, gravity=of.gravity)
+    found = measures.regime(of.frames, of.span, gravity=of.gravity)
     yield f"The load is {found.name}, by the first of the limits in docs/measures/regimes.md that holds."
     numbers = [
         (name.replace("_", " "), value(one)) for name, one in asdict(found).items() if isinstance(one, float)
@@ -65,7 +65,7 @@ def flight(of: "Material") -> "Iterator[Block]":
     """Write how much of the load flies and falls, and where it lands."""
     from drumrs import figures
 
-    yield measured(measures.flight(of.frames, of.window, of.masses, of.gravity))
+    yield measured(measures.flight(of.frames, of.span, of.masses, of.gravity))
     falls = of.flights.filter("is_fall")
     if falls.is_empty():
         yield "No disc falls in the window."
@@ -84,7 +84,7 @@ def flight(of: "Material") -> "Iterator[Block]":
 def circulation(of: "Material") -> "Iterator[Block]":
     """Write how often discs go round."""
     center = measures.center_of_circulation(of.fields)
-    rounds = measures.circulation(of.frames, of.window, center)
+    rounds = measures.circulation(of.frames, of.span, center)
     yield measured(
         {"circulation": rounds},
         f"The center of circulation lies at x = {center[0]:.3g} m, y = {center[1]:.3g} m. Visits to a zone, such as "

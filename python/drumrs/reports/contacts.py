@@ -3,8 +3,6 @@
 import math
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from drumrs import measures
 from drumrs.measures.recorded import required
 from drumrs.reports.content import Picture, Table, value
@@ -12,8 +10,10 @@ from drumrs.reports.content import Picture, Table, value
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    import numpy as np
     import polars as pl
     from matplotlib.figure import Figure
+    from numpy.typing import NDArray
 
     from drumrs.reports.content import Block
     from drumrs.reports.material import Material
@@ -67,6 +67,13 @@ def collisions(of: "Material") -> "Iterator[Block]":
     )
 
 
+def _kind(column: str) -> "pl.Expr":
+    """Return what kind of part a column names: its parts of a drum without their numbers."""
+    import polars as pl
+
+    return pl.col(column).cast(pl.String).str.replace(r" \d+$", "").alias("kind")
+
+
 def _half(spectrum: "pl.DataFrame") -> float | None:
     """Return the energy above which half of the power is taken, at the edge of a bin."""
     above = spectrum.filter(spectrum["share_above"] >= 0.5)  # noqa: PLR2004 - half
@@ -81,10 +88,9 @@ def wear(of: "Material") -> "Iterator[Block]":
 
     profile = required(of.result.wall_profile, "wall_profile", "wear along the outline")
     worn = {law: measures.wear(profile, law, turns=max(of.turns, 1e-9)) for law in _WEAR}
-    kind = pl.col("part").cast(pl.String).str.replace(r" \d+$", "").alias("kind")
     length = (pl.col("arc_end") - pl.col("arc_start")).sum()
     tables = {
-        law: rows.group_by(kind, maintain_order=True).agg(
+        law: rows.group_by(_kind("part"), maintain_order=True).agg(
             volume=pl.col("wear_volume").sum(), length=length, greatest=pl.col("relative_wear").max()
         )
         for law, rows in worn.items()
@@ -123,12 +129,17 @@ def wear(of: "Material") -> "Iterator[Block]":
 
 def split(of: "Material") -> "Iterator[Block]":
     """Write which pairs of species and parts take the energy."""
+    import polars as pl
+
     table = required(of.result.ledger_split, "ledger_split", "who takes the energy")
     columns = [name for name in table.columns if name.startswith("dissipated_")]
     whole = math.fsum(float(table[name].sum()) for name in columns) or 1.0
+    bodies = (pl.col("body"), _kind("other"))
     rows = [
-        (f"{row['body']} – {row['other']}", *(f"{100.0 * row[name] / whole:.2f}" for name in columns))
-        for row in table.iter_rows(named=True)
+        (f"{row['body']} – {row['kind']}", *(f"{100.0 * row[name] / whole:.2f}" for name in columns))
+        for row in table.group_by(*bodies, maintain_order=True)
+        .agg(pl.col(columns).sum())
+        .iter_rows(named=True)
         if any(row[name] for name in columns)
     ]
     heads = [name.removeprefix("dissipated_") for name in columns]
@@ -150,7 +161,7 @@ def discs(of: "Material") -> "Iterator[Block]":
             str(name),
             str(own.height),
             *(
-                f"{value(_mean(own, column))}, {value(_spread(own, column))}"
+                _with_spread(own[column].to_numpy())
                 for column in ("power", "falls", "drum_landings", "load_landings", "aloft")
             ),
         )
@@ -160,17 +171,13 @@ def discs(of: "Material") -> "Iterator[Block]":
     yield Table(
         ("species", "discs", *heads),
         rows,
-        "Mean over discs, then their standard deviation over it: what a disc differs from the others. From t = 0 on.",
+        "Mean over discs, and their standard deviation over it: how much they differ. From t = 0 on.",
     )
 
 
-def _mean(table: "pl.DataFrame", column: str) -> float:
-    return float(np.mean(table[column].to_numpy()))
-
-
-def _spread(table: "pl.DataFrame", column: str) -> float | None:
-    mean = _mean(table, column)
-    return float(np.std(table[column].to_numpy())) / mean if mean else None
+def _with_spread(values: "NDArray[np.number]") -> str:
+    mean = float(values.mean())
+    return f"{value(mean)} ± {100.0 * float(values.std()) / mean:.0f} %" if mean else "0"
 
 
 def handling(of: "Material") -> "Iterator[Block]":

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 
 # Greatest and smallest magnitude that is written without a power of ten.
 _PLAIN = (1e-3, 1e5)
+_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 @dataclass(frozen=True)
@@ -76,9 +77,7 @@ class Section:
 
 def measured(found: "Mapping[str, Mean | None]", caption: str = "") -> Table:
     """Return means by name of the registry as a table, with errors, units and meanings; angles are in degrees."""
-    return Table(
-        ("", "mean ± standard error", "what it is"), [_row(*item) for item in found.items()], caption, False
-    )
+    return Table(("", "mean ± error", "what it is"), [_row(*item) for item in found.items()], caption, False)
 
 
 def _row(name: str, mean: "Mean | None") -> Sequence[str]:
@@ -97,14 +96,13 @@ def value(number: float | None, error: float | None = None) -> str:
     --------
     >>> from drumrs.reports.content import value
     >>> value(12.345, 0.21), value(3.2e-7), value(0.5, 0.0), value(123456.0, 3200.0)
-    ('12.35 ± 0.21', '3.2e-07', '0.5', '(1.235 ± 0.032)e+05')
+    ('12.35 ± 0.21', '3.2·10⁻⁷', '0.5', '(1.235 ± 0.032)·10⁵')
     """
     if number is None or not math.isfinite(number):
         return "–"
     size = abs(number)
     if size == 0.0 or _PLAIN[0] <= size < _PLAIN[1]:
-        return with_error(number, error)
-    if not error or not math.isfinite(error):
-        return f"{number:.4g}"
+        return with_error(number, error).replace("-", "−")
     power = math.floor(math.log10(size))
-    return f"({with_error(number / 10.0**power, error / 10.0**power)})e{power:+03d}"
+    mantissa = with_error(number / 10.0**power, error and error / 10.0**power)
+    return f"{f'({mantissa})' if error else mantissa}·10{str(power).translate(_RAISED)}".replace("-", "−")

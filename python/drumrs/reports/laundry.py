@@ -17,9 +17,7 @@ if TYPE_CHECKING:
 
     from matplotlib.figure import Figure
 
-    from drumrs.measures.airborne import in_flight
-from drumrs.measures.frame_window import within
-from drumrs.reports.content import Block
+    from drumrs.reports.content import Block
     from drumrs.reports.material import Material
 
 # Frames that are plenty for a curve, and for a mean of what takes long.
@@ -30,16 +28,16 @@ def going_along(of: "Material") -> "Iterator[Block]":
     """Write how the load goes with the drum: slip, riding along the rim, carried over the top."""
     yield measured(
         {
-            "wall_slip": measures.wall_slip(of.frames, of.window),
-            "along_the_rim": measures.along_the_rim(of.frames, of.window),
-            "carried_round": measures.carried_round(of.frames, of.window),
+            "wall_slip": measures.wall_slip(of.frames, of.span),
+            "along_the_rim": measures.along_the_rim(of.frames, of.span),
+            "carried_round": measures.carried_round(of.frames, of.span),
         }
     )
 
 
 def opening(of: "Material") -> "Iterator[Block]":
     """Write how far the load opens to the air."""
-    seen = within(of.frames, of.window)
+    seen = within(of.frames, of.span)
     radii, reach = seen.radii, seen.reach or of.config.drum.diameter / 2.0
     few = seen.picked(_every(len(seen), _SNAPSHOTS))
     interval = float(np.diff(few.times).mean())
@@ -50,8 +48,12 @@ def opening(of: "Material") -> "Iterator[Block]":
     ]
     yield measured(
         {
-            "openness": mean_with_error([measures.openness(each, radii, reach / 2.0) for each in few.positions], interval),
-            "shape_factor": mean_with_error([measures.shape_factor(each, radii) for each in few.positions], interval),
+            "openness": mean_with_error(
+                [measures.openness(places, radii, reach / 2.0) for places in few.positions], interval
+            ),
+            "shape_factor": mean_with_error(
+                [measures.shape_factor(places, radii) for places in few.positions], interval
+            ),
             "curtain": mean_with_error(curtains, float(np.diff(seen.times).mean())),
         },
         "Air goes where the way is free. There is no air in the model, neither its drag nor its heat.",
@@ -62,7 +64,7 @@ def balance(of: "Material") -> "Iterator[Block]":
     """Write how far off balance the load is."""
     from drumrs import figures
 
-    found = measures.unbalance(of.frames, of.window, of.masses)
+    found = measures.unbalance(of.frames, of.span, of.masses)
     speed = of.config.derived.angular_velocity
     force = found["turning_unbalance"].value * speed**2 if speed else None
     note = "" if force is None else f" Bearings feel {force:.3g} N/m of it that turns with the drum."
@@ -71,7 +73,7 @@ def balance(of: "Material") -> "Iterator[Block]":
         f"Over the drum’s radius, {of.config.drum.diameter / 2.0:.3g} m, and times its depth it is the mass at the "
         f"rim, as the trade has it.{note} To judge a distribution, run many seeds: it is a matter of chance.",
     )
-    lengths = np.hypot(*measures.unbalance_vectors(of.frames, of.window, of.masses).T)
+    lengths = np.hypot(*measures.unbalance_vectors(of.frames, of.span, of.masses).T)
 
     def draw() -> "Figure":
         return figures.unbalance_histogram(lengths)
@@ -88,7 +90,7 @@ def mixing(of: "Material") -> "Iterator[Block]":
     few = of.frames.picked(_every(len(of.frames), _POINTS))
     species = sorted(set(few.species))
     colorings = [*measures.COLORINGS, *(species[:1] if len(species) > 1 else [])]
-    curves = {by: measures.mixing_curve(few, of.window, by) for by in colorings}
+    curves = {by: measures.mixing_curve(few, of.span, by) for by in colorings}
     fits = {}
     for by, (turns, index) in curves.items():
         try:

@@ -3,6 +3,7 @@
 import math
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -53,6 +54,24 @@ class Material:
         """Start and end of the averages [s]."""
         return self.config.run.averaging_window
 
+    @cached_property
+    def span(self) -> tuple[float, float]:
+        """Start and end of the time in which motion is measured [s].
+
+        The window; where the drum's speed changes, the longest stretch at one speed instead, if there is any, the last
+        of several: a mean over ways to and fro would be of neither.
+        """
+        if self.config.derived.angular_velocity is not None:
+            return self.window
+        knots = self.config.rotation.knots
+        last = (float(self.result.series["time"][-1]), knots[-1][1])
+        stretches = [
+            (start, min(end, last[0]))
+            for (start, speed), (end, other) in pairwise((*knots, last))
+            if speed == other and speed
+        ]
+        return max(reversed(stretches), key=lambda each: each[1] - each[0], default=self.window)
+
     @property
     def duration(self) -> float:
         """Time that was run [s], over which contacts are recorded."""
@@ -81,18 +100,18 @@ class Material:
 
     @cached_property
     def flights(self) -> "pl.DataFrame":
-        """Flights in the window."""
-        return measures.flights(self.frames, self.window, self.gravity)
+        """Flights within the span."""
+        return measures.flights(self.frames, self.span, self.gravity)
 
     @cached_property
     def charge(self) -> "dict[str, Mean]":
         """The shape of the charge."""
-        return measures.charge(self.frames, self.window)
+        return measures.charge(self.frames, self.span)
 
     @cached_property
     def fields(self) -> "Fields":
         """Fields of density and velocity."""
-        return measures.fields(self.frames, self.window, self.masses)
+        return measures.fields(self.frames, self.span, self.masses)
 
     def require_speed(self) -> float:
         """Return the drum's angular velocity [rad/s] without its sign, where it is one and not zero.

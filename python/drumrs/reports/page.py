@@ -90,6 +90,7 @@ def render(result: "Result", page: str) -> str:
         run=player.title,
         facts=player.facts,
         window=material.window,
+        span=material.span,
         duration=material.duration,
         sections=made,
         player=player.element(start=material.window[0]),

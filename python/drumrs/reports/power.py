@@ -3,11 +3,14 @@
 import math
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from drumrs.analysis import Mean, phases
 from drumrs.config.load import SOLID_FRACTION
 from drumrs.energies import powers_to_show
 from drumrs.errors import ConfigError
-from drumrs.measures import flight, morrell, unbalance
+from drumrs.measures import flight, morrell, unbalance, wall_slip
+from drumrs.measures.frame_window import within
 from drumrs.registry import quantity
 from drumrs.reports.content import Picture, Table, measured, value
 
@@ -16,6 +19,7 @@ if TYPE_CHECKING:
 
     from matplotlib.figure import Figure
 
+    from drumrs.frames import Frames
     from drumrs.reports.content import Block
     from drumrs.reports.material import Material
 
@@ -89,7 +93,6 @@ def by_phase(of: "Material") -> "Iterator[Block]":
         span = (row["start"], row["end"])
         rubbing = [row.get(f"dissipated_{kind}_power") for kind in ("sliding", "tangential")]
         knocking = row.get("dissipated_normal_power")
-        flies, off = _in_phase(of, span)
         rows.append(
             (
                 f"{row['phase']} {row['number']}",
@@ -97,30 +100,34 @@ def by_phase(of: "Material") -> "Iterator[Block]":
                 value(row.get("drum_specific_power"), row.get("drum_specific_power_error")),
                 value(None if knocking is None else knocking / of.mass),
                 value(None if rubbing[0] is None else sum(one or 0.0 for one in rubbing) / of.mass),
-                *flies,
-                off,
+                *_in_phase(of, span),
             )
         )
-    head = ("phase", "time [s]", "power [W/kg]", "knocking [W/kg]", "rubbing [W/kg]", "in flight [%]")
+    head = ("phase", "time [s]", "power [W/kg]", "knocking [W/kg]", "rubbing [W/kg]", "share in flight")
     more = f" The first {_MOST_PHASES} of {table.height} phases." if table.height > _MOST_PHASES else ""
     yield Table(
-        (*head, "falls in a turn", "unbalance [kg]"),
+        (*head, "falls in a turn", "slip", "unbalance [kg]"),
         rows,
         "Knocking is what normal damping takes, rubbing what sliding and tangential damping take. Unbalance: mean of "
         f"|U| [kg m per m of depth].{more}",
     )
 
 
-def _in_phase(of: "Material", span: tuple[float, float]) -> tuple[tuple[str, str], str]:
-    """Return share in flight [%], falls in a turn, and unbalance in a phase; dashes where it holds too few frames."""
+def _in_phase(of: "Material", span: tuple[float, float]) -> tuple[str, ...]:
+    """Return share in flight, falls in a turn, slip and unbalance in a phase; dashes where it holds too few frames."""
     try:
         found = flight(of.frames, span, of.masses, of.gravity)
-        off = unbalance(of.frames, span, of.masses)["unbalance"]
+        found |= {"slip": wall_slip(of.frames, span) if _turns(of.frames, span) else None}
+        found |= unbalance(of.frames, span, of.masses)
     except ConfigError:
-        return ("–", "–"), "–"
-    share, falls = found["share_in_flight"], found["falls_per_turn"]
-    flying = "–" if share is None else value(100.0 * share.value, share.error and 100.0 * share.error)
-    return (flying, "–" if falls is None else value(falls.value, falls.error)), value(off.value, off.error)
+        return ("–",) * 4
+    shown = (found[name] for name in ("share_in_flight", "falls_per_turn", "slip", "unbalance"))
+    return tuple("–" if mean is None else value(mean.value, mean.error) for mean in shown)
+
+
+def _turns(frames: "Frames", span: tuple[float, float]) -> bool:
+    """Tell whether the drum turns between any two frames of a time."""
+    return bool(np.diff(within(frames, span).drum_angles).all())
 
 
 def ledger(of: "Material") -> "Iterator[Block]":
