@@ -13,6 +13,15 @@ export function formatNumber(value) {
   return value.toFixed(digits).replace("-", "−");
 }
 
+// A round number at an axis: as short as it can be, with a power of ten where it is very small or large.
+export function formatTick(value) {
+  const size = Math.abs(value);
+  const exponent = Math.floor(Math.log10(size));
+  const isPlain = size === 0 || (size >= 0.001 && size < 1e5);
+  const told = isPlain ? `${value}` : `${Number((value / 10 ** exponent).toPrecision(3))}·${powerOfTen(10 ** exponent)}`;
+  return told.replace("-", "−");
+}
+
 // A power of ten with its exponent raised.
 export function powerOfTen(value) {
   const exponent = Math.round(Math.log10(value));

@@ -4,10 +4,12 @@ import base64
 import io
 import math
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+import drumrs
 from drumrs.viewer import Player, module, script
 from shown import RADIUS, scene
 from synthetic import series_of
@@ -319,3 +321,12 @@ def _middle_row(png: bytes) -> np.ndarray:
 
     pixels = image.imread(io.BytesIO(png))
     return 255 * pixels[len(pixels) // 2, :, :3]
+
+
+def test_numbers_at_axes_are_short(browser):
+    script = Path(drumrs.__file__).with_name("viewer").joinpath("format.js").read_text().replace("export ", "")
+    values = "[0, 250, 0.5, -20000, 100000, 2500000, -500000, 0.0002]"
+    page = browser.new_page()
+    told = page.evaluate(f"() => {{ {script} return {values}.map(formatTick); }}")
+    page.close()
+    assert told == ["0", "250", "0.5", "−20000", "1·10⁵", "2.5·10⁶", "−5·10⁵", "2·10⁻⁴"]
