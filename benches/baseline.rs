@@ -1,5 +1,6 @@
-//! The loads for `instructions.sh`, which counts what a step costs: `settle FILE COUNT BAFFLES` makes one in the tumble, of which
-//! with `recorded` all is recorded that can be; `run FILE STEPS` goes on with it.
+//! The loads for `instructions.sh`, which counts what a step costs: `settle FILE COUNT BAFFLES RATIO` makes one in the tumble,
+//! whose largest bundles are RATIO times as wide as the smallest, and prints its contacts per bundle; with `recorded` after
+//! it, all is recorded that can be; `run FILE STEPS` goes on with it.
 
 mod scenes;
 
@@ -18,9 +19,12 @@ fn main() {
     let arguments: Vec<String> = std::env::args().collect();
     let words: Vec<&str> = arguments[1..].iter().map(String::as_str).collect();
     match words[..] {
-        ["settle", file, count, baffles, ref more @ ..] => {
+        ["settle", file, count, baffles, ratio, ref more @ ..] => {
             let record = if more == ["recorded"] { scenes::ALL_RECORDS } else { &[] };
-            let mut simulation = scenes::started_with(number(count), number(baffles), record);
+            let mut simulation = match number(ratio) {
+                1 => scenes::started_with(number(count), number(baffles), record),
+                ratio => scenes::mixed(number(count), ratio as f64),
+            };
             let steps = match number(count) {
                 0..=300 => (SETTLING / simulation.time_step()).round() as u64,
                 _ => LARGE_STEPS,
@@ -28,12 +32,14 @@ fn main() {
             simulation.run(steps).expect("a stable run");
             let bytes = simulation.to_checkpoint().expect("a stable load");
             std::fs::write(file, bytes).expect("a file to write");
+            let (pairs, walls) = simulation.contacts().counts();
+            println!("{:.2}", (pairs + walls) as f64 / number(count) as f64);
         }
         ["run", file, steps] => {
             let bytes = std::fs::read(file).expect("a file to read");
             let mut simulation = Simulation::from_checkpoint(&bytes, 1).expect("a settled load");
             simulation.run(number(steps) as u64).expect("a stable run");
         }
-        _ => panic!("settle FILE COUNT BAFFLES [recorded], or run FILE STEPS"),
+        _ => panic!("settle FILE COUNT BAFFLES RATIO [recorded], or run FILE STEPS"),
     }
 }

@@ -8,6 +8,9 @@ pub mod common;
 use drumrs::io::config::SimulationConfig;
 use drumrs::observe::recorder::Recording;
 use drumrs::physics::drum::Drum;
+use drumrs::physics::load::composition::SpeciesParameters;
+use drumrs::physics::load::shares::Measure;
+use drumrs::physics::load::sizes::SizeLaw;
 use drumrs::physics::vector::{Vec2, perpendicular};
 use drumrs::simulation::Simulation;
 use drumrs::simulation::initial_state::InitialState;
@@ -52,6 +55,18 @@ pub fn started_with(count: usize, baffle_count: usize, record: &[Recording]) -> 
     } else {
         Simulation::new(config, 1, 1).expect("a load that fits")
     }
+}
+
+/// A load before its first step, of which the largest bundles are `ratio` times as wide as the smallest, with as much mass of
+/// any size as of any other. Number and mass are those of equal bundles.
+pub fn mixed(count: usize, ratio: f64) -> Simulation {
+    let mut config = drum_for(count, 0);
+    let smallest = config.load.diameter / ratio.sqrt();
+    let diameters = vec![smallest, smallest * ratio];
+    let sizes = SizeLaw::Table { by: Measure::Mass, diameters, passing: vec![0.0, 1.0] };
+    config.load.species = vec![SpeciesParameters { share: 1.0, density: config.load.density, sizes }];
+    config.run.time_step = None;
+    Simulation::new(config, 1, 1).expect("a load that fits")
 }
 
 /// A load in the tumble.

@@ -230,13 +230,13 @@ class FramesFile:
         Raises
         ------
         ConfigError
-            Where another version of drumrs wrote it, whose columns have other names.
+            Where another version of drumrs wrote it, which had other columns.
         """
         import polars as pl
 
         table = pl.scan_parquet(source)
-        named = Path("frames.parquet") if isinstance(source, io.BytesIO) else Path(source)
-        require(named, table.collect_schema(), COLUMNS[:-1])
+        path = Path("frames.parquet") if isinstance(source, io.BytesIO) else Path(source)
+        require(path, table.collect_schema().names(), (name for name in COLUMNS if name != "species"))
         return cls(table, json.loads(pl.read_parquet_metadata(source)["scene"]))
 
     def __len__(self) -> int:

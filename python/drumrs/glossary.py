@@ -20,6 +20,7 @@ _PLACES = {
     "table": "the table of a sweep, `table.parquet`, beyond the summaries: one row for each run",
     "study": "the table of `drumrs reproduce` beyond that of a sweep; all but the first with `…_error`",
     "drums": "the table of `drumrs validate`, not in that of a sweep; all but the first with `…_error`",
+    "measures": "what `drumrs.measures` returns by name, each with its error, not in tables",
     "frames": "`frames.parquet`: one row for each frame and bundle",
     "facts": "`Config.derived`, and in part on the first line of a run and below the title of a player",
     "phases": "`drumrs.phases(result)`, `phases.parquet`, beside the name and means as above: one row for each phase",
@@ -87,7 +88,7 @@ def quantities() -> QuantityTable:
 
     Columns are ``name``, ``unit``, ``reading``, ``symbol``, ``formula``, ``meaning``, as `drumrs.quantity` has them,
     and ``found_in``: series, summary, table (of a sweep), study (of the paper), drums (that were
-    published), frames, facts (of a case), phases (of a program). Baffles, walls and the parts that
+    published), measures, frames, facts (of a case), phases (of a program). Baffles, walls and the parts that
     a liner names are numbered from 1; only the first baffle and wall are listed.
 
     Examples
@@ -112,12 +113,13 @@ def _places() -> Mapping[str, Sequence[str]]:
     series = [column.name for column in registry.recorded(record=registry.RECORDINGS)]
     summary = [field.name for field in fields(Summary)]
     table = [one.name for one in registry.known(schema()) if one.name not in summary]
-    drums = registry.PUBLISHED_DRUMS
+    drums, measures = registry.PUBLISHED_DRUMS, registry.MEASURES
     facts, phases = registry.FACTS, registry.PHASES
-    placed = {*series, *summary, *table, *drums, *COLUMNS, *facts, *phases}
+    placed = {*series, *summary, *table, *drums, *measures, *COLUMNS, *facts, *phases}
     study = [name for name in registry.declared() if name not in placed]
-    places = {"series": series, "summary": summary, "table": table, "study": study}
-    return {**places, "drums": drums, "frames": COLUMNS, "facts": facts, "phases": phases}
+    places: dict[str, Sequence[str]] = {"series": series, "summary": summary, "table": table, "study": study}
+    places |= {"drums": drums, "measures": measures, "frames": COLUMNS}
+    return {**places, "facts": facts, "phases": phases}
 
 
 def page() -> str:

@@ -163,7 +163,7 @@ def declared() -> Mapping[str, Quantity]:
 
 @cache
 def _declared() -> Mapping[str, Quantity]:
-    rows = (*recorded(record=RECORDINGS), *_ROWS, *_PUBLISHED_DRUMS, *_FACTS, *_PHASES)
+    rows = (*recorded(record=RECORDINGS), *_ROWS, *_PUBLISHED_DRUMS, *_MEASURES, *_FACTS, *_PHASES)
     return MappingProxyType({row.name: row for row in rows})
 
 
@@ -389,6 +389,81 @@ _PUBLISHED_DRUMS = (
     _made("shoulder_angle", "rad", "mean", "angle of the upper end of the charge at a mill's shell"),
 )
 PUBLISHED_DRUMS = tuple(row.name for row in _PUBLISHED_DRUMS)
+
+# What `drumrs.measures` returns by name, beyond that.
+_MEASURES = (
+    # charge
+    _made(
+        "center_slope",
+        "rad",
+        "mean",
+        "slope of the bed by its center of mass",
+        symbol="α",
+        formula="atan2(x, −y)",
+    ),
+    _made(
+        "s_shape",
+        "1",
+        "mean",
+        "greatest distance of the bed's surface from its chord, over the chord",
+        symbol="κ",
+    ),
+    _made("filling", "1", "mean", "area between rim and surface of the bed, over the drum's", symbol="J"),
+    _made(
+        "arm",
+        "1",
+        "mean",
+        "arm of the load's weight about the axis, over the drum's radius, positive on the rising side",
+        formula="x/R",
+    ),
+    # unbalance
+    _made(
+        "unbalance",
+        "kg",
+        "mean",
+        "length of the load's first moment of mass about the axis [kg m per m]",
+        symbol="|U|",
+        formula="|Σ m r|",
+    ),
+    _made(
+        "turning_unbalance",
+        "kg",
+        "mean",
+        "length of the mean of that moment in the frame of the drum: what turns with it",
+        symbol="|⟨U⟩|",
+    ),
+    _made("eccentricity", "m", "mean", "unbalance over the mass of the load", symbol="ε", formula="|U|/M"),
+    # motion
+    _made(
+        "circulation",
+        "1",
+        "mean",
+        "how often a disc goes round the center of circulation in a turn of the drum",
+    ),
+    # flight
+    _made(
+        "share_in_flight",
+        "1",
+        "mean",
+        "share of mass and time without contact for longer than ½ √(2 d/g)",
+    ),
+    _made("falls_per_turn", "1", "mean", "falls of a disc in a turn of the drum"),
+    _made("mean_drop", "m", "ratio", "height from take-off to landing, mean over falls"),
+    _made(
+        "landing_on_drum",
+        "1",
+        "ratio",
+        "share of the energy of landing falls that meets the drum, not the load",
+    ),
+    _made("head_height", "m", "mean", "height above the axis that 99 % of the flying mass stays below"),
+    _made(
+        "impact_toe_angle",
+        "rad",
+        "mean",
+        "angle that 5 % of the energy of landing falls lies beyond, as seen from the top",
+    ),
+)
+MEASURES = tuple(row.name for row in _MEASURES)
 
 # What places a case among others.
 _FACTS = (

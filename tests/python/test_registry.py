@@ -52,9 +52,9 @@ def test_every_column_and_field_is_a_quantity(sweep):
         assert one.meaning
         assert one.reading in registry.READINGS
     # And the other way round: what is listed is somewhere, but for the frames' columns and other drums' parts.
-    # The tables of the published drums and of phases, and what places a case, have tests of their own.
+    # The tables of the published drums and of phases, measures, and what places a case, have tests of their own.
     listed = {name for name in drumrs.quantities()["name"] if not name.startswith("wall_")}
-    listed -= {*registry.PUBLISHED_DRUMS, *registry.FACTS, *registry.PHASES}
+    listed -= {*registry.PUBLISHED_DRUMS, *registry.MEASURES, *registry.FACTS, *registry.PHASES}
     assert listed - names == {
         "frame",
         "bundle",
@@ -182,6 +182,16 @@ def test_a_folder_of_older_names_is_refused_with_the_way_out(tmp_path):
     renamed(tmp_path / "series.parquet")
     with pytest.raises(ConfigError, match=f"series.parquet' has no 'drum_work'.*{told}"):
         viewer.read(tmp_path)
+
+
+def test_frames_of_older_columns_are_refused_with_the_way_out(tmp_path):
+    drumrs.save(drumrs.run(CONFIG, progress=False), tmp_path, pictures=False)
+    frames = tmp_path / "frames.parquet"
+    words = {"scene": pl.read_parquet_metadata(frames)["scene"]}
+    pl.read_parquet(frames).drop("velocity_x").write_parquet(frames, metadata=words)
+    for read in (drumrs.load, viewer.read):
+        with pytest.raises(ConfigError, match=r"frames\.parquet' has no 'velocity_x'.*another version"):
+            read(tmp_path)
 
 
 def test_a_sweep_of_older_names_is_named_and_computed_again(tmp_path):

@@ -12,6 +12,7 @@ import drumrs
 from drumrs.cli.baseline import baseline
 from drumrs.cli.config import config
 from drumrs.cli.info import info
+from drumrs.cli.init import init
 from drumrs.cli.options import cut_by_shell
 from drumrs.cli.quantities import quantities
 from drumrs.cli.reproduce import reproduce
@@ -35,6 +36,7 @@ app = App(
     help_format="markdown",
     help_epilogue=(
         "Examples:\n\n"
+        "- `drumrs init my-mill --template ball-mill` writes a machine to start from; `drumrs init` lists them\n"
         "- `drumrs reproduce --quick` runs the paper's study in small and writes out/report.html\n"
         "- `drumrs baseline` runs the paper's drum without and with baffles\n"
         "- `drumrs config > case.toml` writes every key, with unit and meaning\n"
@@ -52,7 +54,7 @@ app = App(
     result_action="return_value",
 )
 
-for _command in (run, baseline, reproduce, sweep, view, verify, validate, config, quantities, info):
+for _command in (init, run, baseline, reproduce, sweep, view, verify, validate, config, quantities, info):
     app.command(_command, help_epilogue="")
 
 
@@ -90,7 +92,7 @@ def run_command(arguments: Sequence[str] | None = None) -> int:
 
 def _advice(error: CycloptsError) -> str | None:
     """Return what to write instead of a key given as an option, a list without quotes, or a word too many."""
-    if isinstance(error, UnknownOptionError):
+    if isinstance(error, UnknownOptionError) and error.target in (run, baseline):
         option = error.token.keyword or error.token.value
         word = option.lstrip("-").replace("-", "_")
         keys = [key for key in dotted_keys(Config) if key.rpartition(".")[2] == word]

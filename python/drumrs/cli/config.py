@@ -1,4 +1,4 @@
-"""`drumrs config`: every key of a case as a file, with the laws of its species; or a schema for editors."""
+"""`drumrs config`: every key of a case as a file, with the laws of its species; presets; a schema for editors."""
 
 import json
 import sys
@@ -11,6 +11,7 @@ from cyclopts import Parameter
 import drumrs
 from drumrs.cli.options import layered
 from drumrs.config import Config, laws
+from drumrs.config.presets import presets_toml
 from drumrs.config.schema import editor_schema
 
 # Keys that do not count with a base law.
@@ -20,7 +21,10 @@ _OF_OTHER_BASES = {
 }
 
 
-def config(case: Path | None = None, *, schema: Annotated[bool, Parameter(negative="")] = False) -> None:
+Flag = Annotated[bool, Parameter(negative="")]
+
+
+def config(case: Path | None = None, *, species: Flag = False, schema: Flag = False) -> None:
     """Print every key with its value, unit and meaning, as TOML: `drumrs config > case.toml`.
 
     Of a load of several species, how much there is of each and what acts between any two of them, and between each and
@@ -30,6 +34,9 @@ def config(case: Path | None = None, *, schema: Annotated[bool, Parameter(negati
     ----------
     case
         TOML file with some keys; the baseline's values without it.
+    species
+        Print the presets of species instead, each number with its source: `preset = "steel-ball"` in a table
+        `[[load.species]]` is density and contact keys of that material; keys beside it win.
     schema
         Print a JSON schema of the keys instead: `drumrs config --schema > drumrs.schema.json`. With the first line
         `#:schema drumrs.schema.json` of a case file beside it, editors that know TOML (Even Better TOML in VS Code,
@@ -37,6 +44,8 @@ def config(case: Path | None = None, *, schema: Annotated[bool, Parameter(negati
     """
     if schema:
         _print(json.dumps(editor_schema(Config), ensure_ascii=False, indent=2) + "\n")
+    elif species:
+        _print(presets_toml())
     elif case is None:
         opening = "# The baseline of drumrs, the paper's Table 1. Keep what differs, delete the rest.\n\n"
         _print(opening + drumrs.baseline().to_toml())

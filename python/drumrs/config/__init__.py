@@ -1,11 +1,11 @@
 """Validated, frozen configurations: keys and defaults, layers, TOML and JSON in and out.
 
 Imports nothing else of drumrs but its errors and the reader of drawings. `types` holds the types of values and their
-limits in words; `tables`, `drum_tables`, `load` and `contact` the tables of keys; `liner` where a liner is read;
-`program` the phases of a program; `laws` what acts between two species; `config` the whole configuration. `layers`
-merges tables, `messages` words what is refused, `hints` tells of what may
-not be meant, `toml_writer` writes TOML with comments, `schema` a JSON schema for editors, `to_core` translates for the
-compiled core, `derived` asks it what follows.
+limits in words; `tables`, `drum_tables`, `load` and `contact` the tables of keys; `presets` materials by name; `liner`
+where a liner is read; `program` the phases of a program; `laws` what acts between two species; `config` the whole
+configuration. `layers` merges tables, `messages` words what is refused, `hints` tells of what may not be meant,
+`toml_writer` writes TOML with comments, `schema` a JSON schema for editors, `to_core` translates for the compiled
+core, `derived` asks it what follows.
 """
 
 from drumrs.config.config import Config, baseline, read_layer, require_config
@@ -17,6 +17,7 @@ from drumrs.config.layers import merge, nest, parse_settings
 from drumrs.config.liner import anchored
 from drumrs.config.load import Load, Sizes, Species
 from drumrs.config.messages import dotted_keys
+from drumrs.config.presets import presets
 from drumrs.config.tables import Phase, Rotation, Run
 
 __all__ = [
@@ -47,6 +48,7 @@ __all__ = [
     "merge",
     "nest",
     "parse_settings",
+    "presets",
     "read_layer",
     "require_config",
 ]

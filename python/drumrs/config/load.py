@@ -2,13 +2,14 @@
 
 from typing import Annotated, Any, ClassVar, Literal, Self
 
-from pydantic import model_validator
+from pydantic import Field, model_validator
 
 from drumrs.config import types
 from drumrs.config.config_table import ConfigTable, key
 from drumrs.config.contact import PartialContact
 from drumrs.config.derived import GREATEST_SPECIES
 from drumrs.config.messages import both_given, conflict
+from drumrs.config.presets import presets, with_preset
 from drumrs.config.types import Flag, Limit, NonNegative, Positive
 
 # The keys of each size law: those that it needs, and those that it takes.
@@ -76,6 +77,9 @@ class Species(ConfigTable):
     ----------
     name
         What contact laws, tables and pictures call it.
+    preset
+        Name of a material whose density and contact keys it has, but for those given beside it (docs/loads.md). They
+        take its place when the configuration is validated.
     share
         Its share of the load, counted by ``load.share_by``; all of it unless given.
     density
@@ -87,11 +91,17 @@ class Species(ConfigTable):
     """
 
     name: types.SpeciesName
+    preset: str | None = Field(default=None, json_schema_extra={"enum": [*presets()]})
     share: Positive | None = None
     density: Positive | None = None
     diameter: Positive | None = None
     sizes: Sizes | None = None
     contact: PartialContact | None = None
+
+    @model_validator(mode="before")
+    @classmethod
+    def _preset_is_filled_in(cls, values: Any) -> Any:
+        return with_preset(values)
 
     @model_validator(mode="after")
     def _has_one_kind_of_size(self) -> Self:

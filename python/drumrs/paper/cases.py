@@ -13,6 +13,8 @@ THIRDS = (0.25, 0.50, 0.75)
 # Fill at which the size of bundles varies, and that at which speed and restitution do.
 SIZE_FILL = 0.40
 BASELINE_FILL = 0.25
+# Frictions between which power is claimed to be constant.
+END_FRICTIONS = (0.3, 1.0)
 # Fills of the bare drum at which the load passes between two states, and which are run for longer.
 HALF_FULL = (0.45, 0.50, 0.55)
 # Cases whose motion is looked at, bundle by bundle: the snapshots', and one more above 50 %.
@@ -58,16 +60,17 @@ def cases(scale: str | Scale = "default") -> list[Config]:
     # The paper's N/T counts what springs take and give back.
     always = {"sample_every": _SAMPLE_EVERY, "record": ["gross_work"]}
     half_full = [BARE.config(fill) for fill in HALF_FULL] if scale.half_full_seeds else []
+    ends = list(_ends(scale)) if scale.end_seeds else []
     found: dict[str, Config] = {}
     for point in _points(scale):
-        run = {**always, "duration": scale.duration, "window": scale.window}
-        seeds = scale.seeds
+        seeds, duration, end = scale.seeds, scale.duration, scale.window[1]
         if point in half_full:
             seeds = scale.half_full_seeds
-            run |= {
-                "duration": scale.half_full_duration,
-                "window": (scale.window[0], scale.half_full_duration),
-            }
+            duration = end = scale.half_full_duration
+        elif point in ends:
+            seeds = scale.end_seeds
+            duration = end = scale.end_duration
+        run = {**always, "duration": duration, "window": (scale.window[0], end)}
         for seed in seeds:
             changes = {**run, "frame_every": _pause(point, scale), "seed": seed}
             config = _cheaper(point, scale).replace({"run": changes})
@@ -115,6 +118,16 @@ def _points(scale: Scale) -> Iterator[Config]:
             yield at.replace({"rotation.rpm": rpm})
         for restitution in scale.restitutions:
             yield at.replace(_of_both("restitution", restitution))
+
+
+def _ends(scale: Scale) -> Iterator[Config]:
+    """Points at ends of curves that decide a claim alone and vary much from seed to seed, most of few bundles."""
+    for drum in (BARE, BAFFLED):
+        yield drum.config(min(scale.fills))
+        if scale.sizes:
+            yield drum.config(SIZE_FILL).replace(_size(min(scale.sizes)))
+    for friction in END_FRICTIONS:
+        yield BARE.config(BASELINE_FILL).replace(_of_both("friction", friction))
 
 
 def _size(ratio: float) -> dict[str, Any]:

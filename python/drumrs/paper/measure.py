@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from drumrs import analysis
+from drumrs import analysis, measures
 
 if TYPE_CHECKING:
     import polars as pl
@@ -62,10 +62,10 @@ def _measures(config: "Config", series: "pl.DataFrame", frames: "Frames | None")
     columns["drum_power_error"] = error * mass if error is not None else None
     found: dict[str, Mean | None] = dict.fromkeys(_MOTIONS)
     if frames is not None:
-        found["along_the_rim"] = analysis.along_the_rim(frames, window)
-        found["carried_round"] = analysis.carried_round(frames, window)
-        found["mixed_in_a_turn"] = analysis.mixed_in_a_turn(frames, window)
-        found |= dict(zip(_DEPTHS, analysis.depth_profile(frames, window), strict=True))
+        found["along_the_rim"] = measures.along_the_rim(frames, window)
+        found["carried_round"] = measures.carried_round(frames, window)
+        found["mixed_in_a_turn"] = measures.mixed_in_a_turn(frames, window)
+        found |= dict(zip(_DEPTHS, measures.depth_profile(frames, window), strict=True))
     for name, mean in found.items():
         columns[name] = mean.value if mean is not None else None
         columns[f"{name}_error"] = mean.error if mean is not None else None

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from drumrs.analysis import Mean
-from drumrs.analysis.frame_window import FrameWindow
 from drumrs.config import Config
+from drumrs.measures.frame_window import FrameWindow
 from drumrs.validation.cases import Scale
 from drumrs.validation.check import Check
 from drumrs.validation.results import Results

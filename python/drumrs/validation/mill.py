@@ -5,12 +5,13 @@ from typing import TYPE_CHECKING
 
 from drumrs.analysis import Estimate, mean_of
 from drumrs.config import Config, baseline
+from drumrs.measures.frame_window import with_errors
+from drumrs.measures.toe import toe_and_shoulder
 from drumrs.validation import morrell
 from drumrs.validation.cases import BED, GRAVITY, Scale, contacts, stiffness, times, turning, with_seeds
 from drumrs.validation.check import NOTHING, Check
 from drumrs.validation.drum import PublishedDrum
-from drumrs.validation.results import Results, check_of_overlap, with_errors
-from drumrs.validation.toe import toe_and_shoulder
+from drumrs.validation.results import Results, check_of_overlap
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from drumrs.analysis import Mean
-    from drumrs.analysis.frame_window import FrameWindow
+    from drumrs.measures.frame_window import FrameWindow
 
 _DIAMETER, _BALL, _DENSITY, _RESTITUTION = 5.0, 0.125, 4000.0, 0.3
 _LIFTERS = {"count": 16, "shape": "trapezoid", "height": 0.125, "base": 0.25, "tip": 0.125}
@@ -74,11 +75,11 @@ def point(
 def measures(config: Config, seen: "FrameWindow") -> "Mapping[str, Mean]":
     """Return what frames tell of the charge, by name of the registry."""
 
-    def of(piece: "FrameWindow") -> dict[str, float]:
-        found = toe_and_shoulder(piece, config.load.diameter, config.drum.diameter / 2.0)
+    def of(chosen: slice) -> dict[str, float]:
+        found = toe_and_shoulder(seen.piece(chosen), config.load.diameter, config.drum.diameter / 2.0)
         return {"toe_angle": found.toe, "shoulder_angle": found.shoulder}
 
-    return with_errors(of, seen)
+    return with_errors(of, seen.times)
 
 
 def _cases(scale: Scale) -> list[Config]:

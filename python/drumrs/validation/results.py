@@ -2,29 +2,24 @@
 
 import math
 from dataclasses import dataclass
-from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from drumrs import analysis
-from drumrs.analysis.frame_window import FrameWindow
+from drumrs.measures.frame_window import FrameWindow
 from drumrs.sweep import Case
 from drumrs.validation.cases import Scale
 from drumrs.validation.check import NOTHING, Check
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping
+    from collections.abc import Iterator
 
     import polars as pl
 
-    from drumrs.analysis import Estimate, Mean
+    from drumrs.analysis import Estimate
     from drumrs.config import Config
     from drumrs.sweep import Sweep
 
-# A window is cut into so many pieces, whose scatter gives the error of what is measured over all of it.
-_PIECES = 16
 # Greatest mean overlap, over the radius.
 _OVERLAP = 0.01
 
@@ -91,33 +86,3 @@ def check_of_overlap(results: Results, point: "Config") -> Check:
     """Return the check that springs are stiff enough: the mean overlap is below 1 % of the radius."""
     quantity = "overlap over the radius, root mean square"
     return Check(quantity, NOTHING, results.estimate(point, "mean_overlap_ratio"), 0.0, _OVERLAP)
-
-
-def with_errors(
-    measures: "Callable[[FrameWindow], Mapping[str, float]]", seen: FrameWindow
-) -> "dict[str, Mean]":
-    """Return what is measured over a window, with errors from the pieces that it is cut into.
-
-    Parameters
-    ----------
-    measures
-        Function from frames to numbers by name.
-    seen
-        Frames of the window.
-    """
-    whole = measures(seen)
-    bounds = np.linspace(0, len(seen.times) - 1, min(_PIECES, len(seen.times) - 1) + 1).astype(int)
-    pieces = [measures(_piece(seen, *ends)) for ends in pairwise(bounds)]
-    interval = float(seen.times[-1] - seen.times[0]) / len(pieces)
-    found = {}
-    for name, value in whole.items():
-        values = [piece[name] for piece in pieces]
-        known = bool(np.isfinite(values).all())
-        error = analysis.mean_with_error(values, interval).error if known else None
-        found[name] = analysis.Mean(value, error)
-    return found
-
-
-def _piece(seen: FrameWindow, first: int, last: int) -> FrameWindow:
-    chosen = slice(first, last + 1)
-    return FrameWindow(seen.positions[chosen], seen.times[chosen], seen.angles[chosen])

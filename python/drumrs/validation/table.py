@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from drumrs.analysis.frame_window import FrameWindow
+from drumrs.measures.frame_window import FrameWindow
 from drumrs.validation.drum import PublishedDrum
 
 if TYPE_CHECKING:

@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING
 from drumrs.analysis import Estimate
 from drumrs.analysis.blocks import Array
 from drumrs.config import Config, baseline
+from drumrs.measures.profile import Profile, layer_in, profile
 from drumrs.validation.cases import BED, Scale, contacts, stiffness, teeth, times, turning, with_seeds
 from drumrs.validation.check import NOTHING, Check
 from drumrs.validation.drum import PublishedDrum
-from drumrs.validation.profile import Profile, profile
-from drumrs.validation.results import Results, check_of_overlap, with_errors
+from drumrs.validation.results import Results, check_of_overlap
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from drumrs.analysis import Mean
-    from drumrs.analysis.frame_window import FrameWindow
+    from drumrs.measures.frame_window import FrameWindow
 
 # The experiment.
 _DIAMETER, _BEAD, _RPM, _BELOW_AXIS = 0.24, 0.003, 11.6, 0.03
@@ -57,19 +57,7 @@ def point(scale: Scale, friction: float = _FRICTION) -> Config:
 
 def measures(config: Config, seen: "FrameWindow") -> "Mapping[str, Mean]":
     """Return what frames tell of the velocity across the bed, by name of the registry."""
-
-    def of(piece: "FrameWindow") -> dict[str, float]:
-        found = profile(piece, config.load.diameter, config.drum.diameter / 2.0)
-        return {
-            "surface_velocity_ratio": found.surface_velocity / (found.angular_velocity * found.drum_radius),
-            "bed_depth": found.depth,
-            "layer_thickness": found.layer,
-            "layer_to_solid_rotation": found.layer_to_solid_rotation,
-            "core_velocity_ratio": found.core_velocity_ratio,
-            "surface_slope": found.slope,
-        }
-
-    return with_errors(of, seen)
+    return layer_in(seen, config.load.diameter, config.drum.diameter / 2.0)
 
 
 def _cases(scale: Scale) -> list[Config]:

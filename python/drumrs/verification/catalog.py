@@ -6,11 +6,17 @@ from types import MappingProxyType
 from drumrs import ConfigError
 from drumrs.verification import (
     adhesion,
+    balance,
     balances,
     bodies,
+    charge,
+    contact_tables,
+    fields,
+    flight,
     friction,
     hertz,
     impacts,
+    mixing,
     promises,
     rolling,
     rotation,
@@ -31,6 +37,11 @@ FAMILIES = MappingProxyType(
         "Hertz–Mindlin": hertz.CASES,
         "Balances of a whole drum": balances.CASES,
         "Promises": promises.CASES,
+        "Measures: shape of the charge": charge.CASES,
+        "Measures: mixing": mixing.CASES,
+        "Measures: fields": fields.CASES,
+        "Measures: unbalance and flight": balance.CASES + flight.CASES,
+        "Measures: collisions and walls": contact_tables.CASES,
     }
 )
 

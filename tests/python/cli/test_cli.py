@@ -5,11 +5,13 @@ import signal
 import subprocess
 import sys
 import time
+import tomllib
 
 import polars as pl
 import pytest
 
 import drumrs
+from drumrs.config import presets
 
 SHORT = ["--set", "run.duration=0.03", "--set", "run.frame_every=0.01", "--set", "load.count=20"]
 KEYS = {
@@ -69,6 +71,12 @@ def test_layers(drum, tmp_path):
     assert json.loads(drum("run", *words, "--json")[1])["bundle_count"] == 20
     drum("run", *words, "--seed", "7", "--out", tmp_path / "out")
     assert drumrs.Config.read(tmp_path / "out" / "config.toml").run.seed == 7
+
+
+def test_config_prints_the_presets_of_species(drum):
+    status, printed, _ = drum("config", "--species")
+    assert status == 0
+    assert tomllib.loads(printed) == presets()
 
 
 def test_config_command_round_trips(drum):

@@ -22,10 +22,24 @@ def test_every_case_comes_once_and_with_every_seed(scale):
     found = paper.cases(scale)
     assert len({config.digest for config in found}) == len(found)
     scale = paper.SCALES[scale]
-    half_full = [config for config in found if config.run.duration > scale.duration]
-    assert len(half_full) == (3 * len(scale.half_full_seeds) if scale.half_full_seeds else 0)
-    usual = [config for config in found if config.run.duration == scale.duration]
-    assert len(usual) == len({config.replace({"run.seed": 1}).digest for config in usual}) * len(scale.seeds)
+    seeds: dict[str, set[int]] = {}
+    for config in found:
+        seeds.setdefault(config.replace({"run.seed": 1}).digest, set()).add(config.run.seed)
+    assert {tuple(sorted(of)) for of in seeds.values()} == {scale.seeds, tuple(range(1, 11))}
+
+
+def test_few_bundles_and_the_ends_of_the_frictions_have_more_seeds():
+    default = paper.SCALES["default"]
+    more = [c for c in paper.cases("default") if (c.run.seed, c.run.duration) == (10, default.end_duration)]
+    kinds = [(c.bundle_count, c.contact.drum.friction, c.drum.baffles.count) for c in more]
+    assert sorted(kinds) == [
+        (40, 0.5, 0),
+        (40, 0.5, 0),
+        (40, 0.5, 3),
+        (40, 0.5, 3),
+        (100, 0.3, 0),
+        (100, 1.0, 0),
+    ]
 
 
 @pytest.mark.parametrize("scale", paper.SCALES)
@@ -102,11 +116,12 @@ def test_cheaper_runs_are_those_of_the_scale():
     for config in paper.cases("quick"):
         soft = config.contact.bundle.normal_stiffness < 1e7
         scale = quick.beside if soft else quick
-        assert config.run.duration == scale.duration
+        assert config.run.duration in (scale.duration, scale.end_duration)
         assert config.contact.drum.normal_stiffness == pytest.approx(9.7e7 / scale.softer)
         own = TIME_STEP * 20.0 * config.load.diameter / 0.475
         assert config.run.time_step == pytest.approx(own * scale.coarser * math.sqrt(scale.softer))
-    assert {config.run.duration for config in paper.cases("quick")} == {quick.duration, quick.beside.duration}
+    durations = {quick.duration, quick.beside.duration, quick.beside.end_duration}
+    assert {config.run.duration for config in paper.cases("quick")} == durations
     assert all(config.contact.bundle.normal_stiffness > 1e7 for config in paper.cases("default"))
 
 

@@ -7,7 +7,7 @@ import polars as pl
 import pytest
 
 import drumrs
-from drumrs import analysis, paper
+from drumrs import analysis, measures, paper
 from drumrs.paper.claims import power
 from drumrs.paper.curves import Curve, Point, Results, peak, slope
 from drumrs.paper.drums import BAFFLED
@@ -156,9 +156,9 @@ def test_the_table_has_every_measure(measured):
     assert with_frames["drum_specific_power"] == pytest.approx(with_frames["drum_power"] / mass)
     assert with_frames["drum_power_error"] == pytest.approx(mass * with_frames["drum_specific_power_error"])
     assert with_frames["size_ratio"] == pytest.approx(20.0)
-    assert with_frames["along_the_rim"] == analysis.along_the_rim(frames, (0.2, 0.4)).value
-    assert with_frames["carried_round"] == analysis.carried_round(frames, (0.2, 0.4)).value
-    surface, middle, deep = analysis.depth_profile(frames, (0.2, 0.4))
+    assert with_frames["along_the_rim"] == measures.along_the_rim(frames, (0.2, 0.4)).value
+    assert with_frames["carried_round"] == measures.carried_round(frames, (0.2, 0.4)).value
+    surface, middle, deep = measures.depth_profile(frames, (0.2, 0.4))
     assert with_frames["surface_speed"] == surface.value
     assert (with_frames["middle_speed"], with_frames["deep_speed"]) == (
         middle and middle.value,

@@ -134,7 +134,7 @@ def test_runs_with_softer_springs_are_told(data):
     beside = replace(SMALL, duration=0.3, window=(0.2, 0.3), softer=100.0)
     both = replace(data, sweep=Sweep.from_configs(paper.cases(replace(SMALL, beside=beside))))
     count = len(data.sweep)
-    told = f"; {count} of the runs, for power alone, are of 0.3 s with springs softer by 100"
+    told = f"; {count} of the runs, for power alone, are mostly of 0.3 s with springs softer by 100"
     assert headline.softer(both) == told
 
 

@@ -5,9 +5,9 @@ import math
 import numpy as np
 import pytest
 
-from drumrs.analysis.frame_window import FrameWindow
+from drumrs.measures.frame_window import FrameWindow
+from drumrs.measures.toe import toe_and_shoulder
 from drumrs.validation import morrell
-from drumrs.validation.toe import toe_and_shoulder
 
 BIN = 3.0
 

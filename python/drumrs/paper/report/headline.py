@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from drumrs.config import baseline
+from drumrs.config import Config, baseline
 from drumrs.paper.cases import BASELINE_FILL, HALF_FULL, THIRDS, percent
 from drumrs.paper.curves import RATIOS, Curve
 from drumrs.paper.data import StudyData
@@ -123,20 +123,30 @@ EVIDENCE = (
 
 
 def seeds(data: StudyData) -> int:
-    """Return the number of seeds of a case, but for those about half full."""
-    usual = next(iter(data.configs.values())).run.duration
-    return len({config.run.seed for config in data.configs.values() if config.run.duration == usual})
+    """Return the number of seeds of a case, but for those at the ends of curves and about half full."""
+    return min(len(runs) for runs in _by_case(data))
 
 
-def half_full(data: StudyData) -> str:
-    """Say which cases were run for longer, and with how many seeds; nothing where none was."""
-    usual = next(iter(data.configs.values())).run.duration
-    runs = [config.run for config in data.configs.values() if config.run.duration > usual]
-    if not runs:
-        return ""
+def more_seeds(data: StudyData) -> str:
+    """Say which cases have more seeds, and how long they were run; nothing where none has."""
+    more = [runs for runs in _by_case(data) if len(runs) > seeds(data)]
     fills = ", ".join(f"{100.0 * fill:.3g}" for fill in HALF_FULL)
-    count = len({run.seed for run in runs})
-    return f" (at {fills} % fill of the bare drum, {count} seeds of {runs[0].duration:g} s)"
+    half_full = [runs for runs in more if runs[0].load.fill in HALF_FULL and not runs[0].drum.baffles.count]
+    ends = [runs for runs in more if runs not in half_full]
+    told = [
+        f"{where}, {len(cases[0])} seeds of {cases[0][0].run.duration:g} s"
+        for where, cases in ((f"at {fills} % fill of the bare drum", half_full), ("at ends of curves", ends))
+        if cases
+    ]
+    return f" ({'; '.join(told)})" if told else ""
+
+
+def _by_case(data: StudyData) -> list[list[Config]]:
+    """Group the runs that differ by their seeds alone."""
+    found: dict[str, list[Config]] = {}
+    for config in data.configs.values():
+        found.setdefault(config.replace({"run.seed": 1}).digest, []).append(config)
+    return list(found.values())
 
 
 def softer(data: StudyData) -> str:
@@ -146,8 +156,9 @@ def softer(data: StudyData) -> str:
     if not runs:
         return ""
     factor = stiff / runs[0].contact.bundle.normal_stiffness
+    [(usual, _)] = Counter(one.run.duration for one in runs).most_common(1)
     return (
-        f"; {len(runs)} of the runs, for power alone, are of {runs[0].run.duration:g} s with springs softer by "
+        f"; {len(runs)} of the runs, for power alone, are mostly of {usual:g} s with springs softer by "
         f"{factor:g}"
     )
 

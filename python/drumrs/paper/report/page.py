@@ -96,7 +96,7 @@ def _study(data: StudyData) -> dict[str, Any]:
         "window": configs[0].run.averaging_window,
         "seeds": headline.seeds(data),
         "softer": headline.softer(data),
-        "half_full": headline.half_full(data),
+        "more_seeds": headline.more_seeds(data),
         "verdicts": data.verdicts,
         "counts": headline.count_of_verdicts(data.verdicts),
         "takeaway": headline.takeaway(data),

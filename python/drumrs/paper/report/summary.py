@@ -49,7 +49,7 @@ def _opening(data: StudyData) -> Iterator[str]:
     yield (
         f"Written by `drumrs reproduce`: {told['runs finished']} runs of {run.duration:g} s, averaged over "
         f"{run.averaging_window[0]:g}–{run.averaging_window[1]:g} s, {seeds} seed{'s' if seeds > 1 else ''} "
-        f"a case{headline.half_full(data)}{headline.softer(data)}; "
+        f"a case{headline.more_seeds(data)}{headline.softer(data)}; "
         f"{told['particle-steps']} particle-steps, which took {format_duration(spent / 2.0)} on two cores "
         f"({told.get('speed of one run', 'speed not known')} each). drumrs {provenance.versions()['drumrs']}."
     )

@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from drumrs.analysis.blocks import Array, Mean, ratio_of_sums
-from drumrs.analysis.frame_window import FrameWindow
+from drumrs.measures.frame_window import FrameWindow
+from drumrs.measures.room import from_solids
 
 if TYPE_CHECKING:
     from drumrs.frames import Frames
@@ -75,13 +76,8 @@ def _depths(points: Array, places: Array, diameter: float) -> Array:
 
 def _places(frames: "Frames", radius: float) -> Array:
     """Return a square grid of where a bundle's center can be in an empty drum, in the drum's own frame."""
-    import shapely
-
     line = np.linspace(-radius, radius, 2 * _FINENESS + 1)
     points = np.stack(np.meshgrid(line, line), axis=-1).reshape(-1, 2)
     room = float(frames.radii.mean())
-    solids = [*map(shapely.Polygon, frames.baffles), *map(shapely.LineString, frames.walls)]
-    # 0 inside a baffle, not a number where there is neither baffle nor wall.
-    apart = shapely.distance(shapely.GeometryCollection(solids), shapely.points(points))
-    free: Array = points[(np.hypot(*points.T) < radius - room) & ~(apart <= room)]
+    free: Array = points[(np.hypot(*points.T) < radius - room) & (from_solids(frames, points) > room)]
     return free

@@ -5,10 +5,10 @@ import math
 import numpy as np
 import pytest
 
-from drumrs import analysis
-from drumrs.analysis import depth, motion
+from drumrs import measures
 from drumrs.errors import ConfigError
 from drumrs.frames import Frames
+from drumrs.measures import depth, neighbors
 
 RADIUS, DIAMETER = 1.0, 0.1
 TIMES = 0.04 * np.arange(151)
@@ -70,7 +70,7 @@ def annulus(fill: float, size_ratio: float) -> np.ndarray:
 @pytest.mark.parametrize("fill", [0.1, 0.25, 0.5, 0.75, 1.0])
 @pytest.mark.parametrize("size_ratio", [10, 40])
 def test_a_load_that_rides_whole_is_carried_round_at_any_fill_and_size(fill, size_ratio, omega):
-    assert analysis.carried_round(rider(annulus(fill, size_ratio), omega), WINDOW).value == pytest.approx(1.0)
+    assert measures.carried_round(rider(annulus(fill, size_ratio), omega), WINDOW).value == pytest.approx(1.0)
 
 
 @pytest.mark.parametrize("speed", [0.0, 0.5, 1.5])
@@ -78,18 +78,18 @@ def test_half_a_load_that_rides_counts_half(speed):
     # The other half rests, or slides at half or one and a half of the drum's speed.
     halves = [moving(annulus(0.5, 20), TURNING), moving(annulus(0.5, 20), speed * TURNING)]
     frames = made_up(np.concatenate(halves, axis=1), TURNING)
-    assert analysis.carried_round(frames, WINDOW).value == pytest.approx(0.5)
+    assert measures.carried_round(frames, WINDOW).value == pytest.approx(0.5)
 
 
 def test_a_load_at_rest_in_a_turning_drum_is_not_carried_round():
-    assert analysis.carried_round(made_up(moving(bed(), 0.0)), WINDOW).value == 0.0
-    assert analysis.carried_round(made_up(moving(bed(), 0.0), 0.0), WINDOW) is None
+    assert measures.carried_round(made_up(moving(bed(), 0.0)), WINDOW).value == 0.0
+    assert measures.carried_round(made_up(moving(bed(), 0.0), 0.0), WINDOW) is None
 
 
 def test_a_load_that_rocks_below_the_axis_is_not_carried_round():
     # Rides up by 80° and slides back.
     start, swing = np.array([[0.0, -0.95], [0.0, -0.3]]), np.minimum(TURNING * TIMES % 2.8, 1.4)
-    assert analysis.carried_round(made_up(np.stack([turned(start, a) for a in swing])), WINDOW).value == 0.0
+    assert measures.carried_round(made_up(np.stack([turned(start, a) for a in swing])), WINDOW).value == 0.0
 
 
 def test_time_along_the_rim_is_that_of_the_outer_layers_that_ride():
@@ -97,8 +97,8 @@ def test_time_along_the_rim_is_that_of_the_outer_layers_that_ride():
     rim, inner = np.array([[0.95, 0.0]]), np.array([[0.3, 0.0]])
     resting = np.broadcast_to(-rim, (len(TIMES), 1, 2))
     paths = np.concatenate([moving(rim), moving(inner), resting], axis=1)
-    assert analysis.along_the_rim(made_up(paths), WINDOW).value == pytest.approx(1.0 / 3.0)
-    assert analysis.along_the_rim(made_up(paths, omega=0.0), WINDOW) is None
+    assert measures.along_the_rim(made_up(paths), WINDOW).value == pytest.approx(1.0 / 3.0)
+    assert measures.along_the_rim(made_up(paths, omega=0.0), WINDOW) is None
 
 
 def test_a_passage_counts_once_and_in_the_sense_of_rotation_only():
@@ -109,15 +109,15 @@ def test_a_passage_counts_once_and_in_the_sense_of_rotation_only():
         frames = made_up(
             np.stack([turned(top, sense * a) for a in angles]), sense * math.pi / 20.0 / TIMES[1]
         )
-        assert analysis.carried_round(frames, WINDOW).value == pytest.approx(4.0)
+        assert measures.carried_round(frames, WINDOW).value == pytest.approx(4.0)
         back = made_up(frames.positions[::-1].copy(), sense * math.pi / 20.0 / TIMES[1])
-        assert analysis.carried_round(back, WINDOW).value == 0.0
+        assert measures.carried_round(back, WINDOW).value == 0.0
 
 
 @pytest.mark.parametrize("speed", [0.5, 0.75, 1.25, 1.5])
 def test_what_slips_is_not_carried(speed):
     frames = made_up(moving(ring(40, 0.95), speed * OMEGA))
-    assert analysis.carried_round(frames, WINDOW).value == 0.0
+    assert measures.carried_round(frames, WINDOW).value == 0.0
 
 
 @pytest.mark.parametrize("froude", [0.5, 0.9, 1.0])
@@ -128,28 +128,28 @@ def test_what_is_thrown_over_the_axis_is_not_carried(froude):
     times = TIMES[:21] - TIMES[10] + 0.001
     path = np.column_stack([-omega * height * times, height - 0.5 * gravity * times**2])
     frames = made_up(path[:, np.newaxis, :], omega)
-    assert analysis.carried_round(frames, (0.0, TIMES[20])).value == 0.0
+    assert measures.carried_round(frames, (0.0, TIMES[20])).value == 0.0
 
 
 def test_what_flies_over_the_axis_is_not_carried():
     # Straight through the line above the axis, at the drum's angular velocity when it passes.
     x = 0.5 * OMEGA * (0.7 - TIMES % 1.4)
     path = np.stack([np.column_stack([np.full(5, at), np.full(5, 0.5)]) for at in x])
-    assert analysis.carried_round(made_up(path), WINDOW).value == 0.0
+    assert measures.carried_round(made_up(path), WINDOW).value == 0.0
 
 
 def test_a_rigid_body_does_not_mix():
-    turns, index = analysis.mixing(made_up(moving(bed())), WINDOW)
+    turns, index = measures.mixing(made_up(moving(bed())), WINDOW)
     assert turns[-1] == pytest.approx(1.0, abs=0.02)
     assert np.abs(index).max() < 1e-5
-    assert analysis.mixed_in_a_turn(made_up(moving(bed())), WINDOW).value == pytest.approx(0.0, abs=1e-5)
+    assert measures.mixed_in_a_turn(made_up(moving(bed())), WINDOW).value == pytest.approx(0.0, abs=1e-5)
 
 
 def test_a_shuffled_load_is_mixed_at_once():
     random = np.random.default_rng(2)
     start = bed()
     frames = made_up(np.stack([random.permutation(start) for _ in TIMES]))
-    _, index = analysis.mixing(frames, WINDOW)
+    _, index = measures.mixing(frames, WINDOW)
     assert index[:, 0] == pytest.approx(0.0)
     assert index[:, 1:].mean() == pytest.approx(1.0, abs=0.02)
 
@@ -160,24 +160,24 @@ def test_mixing_grows_with_disorder():
     for stride in (0.0, 0.01, 0.03):
         steps = stride * random.standard_normal((len(TIMES), 60, 2))
         walk = ring(60, 0.5) + np.cumsum(steps, axis=0)
-        found.append(analysis.mixed_in_a_turn(made_up(walk), WINDOW).value)
+        found.append(measures.mixed_in_a_turn(made_up(walk), WINDOW).value)
     assert found[0] < 0.01 < found[1] < found[2]
 
 
 def test_distances_of_many_bundles_are_taken_in_parts():
     # More points than rows of the matrix that are held at a time, on a line with known distances.
-    count = 3 * motion._ROWS // 2
+    count = 3 * neighbors._ROWS // 2
     line = np.column_stack([np.arange(float(count)), np.zeros(count)])
-    assert motion._mean_distance(line) == pytest.approx((count + 1) / 3.0)
+    assert neighbors._mean_distance(line) == pytest.approx((count + 1) / 3.0)
     order = np.random.default_rng(6).permutation(count)
-    steps = np.abs(line[order][motion._nearest(line[order]), 0] - line[order, 0])
+    steps = np.abs(line[order][neighbors._nearest(line[order]), 0] - line[order, 0])
     assert (steps == 1.0).all()
 
 
 def test_mixing_needs_a_turn():
     frames = made_up(moving(bed()))
-    assert analysis.mixed_in_a_turn(frames, (0.0, 1.0)) is None
-    assert analysis.mixed_in_a_turn(made_up(moving(bed(), 0.0), 0.0), WINDOW) is None
+    assert measures.mixed_in_a_turn(frames, (0.0, 1.0)) is None
+    assert measures.mixed_in_a_turn(made_up(moving(bed(), 0.0), 0.0), WINDOW) is None
 
 
 def test_depth_profile_of_a_flowing_layer():
@@ -189,7 +189,7 @@ def test_depth_profile_of_a_flowing_layer():
     path[0] = start
     path[1] = turned(start, OMEGA * TIMES[1])
     path[1, flowing, 0] -= 0.2 * RADIUS * OMEGA * TIMES[1]
-    surface, middle, deep = analysis.depth_profile(made_up(path), (0.0, 0.04), (0.0, 0.75, 3.0, np.inf))
+    surface, middle, deep = measures.depth_profile(made_up(path), (0.0, 0.04), (0.0, 0.75, 3.0, np.inf))
     assert surface.value == pytest.approx(0.2, abs=0.005)
     assert middle.value < 1e-5
     assert deep.value < 1e-5
@@ -198,10 +198,10 @@ def test_depth_profile_of_a_flowing_layer():
 
 def test_depth_profile_without_a_surface():
     alone = made_up(moving(ring(3, 0.95)), 0.0)
-    assert analysis.depth_profile(alone, WINDOW) == (None, None, None)
+    assert measures.depth_profile(alone, WINDOW) == (None, None, None)
     line = np.arange(-1.0, 1.01, 0.08)
     full = np.stack(np.meshgrid(line, line), axis=-1).reshape(-1, 2)
-    surface, middle, deep = analysis.depth_profile(made_up(moving(full)), WINDOW)
+    surface, middle, deep = measures.depth_profile(made_up(moving(full)), WINDOW)
     # Nothing is empty in a full drum: all of it is deep.
     assert surface is None
     assert middle is None
@@ -210,7 +210,7 @@ def test_depth_profile_without_a_surface():
 
 def test_window_without_frames():
     with pytest.raises(ConfigError, match="at least two frames"):
-        analysis.carried_round(made_up(moving(bed())), (7.0, 8.0))
+        measures.carried_round(made_up(moving(bed())), (7.0, 8.0))
 
 
 def test_a_bundle_finds_room_beside_baffles_and_walls_only():

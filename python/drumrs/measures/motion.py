@@ -1,12 +1,13 @@
-"""How the bundles move: carried round by the drum, along its rim, and mixed."""
+"""How the bundles move: carried round by the drum, along its rim, and round a center."""
 
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from drumrs.analysis.blocks import Array, Mean, mean_with_error
-from drumrs.analysis.frame_window import FrameWindow, turn_back
+from drumrs.measures.frame_window import FrameWindow, counter_clockwise, turn_back
 
 if TYPE_CHECKING:
     from drumrs.frames import Frames
@@ -17,8 +18,6 @@ _NEAR = 0.2
 _EIGHTH_OF_A_TURN = np.pi / 4.0
 # The layer at the rim, in diameters from the wall to a bundle's center.
 _LAYER = 1.5
-# Rows of a matrix of distances that are held at a time.
-_ROWS = 512
 
 
 def carried_round(frames: "Frames", window: tuple[float, float]) -> Mean | None:
@@ -52,7 +51,7 @@ def carried_round(frames: "Frames", window: tuple[float, float]) -> Mean | None:
     Examples
     --------
     >>> import drumrs
-    >>> from drumrs.analysis import carried_round
+    >>> from drumrs.measures import carried_round
     >>> config = drumrs.baseline().replace({"run.duration": 0.1, "run.frame_every": 0.01})
     >>> frames = drumrs.run(config, progress=False).frames
     >>> carried_round(frames, window=(0.0, 0.1)).value  # the load falls to the bottom
@@ -96,7 +95,7 @@ def along_the_rim(frames: "Frames", window: tuple[float, float]) -> Mean | None:
     Examples
     --------
     >>> import drumrs
-    >>> from drumrs.analysis import along_the_rim
+    >>> from drumrs.measures import along_the_rim
     >>> config = drumrs.baseline().replace({"run.duration": 0.1, "run.frame_every": 0.01})
     >>> frames = drumrs.run(config, progress=False).frames
     >>> 0.0 <= along_the_rim(frames, window=(0.0, 0.1)).value <= 1.0
@@ -129,90 +128,38 @@ def _passes_the_top(before: Array, after: Array, angle: float) -> NDArray[np.boo
     return passes
 
 
-def mixing(frames: "Frames", window: tuple[float, float], turns: float = 1.0) -> tuple[Array, Array]:
-    """Return how far nearest neighbors have parted after so many turns of the drum.
+def circulation(frames: "Frames", window: tuple[float, float], center: ArrayLike = (0.0, 0.0)) -> Mean | None:
+    """Return how often a disc goes round a center while the drum turns once.
 
-    The index is M = (d − d₀) / (D − d₀), where d is the mean distance of pairs that were nearest neighbors at the
-    start, d₀ what it was then, and D the mean distance of any two bundles: 0 at first, 1 where former neighbors are
-    no nearer than others (the neighbor-distance method of Godlieb, Deen & Kuipers, Characterizing solids mixing in
-    DEM simulations, 2007). Turning as a rigid body leaves it at 0, and neither a grid nor a coloring enters.
-
-    Parameters
-    ----------
-    frames
-        Frames of a run.
-    window
-        Start and end [s].
-    turns
-        How long to follow neighbors, in turns of the drum.
-
-    Returns
-    -------
-    turns, index
-        Turns of the drum since the start, shape (k,), and the index, shape (starts, k): every frame of the window that
-        is followed so long is a start. There are none where the window is shorter than that, or the drum rests.
-
-    Raises
-    ------
-    ConfigError
-        Where the window holds fewer than two frames.
-    """
-    seen = FrameWindow.of(frames, window)
-    positions, last = seen.positions, len(seen.positions) - 1
-    span = round(turns * last / seen.turns) if seen.turns else last + 1
-    passed = np.arange(span + 1) * seen.turns / last
-    if span > last or frames.count <= 1:
-        return passed, np.zeros((0, span + 1))
-    apart = np.array([_mean_distance(points) for points in positions])
-    index = np.empty((last - span + 1, span + 1))
-    for start, row in enumerate(index):
-        path, mates = positions[start : start + span + 1], _nearest(positions[start])
-        distance = np.linalg.norm(path - path[:, mates], axis=2).mean(axis=1)
-        row[:] = (distance - distance[0]) / (apart[start : start + span + 1] - distance[0])
-    return passed, index
-
-
-def mixed_in_a_turn(frames: "Frames", window: tuple[float, float]) -> Mean | None:
-    """Return the index of `mixing` after one turn of the drum.
+    It is 1 for a load that rides with the drum, about the axis. A bed that turns with the drum below a thin layer goes
+    round in (Θ − sin Θ cos Θ)/(π sin²Θ) of a turn on average, with half the angle Θ that it spans: twice a turn at half
+    fill.
 
     Parameters
     ----------
     frames
-        Frames of a run.
+        Frames of a run, so close together that no disc goes half round the center between two of them.
     window
         Start and end [s].
+    center
+        The center [m], such as `center_of_circulation`.
 
     Returns
     -------
     Mean or None
-        `None` where the window is shorter than a turn, or the drum rests.
+        `None` where the drum rests.
 
     Raises
     ------
     ConfigError
         Where the window holds fewer than two frames.
     """
-    _, index = mixing(frames, window)
-    return mean_with_error(index[:, -1], FrameWindow.of(frames, window).interval) if len(index) else None
-
-
-def _nearest(points: Array) -> NDArray[np.intp]:
-    """Return the nearest neighbor of every point."""
-    from scipy.spatial import KDTree
-
-    # The nearest to a point is the point itself.
-    _, indices = KDTree(points).query(points, k=2)
-    nearest: NDArray[np.intp] = np.asarray(indices)[:, 1]
-    return nearest
-
-
-def _mean_distance(points: Array) -> float:
-    """Return the mean distance of any two points, from a part of the matrix of distances at a time."""
-    from scipy.spatial.distance import cdist
-
-    count = len(points)
-    total = sum(float(cdist(points[first : first + _ROWS], points).sum()) for first in range(0, count, _ROWS))
-    return total / (count * (count - 1))
+    seen = FrameWindow.of(counter_clockwise(frames), window)
+    if seen.turned == 0.0:
+        return None
+    apart = seen.positions - np.asarray(center)
+    swept = np.array([_swept(*pair).mean() for pair in pairwise(apart)])
+    return mean_with_error(swept * len(swept) / seen.turned, seen.interval)
 
 
 def _swept(before: Array, after: Array) -> Array:

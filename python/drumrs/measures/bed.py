@@ -34,7 +34,7 @@ def bulk_fill(frames: "Frames", index: int = -1) -> float:
     Examples
     --------
     >>> import drumrs
-    >>> from drumrs.analysis import bulk_fill
+    >>> from drumrs.measures import bulk_fill
     >>> changes = {"rotation.rpm": 0.0, "load.bulk_fill": 0.3}
     >>> simulation = drumrs.Simulation(drumrs.baseline().replace(changes).softer(100.0))
     >>> simulation.run(duration=0.6)

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from drumrs.analysis.frame_window import FrameWindow
-from drumrs.validation.profile import profile
+from drumrs.measures.frame_window import FrameWindow
+from drumrs.measures.profile import profile
 
 RADIUS, DISC, OMEGA, SLOPE = 1.0, 0.02, 2.0, np.radians(25.0)
 SURFACE, MEETING, SURFACE_VELOCITY = -0.25, -0.55, 3.0

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from drumrs.analysis.blocks import Array
-from drumrs.analysis.frame_window import FrameWindow
+from drumrs.measures.frame_window import FrameWindow
 
 # The layer at the shell, in diameters from the shell to a bundle's center, and the bins of angle.
 _LAYER = 1.5
@@ -46,8 +46,8 @@ def toe_and_shoulder(frames: FrameWindow, diameter: float, drum_radius: float) -
     Discs at the shell from 225° to 315°.
 
     >>> import numpy as np
-    >>> from drumrs.analysis.frame_window import FrameWindow
-    >>> from drumrs.validation.toe import toe_and_shoulder
+    >>> from drumrs.measures.frame_window import FrameWindow
+    >>> from drumrs.measures.toe import toe_and_shoulder
     >>> angles = np.radians(np.arange(225.0, 315.5, 0.5))
     >>> shell = 0.95 * np.column_stack([np.cos(angles), np.sin(angles)])
     >>> frames = FrameWindow(np.array([shell, shell]), np.array([0.0, 0.01]), np.array([0.0, 0.01]))

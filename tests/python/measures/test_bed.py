@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import drumrs
-from drumrs.analysis import bulk_fill
 from drumrs.frames import Frames
+from drumrs.measures import bulk_fill
 
 RADIUS = 0.5
 

@@ -5,11 +5,16 @@ positive down the slope, so that a bed that turns with the drum as one body has 
 """
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from drumrs.analysis.blocks import Array
-from drumrs.analysis.frame_window import FrameWindow
+from drumrs.analysis.blocks import Array, Mean
+from drumrs.errors import ConfigError
+from drumrs.measures.frame_window import FrameWindow, with_errors
+
+if TYPE_CHECKING:
+    from drumrs.frames import Frames
 
 # Half the width of the strip about the line in which bundles count, over the drum's radius.
 _STRIP = 0.125
@@ -116,8 +121,8 @@ def profile(frames: FrameWindow, diameter: float, drum_radius: float) -> Profile
     A heap of discs that turns with the drum.
 
     >>> import numpy as np
-    >>> from drumrs.analysis.frame_window import FrameWindow
-    >>> from drumrs.validation.profile import profile
+    >>> from drumrs.measures.frame_window import FrameWindow
+    >>> from drumrs.measures.profile import profile
     >>> before = np.array([[0.0, -0.05 - 0.1 * k] for k in range(10)])
     >>> after = before + 0.001 * np.column_stack([-before[:, 1], before[:, 0]])
     >>> seen = FrameWindow(np.array([before, after]), np.array([0.0, 0.001]), np.array([0.0, 0.001]))
@@ -147,6 +152,61 @@ def profile(frames: FrameWindow, diameter: float, drum_radius: float) -> Profile
         angular_velocity=float(abs(frames.turned) / (frames.times[-1] - frames.times[0])),
         slope=float(abs(np.arctan2(center[0], -center[1]))),
     )
+
+
+def flowing_layer(frames: "Frames", window: tuple[float, float]) -> dict[str, Mean]:
+    """Return how thick the layer that flows down the bed is, and how fast, on the line through the axis normal to it.
+
+    Parameters
+    ----------
+    frames
+        Frames of a run in a drum with a rim; the fastest bundles should not move by more than a diameter between two.
+    window
+        Start and end [s].
+
+    Returns
+    -------
+    dict
+        By name of the registry, with standard errors:
+        ``surface_slope`` [rad], by the center of mass; ``bed_depth`` [m], from the surface to the rim;
+        ``surface_velocity_ratio``, velocity down the slope at the surface over Ω R; ``layer_thickness`` [m], down to
+        where the velocity vanishes in the laboratory; ``layer_to_solid_rotation`` [m], down to where the straight part
+        of its profile, drawn on, meets solid rotation; ``core_velocity_ratio``, angular velocity below it over Ω.
+
+    Raises
+    ------
+    ConfigError
+        Where the window holds fewer than two frames, or the drum has no rim.
+
+    Examples
+    --------
+    >>> import drumrs
+    >>> from drumrs.measures import flowing_layer
+    >>> config = drumrs.baseline(baffles=False).replace({"run.duration": 0.4, "run.frame_every": 0.005})
+    >>> found = flowing_layer(drumrs.run(config, progress=False).frames, window=(0.3, 0.4))
+    >>> 0.05 < found["bed_depth"].value < 0.25
+    True
+    """
+    if frames.drum_radius is None:
+        raise ConfigError("drum.rim", False, "true: the depth of the bed is that above a rim")
+    return layer_in(FrameWindow.of(frames, window), 2.0 * float(frames.radii.mean()), frames.drum_radius)
+
+
+def layer_in(seen: FrameWindow, diameter: float, drum_radius: float) -> dict[str, Mean]:
+    """Return what `flowing_layer` does, of the frames of a window."""
+
+    def of(chosen: slice) -> dict[str, float]:
+        found = profile(seen.piece(chosen), diameter, drum_radius)
+        return {
+            "surface_velocity_ratio": found.surface_velocity / (found.angular_velocity * found.drum_radius),
+            "bed_depth": found.depth,
+            "layer_thickness": found.layer,
+            "layer_to_solid_rotation": found.layer_to_solid_rotation,
+            "core_velocity_ratio": found.core_velocity_ratio,
+            "surface_slope": found.slope,
+        }
+
+    return with_errors(of, seen.times)
 
 
 def _last_fall(places: Array, values: Array, level: float, *, first: bool = False) -> float:

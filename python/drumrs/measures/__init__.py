@@ -1,0 +1,95 @@
+"""What designers of rotating drums measure: pure functions on frames and tables, in short modules by family.
+
+- the load as a whole: `motion`, `depth`, `bed`
+- shape of the charge: `shape`, `surface`, `toe`
+- mixing and segregation: `colors`, `cells`, `segregation`, `rate`, `neighbors`
+- fields, and the flowing layer: `coarse_graining`, `profile`
+- unbalance: `balance`
+- collisions and walls: `spectra`, `walls`
+- flight and fall: `airborne`, `orbit`
+
+Statistics are those of `drumrs.analysis`; nothing here sees a simulation.
+"""
+
+from drumrs.measures.airborne import flight, flights
+from drumrs.measures.balance import (
+    Exceedance,
+    Suspension,
+    exceedance,
+    turning_force,
+    unbalance,
+    unbalance_vectors,
+)
+from drumrs.measures.bed import bulk_fill
+from drumrs.measures.cells import entropy, lacey, mixing_curve, relative_deviation
+from drumrs.measures.coarse_graining import Fields, center_of_circulation, fields
+from drumrs.measures.colors import COLORINGS, cell_side, coloring
+from drumrs.measures.depth import depth_profile
+from drumrs.measures.masses import disc_masses
+from drumrs.measures.motion import along_the_rim, carried_round, circulation
+from drumrs.measures.neighbors import mixed_in_a_turn, mixing
+from drumrs.measures.orbit import Orbit, davis
+from drumrs.measures.profile import flowing_layer
+from drumrs.measures.rate import MixingRate, mixing_rate
+from drumrs.measures.segregation import (
+    RadialSegregation,
+    mean_position_index,
+    memory_of_places,
+    radial_segregation,
+    unlike_contacts,
+)
+from drumrs.measures.shape import Occupancy, charge, occupancy
+from drumrs.measures.spectra import collision_spectrum, enduring, impacts, sum_rule
+from drumrs.measures.surface import FreeSurface, free_surface
+from drumrs.measures.walls import finnie_f, wear, worn_outline
+
+__all__ = [
+    "COLORINGS",
+    "Exceedance",
+    "Fields",
+    "FreeSurface",
+    "MixingRate",
+    "Occupancy",
+    "Orbit",
+    "RadialSegregation",
+    "Suspension",
+    "along_the_rim",
+    "bulk_fill",
+    "carried_round",
+    "cell_side",
+    "center_of_circulation",
+    "charge",
+    "circulation",
+    "collision_spectrum",
+    "coloring",
+    "davis",
+    "depth_profile",
+    "disc_masses",
+    "enduring",
+    "entropy",
+    "exceedance",
+    "fields",
+    "finnie_f",
+    "flight",
+    "flights",
+    "flowing_layer",
+    "free_surface",
+    "impacts",
+    "lacey",
+    "mean_position_index",
+    "memory_of_places",
+    "mixed_in_a_turn",
+    "mixing",
+    "mixing_curve",
+    "mixing_rate",
+    "occupancy",
+    "radial_segregation",
+    "relative_deviation",
+    "sum_rule",
+    "turning_force",
+    "unbalance",
+    "unbalance_vectors",
+    "unlike_contacts",
+    "wear",
+    "worn_outline",
+]

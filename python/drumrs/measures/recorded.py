@@ -1,0 +1,31 @@
+"""What a measure says where its record is missing."""
+
+from typing import TYPE_CHECKING
+
+from drumrs.errors import ConfigError
+
+if TYPE_CHECKING:
+    import polars as pl
+
+
+def required(table: "pl.DataFrame | None", record: str, measure: str) -> "pl.DataFrame":
+    """Return a table of a result that is recorded on request.
+
+    Parameters
+    ----------
+    table
+        The table, `None` where it was not recorded.
+    record
+        Its name in ``run.record``.
+    measure
+        What is made of it, in words.
+
+    Raises
+    ------
+    ConfigError
+        Where it was not recorded.
+    """
+    if table is None:
+        problem = f"lacks {record!r}, which {measure} is made of"
+        raise ConfigError("run.record", problem=problem, hint=f"add {record!r} to it and run again")
+    return table

@@ -1,0 +1,57 @@
+"""Flights: what is too short, too flat or cut by the window; what is hit; and no flight at all."""
+
+import numpy as np
+import pytest
+
+from drumrs import measures
+from drumrs.verification import made_up
+
+WINDOW = (0.0, 1.0)
+
+
+def path(heights, contacts, x=0.0):
+    places = np.column_stack([np.full(len(heights), x), heights])[:, np.newaxis]
+    return made_up.frames(places, 0.01, contacts=np.array(contacts, dtype=np.uint16)[:, np.newaxis])
+
+
+def test_a_flight_lasts_longer_than_half_the_time_of_a_fall_by_a_diameter():
+    # ½ √(2 · 0.02 / 9.81) = 0.032 s; frames come every 0.01 s.
+    for frames_aloft, count in ((3, 0), (4, 1)):
+        heights = np.linspace(0.0, -0.5, 8)
+        table = measures.flights(path(heights, [1, *[0] * frames_aloft, *[2] * (7 - frames_aloft)]), WINDOW)
+        assert len(table) == count
+    assert table.select("start", "end", "start_y", "end_y").row(0) == pytest.approx(
+        (0.0, 0.05, 0.0, heights[5]), rel=1e-6
+    )
+
+
+def test_a_fall_drops_by_more_than_a_diameter():
+    for drop, is_fall in ((0.019, False), (0.021, True)):
+        table = measures.flights(path([0.0, 0.1, 0.1, 0.1, 0.1, -drop], [1, 0, 0, 0, 0, 1]), WINDOW)
+        assert table["is_fall"].to_list() == [is_fall]
+        assert table["apex"][0] == pytest.approx(0.1)
+
+
+def test_flights_that_the_window_cuts_count_in_the_share_alone():
+    frames = path(np.linspace(0.0, -0.5, 12), [0] * 5 + [1] * 2 + [0] * 5)
+    assert len(measures.flights(frames, WINDOW)) == 0
+    found = measures.flight(frames, WINDOW)
+    assert found["share_in_flight"].value == pytest.approx(10.0 / 12.0)
+    assert found["falls_per_turn"].value == 0.0
+    assert found["mean_drop"] is found["landing_on_drum"] is found["impact_toe_angle"] is None
+
+
+def test_what_is_hit_is_drum_or_load():
+    aloft = [1, 0, 0, 0, 0, 1]
+    onto = [
+        measures.flights(path(np.linspace(0.0, y, 6), aloft), WINDOW)["onto"][0] for y in (-0.9895, -0.97)
+    ]
+    assert onto == ["drum", "load"]
+
+
+def test_a_drum_at_rest_has_no_turns():
+    frames = made_up.frames(np.zeros((4, 2, 2)), 0.1, drum_angles=np.zeros(4), contacts=np.ones((4, 2)))
+    found = measures.flight(frames, WINDOW)
+    assert found["falls_per_turn"] is None
+    assert found["share_in_flight"].value == 0.0
+    assert found["head_height"] is None

@@ -1,0 +1,117 @@
+"""Cases of measures on made-up loads fail where a formula is wrong: one is changed in the source, and seen to."""
+
+import inspect
+import sys
+from types import ModuleType
+
+import pytest
+
+from drumrs import measures  # noqa: F401 - loads its modules
+from drumrs.verification import catalog
+
+# Case, module of drumrs.measures, what stands there, what is wrong.
+WRONG = [
+    ("charge", "surface", "self.tilt + math.atan(", "self.tilt - 0.1 + math.atan("),
+    ("charge", "surface", "- self.bundle_radius\n", "+ self.bundle_radius\n"),
+    ("charge", "shape", "centers[:, 0] / drum_radius", "-centers[:, 0] / drum_radius"),
+    ("charge", "shape", "math.atan2(x, -y)", "math.atan2(x, y)"),
+    ("charge", "toe", "_HALF = 0.5", "_HALF = 0.0"),
+    (
+        "occupancy",
+        "shape",
+        "tree.query_ball_point(positions, seen.radii)",
+        "tree.query_ball_point(positions, seen.radii / 2)",
+    ),
+    (
+        "mixing-null",
+        "cells",
+        "float(cells.max()) / (len(cells) - 1.0)",
+        "float(cells.max()) / len(cells) * 1.1",
+    ),
+    ("mixing-known", "cells", "weights * colored) / all_of_it", "colored) / np.bincount(cells)"),
+    ("mixing-known", "cells", "entr(shares) + entr(1.0 - shares)", "shares * (1.0 - shares)"),
+    ("mixing-null", "segregation", "(count - 1.0)", "(count - 30.0)"),
+    ("mixing-null", "segregation", "(inside - share)", "(inside - share**2)"),
+    ("mixing-known", "cells", "(pure - null)", "pure"),
+    ("mixing-known", "cells", "/ colored.mean()", ""),
+    ("mixing-known", "segregation", "places - places.min(axis=0)", "places"),
+    ("mixing-known", "segregation", "compute_uv=False)[0]", "compute_uv=False)[0] ** 2"),
+    ("mixing-known", "segregation", "/ points.std(axis=0)", ""),
+    ("mixing-known", "segregation", "means[0] / means[1]", "means[1] / means[0]"),
+    ("mixing-known", "rate", "- self.delay, 0.0)", "+ self.delay, 0.0)"),
+    ("unbalance", "balance", "moment @ turn_back(angle)", "moment"),
+    ("unbalance", "balance", "lengths / mass", "lengths"),
+    ("unbalance-force", "balance", "0.5 * (angles[1:] + angles[:-1])", "angles[1:]"),
+    ("unbalance-force", "balance", "np.sinc(swept / (2.0 * np.pi))", "1.0"),
+    ("suspension", "balance", "self.damping * (angular_velocity", "0.5 * self.damping * (angular_velocity"),
+    (
+        "suspension",
+        "balance",
+        "np.hypot(self.stiffness, self.damping",
+        "np.hypot(self.stiffness, 0.9 * self.damping",
+    ),
+    ("suspension", "balance", "self.stiffness - mass", "self.stiffness - self.tub_mass"),
+    ("davis", "orbit", "0.5 * math.pi + 3.0 * release", "0.5 * math.pi + 2.0 * release"),
+    ("davis", "orbit", "4.0 * sine**2 * froude", "4.0 * sine * froude"),
+    ("davis", "orbit", "2.0 * froude * sine / math.pi", "2.0 * sine / math.pi"),
+    ("davis", "orbit", "1.0 + 8.0 * sine**2", "1.0 + 4.0 * sine**2"),
+    ("davis", "orbit", "- 3.0 * sine", "- sine"),
+    ("flight", "airborne", "mean_with_error(flies @ weights", "mean_with_error(0.8 * flies @ weights"),
+    ("flight", "airborne", "before[:, 1] - after[:, 1]", "before[:, 1]"),
+    ("flight", "airborne", "(turns * seen.count)", "seen.count"),
+    ("flight", "airborne", "- np.hypot(*places.T)", "- places[:, 0]"),
+    ("flight", "airborne", "_HEAD, _TOE = 0.99, 0.05", "_HEAD, _TOE = 0.9, 0.05"),
+    ("flight", "airborne", "- 0.5 * math.pi) %", "+ 0.5 * math.pi) %"),
+    ("spectrum", "spectra", "per_decade * np.log10(marks)", "per_decade * np.log(marks)"),
+    ("spectrum", "spectra", "power[::-1])[::-1]", "power)"),
+    ("spectrum", "spectra", "np.cumsum(events[::-1])[::-1] / (", "np.cumsum(events) / ("),
+    (
+        "spectrum",
+        "spectra",
+        '("dissipated_tangential",),\n    "rolling"',
+        '("dissipated_normal",),\n    "rolling"',
+    ),
+    ("spectrum", "spectra", "_ENDURES = 3.0", "_ENDURES = 6.0"),
+    ("spectrum", "spectra", "np.minimum(own[there]", "np.maximum(own[there]"),
+    ("wear", "walls", "np.sin(2.0 * gamma) - 3.0", "np.sin(2.0 * gamma) - 2.0"),
+    ("wear", "walls", "np.cos(gamma) ** 2 / 3.0", "np.cos(gamma) / 3.0"),
+    ("wear", "walls", "coefficient / turns", "coefficient * turns"),
+    ("wear", "walls", "volume / length)", "volume)"),
+    ("wear", "walls", "middles - smooth", "middles + smooth"),
+    ("wear", "walls", "0.25 * padded[:-2]", "0.5 * padded[:-2]"),
+    ("fields", "coarse_graining", "(1.0 - math.exp(-0.5 * _CUT**2))", "1.0"),
+    ("fields", "coarse_graining", "off = velocity - grid.at(mean, place)", "off = velocity"),
+    ("fields", "coarse_graining", "0.5 * trace", "trace"),
+    ("fields", "coarse_graining", "-place[:, 1], place[:, 0]", "-place[:, 1], 0.9 * place[:, 0]"),
+    ("fields", "coarse_graining", "node + shift", "node - shift"),
+    ("fields", "coarse_graining", "math.pi * frames.radii**2", "math.pi * frames.radii"),
+    ("fields", "motion", "swept * len(swept)", "swept * len(apart)"),
+    ("flowing-layer", "profile", "surface - offset / (self", "surface - rate / (self"),
+    ("flowing-layer", "profile", "self.surface - self.foot", "self.surface + self.foot"),
+    ("flowing-layer", "profile", "_HALF = 0.5", "_HALF = 0.1"),
+]
+
+
+@pytest.mark.parametrize(("name", "module", "right", "wrong"), WRONG)
+def test_a_wrong_formula_fails_its_case(monkeypatch, name, module, right, wrong):
+    [case] = catalog.chosen([name])
+    change(monkeypatch, sys.modules[f"drumrs.measures.{module}"], right, wrong)
+    trial = case.run()
+    assert trial.error is None
+    assert not trial.passed, trial.evidence.worst
+
+
+def change(monkeypatch, module: ModuleType, right: str, wrong: str) -> None:
+    """Put what a changed source defines in the place of what the module defines, wherever that is imported."""
+    source = inspect.getsource(module)
+    assert source.count(right) == 1, right
+    changed = ModuleType(module.__name__)
+    monkeypatch.setitem(sys.modules, module.__name__, changed)  # dataclasses look there
+    exec(compile(source.replace(right, wrong), str(module.__file__), "exec"), changed.__dict__)
+    monkeypatch.setitem(sys.modules, module.__name__, module)
+    for name, now in vars(module).items():
+        if getattr(now, "__module__", None) == module.__name__ and name in vars(changed):
+            for other in [one for key, one in sys.modules.items() if key.startswith("drumrs.measures")]:
+                for alias, value in list(vars(other).items()):
+                    if value is now:
+                        monkeypatch.setattr(other, alias, vars(changed)[name])
