@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drumrs.files import replacing
-from drumrs.registry import metadata, quantity
+from drumrs.registry import metadata, quantity, require
 from drumrs.tables import ROW_GROUP_SIZE, Compression, sink_table
 
 if TYPE_CHECKING:
@@ -225,10 +225,20 @@ class FramesFile:
 
     @classmethod
     def of(cls, source: str | Path | io.BytesIO) -> "FramesFile":
-        """Open what `Frames.save` wrote, the file or its bytes."""
+        """Open what `Frames.save` wrote, the file or its bytes.
+
+        Raises
+        ------
+        ConfigError
+            Where another version of drumrs wrote it, which had other columns.
+        """
         import polars as pl
 
-        return cls(pl.scan_parquet(source), json.loads(pl.read_parquet_metadata(source)["scene"]))
+        scene = json.loads(pl.read_parquet_metadata(source)["scene"])
+        table = pl.scan_parquet(source)
+        path = Path("frames.parquet") if isinstance(source, io.BytesIO) else Path(source)
+        require(path, table.collect_schema().names(), (name for name in COLUMNS if name != "species"))
+        return cls(table, scene)
 
     def __len__(self) -> int:
         """Return the number of frames."""

@@ -184,6 +184,16 @@ def test_a_folder_of_older_names_is_refused_with_the_way_out(tmp_path):
         viewer.read(tmp_path)
 
 
+def test_frames_of_older_columns_are_refused_with_the_way_out(tmp_path):
+    drumrs.save(drumrs.run(CONFIG, progress=False), tmp_path, pictures=False)
+    frames = tmp_path / "frames.parquet"
+    words = {"scene": pl.read_parquet_metadata(frames)["scene"]}
+    pl.read_parquet(frames).drop("velocity_x").write_parquet(frames, metadata=words)
+    for read in (drumrs.load, viewer.read):
+        with pytest.raises(ConfigError, match="frames.parquet' has no 'velocity_x'.*another version"):
+            read(tmp_path)
+
+
 def test_a_sweep_of_older_names_is_named_and_computed_again(tmp_path):
     sweep = Sweep.from_configs([CONFIG])
     sweep.run(tmp_path, progress=False)

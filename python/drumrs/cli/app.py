@@ -92,7 +92,7 @@ def run_command(arguments: Sequence[str] | None = None) -> int:
 
 def _advice(error: CycloptsError) -> str | None:
     """Return what to write instead of a key given as an option, a list without quotes, or a word too many."""
-    if isinstance(error, UnknownOptionError):
+    if isinstance(error, UnknownOptionError) and error.target in (run, baseline):
         option = error.token.keyword or error.token.value
         word = option.lstrip("-").replace("-", "_")
         keys = [key for key in dotted_keys(Config) if key.rpartition(".")[2] == word]

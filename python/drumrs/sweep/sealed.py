@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     import polars as pl
 
-FORMAT = 2
+FORMAT = 3
 _KEY = "drumrs"
 # What the seal says of the version that wrote the file.
 _VERSIONS = ("format", "physics_version")

@@ -333,6 +333,12 @@ def test_words_for_what_people_type(drum, words, told):
     assert complaint.count("\n") == 1
 
 
+def test_a_key_is_advised_only_where_keys_are_taken(drum):
+    _, _, complaint = drum("reproduce", "--scale", "quick")
+    assert "--scale" in complaint
+    assert "--set" not in complaint
+
+
 def test_a_whole_number_may_be_written_as_one(drum):
     brief = ["--set", "run.duration=0.01", "--set", "run.sample_every=0.001", "--set", "load.count=1e1"]
     status, printed, _ = drum("run", "--seed", "1e3", "--json", *brief)
