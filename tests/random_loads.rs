@@ -5,9 +5,11 @@
 mod random;
 
 use drumrs::error::Error;
+use drumrs::physics::columns::Columns;
 use drumrs::physics::contact::Flows;
 use drumrs::physics::vector::{Rotation, Vec2};
 use drumrs::simulation::Simulation;
+use drumrs::simulation::contact_log::by_direction;
 use proptest::prelude::*;
 use proptest::test_runner::FileFailurePersistence;
 use random::{Drawn, drawn};
@@ -33,6 +35,7 @@ proptest! {
         }
         require_closed_ledger(&simulation)?;
         require_inside(&simulation)?;
+        require_sums(&simulation)?;
         require_momentum(start, &simulation, &drawn)?;
     }
 }
@@ -54,6 +57,37 @@ fn require_closed_ledger(simulation: &Simulation) -> Result<(), TestCaseError> {
     for (flow, name) in Flows::NAMES.iter().enumerate() {
         let taken = simulation.state().ledger.flow(flow);
         prop_assert!(taken >= 0.0, "{name} is {taken:e}");
+    }
+    Ok(())
+}
+
+/// Where contacts are recorded, each split of what they took adds up to the ledger.
+fn require_sums(simulation: &Simulation) -> Result<(), TestCaseError> {
+    if simulation.config().run.record.is_empty() {
+        return Ok(());
+    }
+    let (log, ledger) = (simulation.contact_log(), simulation.dissipated());
+    let discs =
+        Flows::build(|flow| log.discs.iter().map(|disc| Flows::field(&disc.received, flow).value()).sum());
+    let split = Flows::build(|flow| log.split.iter().map(|part| Flows::field(part, flow).value()).sum());
+    // Those of pairs come first, of one species one.
+    let walls = Flows::build(|flow| log.split[1..].iter().map(|part| Flows::field(part, flow).value()).sum());
+    let bins = |column: usize| log.profile.iter().map(|bin| bin[column].value()).sum::<f64>();
+    let scale: f64 = (0..Flows::COUNT).map(|flow| Flows::field(&ledger, flow)).sum();
+    let whole = by_direction(&ledger);
+    require_same("split", by_direction(&split), whole, scale)?;
+    require_same("discs", by_direction(&discs), whole, scale)?;
+    require_same("profile", [bins(0), bins(1), bins(2)], by_direction(&walls), scale)?;
+    let open = simulation.open_rows();
+    let rows = simulation.records().contacts.iter().chain(&open);
+    let listed =
+        rows.fold([0.0; 3], |sum: [f64; 3], row| std::array::from_fn(|k| sum[k] + row.dissipated[k]));
+    require_same("contacts", listed, whole, scale)
+}
+
+fn require_same(name: &str, sums: [f64; 3], whole: [f64; 3], scale: f64) -> Result<(), TestCaseError> {
+    for (sum, whole) in sums.into_iter().zip(whole) {
+        prop_assert!((sum - whole).abs() <= 1e-12 * scale, "{name}: {sum:e}, ledger: {whole:e}");
     }
     Ok(())
 }

@@ -34,6 +34,9 @@ pub fn rebuilds(criterion: &mut Criterion) {
                     species: &particles.species,
                     table: &table,
                 },
+                step: 0,
+                records_gross_work: false,
+                profile: None,
             };
             let mut list = PairList::new(count, 0.5 * radius, radius);
             bencher.iter(|| list.rebuild(&particles.positions, &inputs, &threads));

@@ -6,6 +6,7 @@
 pub mod common;
 
 use drumrs::io::config::SimulationConfig;
+use drumrs::observe::recorder::Recording;
 use drumrs::physics::drum::Drum;
 use drumrs::physics::load::composition::SpeciesParameters;
 use drumrs::physics::load::shares::Measure;
@@ -30,9 +31,24 @@ pub fn drum_for(count: usize, baffle_count: usize) -> SimulationConfig {
     config
 }
 
+/// All that is recorded on request.
+pub const ALL_RECORDS: &[Recording] = &[
+    Recording::GrossWork,
+    Recording::Contacts,
+    Recording::WallProfile,
+    Recording::LedgerSplit,
+    Recording::Discs,
+];
+
 /// A load before its first step. Large ones, which would fall for longer than is spent here, start as a bed.
 pub fn started(count: usize, baffle_count: usize) -> Simulation {
-    let config = drum_for(count, baffle_count);
+    started_with(count, baffle_count, &[])
+}
+
+/// The same, of which some things are recorded on request.
+pub fn started_with(count: usize, baffle_count: usize, record: &[Recording]) -> Simulation {
+    let mut config = drum_for(count, baffle_count);
+    config.run.record = record.to_vec();
     if count > 1_000 {
         let bed = bed(&config);
         Simulation::with_state(config, 1, 1, bed).expect("a bed inside the drum")

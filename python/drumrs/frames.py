@@ -73,6 +73,13 @@ class Frames:
     baffles: tuple[NDArray[np.float64], ...] = ()
     walls: tuple[NDArray[np.float64], ...] = ()
 
+    @classmethod
+    def none(cls) -> "Frames":
+        """Return no frames of no bundles: what is left of a run that kept none."""
+        flat, one = np.empty((0, 0), np.float32), np.empty(0)
+        pairs, counts = np.empty((0, 0, 2), np.float32), np.empty((0, 0), np.uint16)
+        return cls(one, one, pairs, flat, pairs, counts, one)
+
     def __len__(self) -> int:
         """Return the number of frames."""
         return len(self.times)

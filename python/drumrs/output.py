@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from drumrs.analysis.phases import phases_of
 from drumrs.config import Config
+from drumrs.contact_records import write_contact_tables
 from drumrs.files import remove_temporaries, write_whole
 from drumrs.folders import RUN_FILES, claim, is_claimed, require_own, require_unused
 from drumrs.frames import Frames
@@ -48,7 +49,8 @@ def player(run: Result | UnstableRun) -> "Player":
 def save(result: Result, folder: str | Path, *, pictures: bool = True, force: bool = False) -> list[Path]:
     """Write config.toml, series.parquet, frames.parquet and summary.json, then pictures and a player.
 
-    Where the drum turns by phases, phases.parquet holds what `phases` returns.
+    Where the drum turns by phases, phases.parquet holds what `phases` returns. What `run.record` asks of contacts goes
+    to contacts.parquet, wall_profile.parquet, ledger_split.parquet and discs.parquet.
 
     Parameters
     ----------
@@ -94,7 +96,9 @@ def save(result: Result, folder: str | Path, *, pictures: bool = True, force: bo
     config, summary, series, frames = result.config, result.summary, result.series, result.frames
     written = [*write_tables(folder, config, series), *write_phases(folder, config, series)]
     frames.save(folder / "frames.parquet")
-    written += [folder / "frames.parquet", complete(folder, summary)]
+    written.append(folder / "frames.parquet")
+    written += write_contact_tables(folder, result.contact_tables())
+    written.append(complete(folder, summary))
     return [*written, *(draw(folder, config, summary, series, frames, frames) if pictures else [])]
 
 

@@ -1,19 +1,20 @@
 """`Parts`: the records of a run under way, in files that are added as records come; each is whole or not there.
 
-They lie in the folder "records" of the run's folder, named by the number of their first sample or frame, counted from
-the start of the run. What a checkpoint knows to be taken, it finds there after any break; what is beyond, it drops and
-records again. What lies before the first part is in the tables of a run that was finished and goes on.
+They lie in the folder "records" of the run's folder, named by the number of their first sample, frame or contact,
+counted from the start of the run. What a checkpoint knows to be taken, it finds there after any break; what is beyond,
+it drops and records again. What lies before the first part is in the tables of a run that was finished and goes on.
 """
 
 import contextlib
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from drumrs.contact_records import file_words
 from drumrs.errors import CheckpointError
 from drumrs.files import remove_temporaries, replacing
 from drumrs.frames import FramesFile, sink_frames
 from drumrs.records import Records
-from drumrs.tables import write_table
+from drumrs.tables import ROW_GROUP_SIZE, sink_table, write_table
 
 if TYPE_CHECKING:
     import polars as pl
@@ -58,12 +59,17 @@ class Parts:
         CheckpointError
             Where records that it knows to be taken are not there.
         """
-        taken = {"series": records.taken_samples, "frames": records.taken_frames}
+        taken = {
+            "series": records.taken_samples,
+            "frames": records.taken_frames,
+            "contacts": records.taken_contacts,
+        }
         for kind, count in taken.items():
             for first, path in self._parts(kind):
                 if first >= count:
                     path.unlink()
         self._table("frames", taken["frames"], records.count)
+        self._table("contacts", taken["contacts"])
         if taken["series"]:
             records.put_back(self._series(taken["series"]), None)
 
@@ -74,7 +80,8 @@ class Parts:
             frames = FramesFile(
                 self._table("frames", records.taken_frames, records.count), records.none().scene()
             )
-            records.put_back(series, frames.read())
+            contacts = self._table("contacts", records.taken_contacts) if records.lists_contacts else None
+            records.put_back(series, frames.read(), None if contacts is None else contacts.collect())
 
     def merge_frames(self, path: Path, records: Records) -> None:
         """Write all frames taken to one file: as `Frames.save` would if they were in memory."""
@@ -82,10 +89,20 @@ class Parts:
         with replacing(path) as temporary:
             sink_frames(temporary, table, records.count, records.none().metadata())
 
+    def merge_contacts(self, path: Path, records: Records) -> None:
+        """Write all contacts to one file: those taken, those still open, and what was too small to be listed."""
+        import polars as pl
+
+        taken, last = self._table("contacts", records.taken_contacts), records.last_contacts()
+        tables = [taken, last.lazy()] if records.taken_contacts else [last.lazy()]
+        words = file_words("contacts", records.contact_tables(with_contacts=False)["dissipated"])
+        with replacing(path) as temporary:
+            sink_table(temporary, pl.concat(tables), words, row_group_size=ROW_GROUP_SIZE)
+
     def remove(self) -> None:
         """Remove all parts, and what a kill left of one."""
         remove_temporaries(self._folder / _FOLDER)
-        for pattern in ("series-*.parquet", "frames-*.parquet"):
+        for pattern in ("series-*.parquet", "frames-*.parquet", "contacts-*.parquet"):
             # The first ones first: where a kill leaves the others, what lies before them is in the run's tables.
             for path in sorted((self._folder / _FOLDER).glob(pattern)):
                 path.unlink()
@@ -105,18 +122,21 @@ class Parts:
         for start in range(0, len(frames), some):
             part = frames.picked(slice(start, start + some))
             part.save(self._name("frames", first + start), first + start)
+        if records.lists_contacts and len(held["contacts"]["opened"]):
+            table = records.as_contacts(held["contacts"])
+            write_table(self._name("contacts", held["first_contact"]), table, {})
         held.clear()
 
     def _name(self, kind: str, first: int) -> Path:
         return self._folder / _FOLDER / f"{kind}-{first:015d}.parquet"
 
     def _parts(self, kind: str) -> list[tuple[int, Path]]:
-        """Return the parts by the number of their first sample or frame, in order."""
+        """Return the parts by the number of their first sample, frame or contact, in order."""
         paths = (self._folder / _FOLDER).glob(f"{kind}-*.parquet")
         return sorted((int(path.stem.removeprefix(f"{kind}-")), path) for path in paths)
 
     def _table(self, kind: str, count: int, rows: int = 1) -> "pl.LazyFrame":
-        """Return the first `count` samples or frames, of so many rows each."""
+        """Return the first `count` samples, frames or contacts, of so many rows each."""
         import polars as pl
 
         parts = [(first, path) for first, path in self._parts(kind) if first < count]
@@ -143,7 +163,7 @@ class Parts:
             raise self._missing("series", 0) from None
 
     def _finished(self, kind: str, count: int, rows: int) -> "pl.LazyFrame":
-        """Return the first samples or frames of the run's table."""
+        """Return the first samples, frames or contacts of the run's table."""
         import polars as pl
 
         table = pl.scan_parquet(self._folder / f"{kind}.parquet")

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drumrs.config import Config
+from drumrs.contact_records import COLUMNS, FLOWS, TableMaker
 from drumrs.errors import CheckpointError
 from drumrs.frames import SHAPED, Frames
 
@@ -71,6 +72,26 @@ class Core(Protocol):
     def put_back_frames(self, frames: dict[str, NDArray[Any]]) -> None:
         """Put frames before those in memory."""
 
+    @property
+    def time_step(self) -> float:
+        """Length of a step [s]."""
+
+    @property
+    def first_contact(self) -> int:
+        """Contacts recorded before the first in memory."""
+
+    def parts(self) -> list[str]:
+        """Names of the parts of the drum."""
+
+    def contacts(self, are_open: bool) -> dict[str, NDArray[Any]]:
+        """Return the contacts that are open, or those in memory that have ended."""
+
+    def contact_sums(self) -> dict[str, Any]:
+        """Return what is recorded of contacts beside their list, up to now."""
+
+    def put_back_contacts(self, contacts: dict[str, NDArray[Any]]) -> None:
+        """Put contacts before those in memory."""
+
 
 class Records:
     """What a simulation has recorded and still holds in memory.
@@ -95,6 +116,8 @@ class Records:
         self._core = core
         self._drum = config.drum
         self._names = config.load.names
+        self._kinds = tuple(kind for kind in COLUMNS if kind in config.run.record)
+        self._floor = config.run.contact_floor
 
     @property
     def count(self) -> int:
@@ -127,9 +150,19 @@ class Records:
         return self._core.first_frame
 
     @property
+    def taken_contacts(self) -> int:
+        """Contacts taken so far, the first ones that ended."""
+        return self._core.first_contact
+
+    @property
+    def lists_contacts(self) -> bool:
+        """Whether contacts are recorded one by one."""
+        return "contacts" in self._kinds
+
+    @property
     def are_whole(self) -> bool:
         """Whether everything recorded is in memory."""
-        return self._core.first_sample == self._core.first_frame == 0
+        return self._core.first_sample == self._core.first_frame == self._core.first_contact == 0
 
     @property
     def has_whole_series(self) -> bool:
@@ -154,17 +187,63 @@ class Records:
         """
         return self.as_frames(self._core.frames() if keep else self._core.take_frames())
 
+    def as_contacts(self, arrays: dict[str, NDArray[Any]]) -> "pl.DataFrame":
+        """Return contacts of the core that have ended as a table."""
+        return self._tables.contacts(arrays)
+
+    def last_contacts(self) -> "pl.DataFrame":
+        """Return the end of the table of contacts: those still open, and what was too small to be listed."""
+        import polars as pl
+
+        tables = self._tables
+        open_now = tables.contacts(self._core.contacts(True), is_open=True)
+        if not self._floor:
+            return open_now
+        return pl.concat([open_now, tables.below_floor(*self._core.contact_sums()["below_floor"])])
+
+    def contact_tables(self, *, with_contacts: bool = True) -> dict[str, Any]:
+        """Return what is recorded of contacts, by table, and "dissipated", what each of them adds up to [J/m].
+
+        Parameters
+        ----------
+        with_contacts
+            Whether the list of contacts is among them; it is made of those in memory.
+        """
+        import polars as pl
+
+        if not self._kinds:
+            return {}
+        sums, tables = self._core.contact_sums(), self._tables
+        made: dict[str, Any] = {"dissipated": dict(zip(FLOWS, sums["dissipated"], strict=True))}
+        if self.lists_contacts and with_contacts:
+            ended = tables.contacts(self._core.contacts(False))
+            made["contacts"] = pl.concat([ended, self.last_contacts()])
+        if "wall_profile" in self._kinds:
+            made["wall_profile"] = tables.wall_profile(sums["profile"])
+        if "ledger_split" in self._kinds:
+            made["ledger_split"] = tables.ledger_split(sums["split"])
+        if "discs" in self._kinds:
+            made["discs"] = tables.discs(sums["discs"], self._core.radii, self._core.species)
+        return made
+
+    @property
+    def _tables(self) -> TableMaker:
+        return TableMaker(tuple(self._core.parts()), tuple(self._names) or ("bundle",), self._core.time_step)
+
     def take(self, into: dict[str, Any]) -> None:
         """Hand over what was not taken yet: frames leave the memory, samples stay and are noted as taken.
 
         Parameters
         ----------
         into
-            Gets "first_sample", "rows", "first_frame" and "frames". It is filled at once: an interrupt loses nothing.
+            Gets "first_sample", "rows", "first_frame", "frames", "first_contact" and "contacts". It is filled at once:
+            an interrupt loses nothing.
         """
         self._core.take_records(into)
 
-    def put_back(self, series: "pl.DataFrame", frames: Frames | None) -> None:
+    def put_back(
+        self, series: "pl.DataFrame", frames: Frames | None, contacts: "pl.DataFrame | None" = None
+    ) -> None:
         """Take back what was recorded before the first in memory.
 
         Parameters
@@ -173,6 +252,8 @@ class Records:
             The samples that were taken.
         frames
             The frames that were taken. Without them, all stay where they are, and samples are noted as taken.
+        contacts
+            The contacts that were taken, where they are recorded; without them, these stay where they are.
 
         Raises
         ------
@@ -189,6 +270,8 @@ class Records:
         if frames is not None:
             arrays: dict[str, NDArray[Any]] = {name: getattr(frames, name) for name in SHAPED}
             self._core.put_back_frames({"time": frames.times, "drum_angle": frames.drum_angles, **arrays})
+        if contacts is not None:
+            self._core.put_back_contacts(self._tables.arrays(contacts))
 
     def none(self) -> Frames:
         """Return no frames of this load in this drum."""

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from drumrs.config import Config
+from drumrs.contact_records import COLUMNS, read_contact_tables
 from drumrs.errors import ConfigError
 from drumrs.files import read_object, read_plain, require_plain, write_whole
 from drumrs.frames import Frames
@@ -147,18 +148,43 @@ class Result:
         Polars table, one row a sample; `drumrs.quantities` has the meanings and units of its columns.
     frames
         Positions, angles, velocities and numbers of contacts of the bundles at the frames' times.
+    contacts
+        Every contact from first touch to opening, one row each; where `run.record` has "contacts", `None` elsewhere.
+    wall_profile
+        What contacts did along the outline of the drum, one row a bin; where it has "wall_profile".
+    ledger_split
+        What contacts took, one row a pair of species, or species and part of the drum; where it has "ledger_split".
+    discs
+        What each bundle received, and its flights, one row each; where it has "discs".
+    dissipated
+        What contacts took from t = 0 to the end of the run [J/m], by column of the series: what each of these tables
+        adds up to. The last row of the series is up to one `run.sample_every` older.
+
+    Notes
+    -----
+    The four are polars tables over the whole run from t = 0; docs/records.md has their columns.
     """
 
     config: Config
     summary: Summary
     series: "pl.DataFrame"
     frames: Frames
+    contacts: "pl.DataFrame | None" = None
+    wall_profile: "pl.DataFrame | None" = None
+    ledger_split: "pl.DataFrame | None" = None
+    discs: "pl.DataFrame | None" = None
+    dissipated: "dict[str, float] | None" = None
 
     def __repr__(self) -> str:
         """Say what was run, and its main number."""
         summary = self.summary
         window = f"t = {summary.window_start:.6g} to {summary.window_end:.6g} s"
         return f"<Result of {summary.bundle_count} bundles: {summary.drum_specific_power:.4g} W/kg over {window}>"
+
+    def contact_tables(self) -> dict[str, Any]:
+        """Return what was recorded of contacts by name, and with it "dissipated"."""
+        told = {name: getattr(self, name) for name in (*COLUMNS, "dissipated")}
+        return {name: value for name, value in told.items() if value is not None}
 
     def _repr_html_(self) -> str:
         """Show the summary as a table in a notebook."""
@@ -220,6 +246,7 @@ def load(folder: str | Path) -> Result:
             summary=Summary.from_mapping(summary),
             series=read_series(folder / "series.parquet"),
             frames=Frames.load(folder / "frames.parquet"),
+            **read_contact_tables(folder),
         )
     except ConfigError:
         raise

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from drumrs.config import Config
+from drumrs.contact_records import write_contact_tables
 from drumrs.errors import UnstableError
 from drumrs.files import remove_temporaries, write_whole
 from drumrs.folders import claim
@@ -100,7 +101,11 @@ class RunFolder:
         written = write_tables(self.path, simulation.config, series)
         written += write_phases(self.path, simulation.config, series)
         self._parts.merge_frames(path, simulation.records)
-        return [*written, path]
+        tables = simulation.records.contact_tables(with_contacts=False)
+        listed = [self.path / "contacts.parquet"] if simulation.records.lists_contacts else []
+        for contacts in listed:
+            self._parts.merge_contacts(contacts, simulation.records)
+        return [*written, path, *listed, *write_contact_tables(self.path, tables)]
 
 
 def _shown(file: FramesFile) -> Frames:

@@ -376,7 +376,8 @@ class Simulation(HasRecords):
             Whether the simulation keeps its frames, too, in as much memory again.
         """
         series = self.series
-        return Result(self._config, self.summary(), series, self._records.frames(keep=keep))
+        tables = self._records.contact_tables()
+        return Result(self._config, self.summary(), series, self._records.frames(keep=keep), **tables)
 
     def save(self, path: str | Path) -> None:
         """Write a checkpoint: `load` goes on from it, bit for bit as if there had been no break."""

@@ -40,6 +40,7 @@ use parallel::{Threads, chunk_count};
 use crate::physics::contact::model::Model;
 use crate::physics::contact::species::SpeciesTable;
 use crate::physics::drum::Drum;
+use crate::physics::drum::bins::ArcBins;
 use crate::physics::particles::Particles;
 use crate::physics::vector::{Rotation, Vec2};
 
@@ -67,6 +68,10 @@ pub struct World<'a> {
     pub table: &'a SpeciesTable,
     /// Whether gross work is summed up.
     pub records_gross_work: bool,
+    /// Whether what each contact does is recorded.
+    pub records_contacts: bool,
+    /// The bins of a profile along the drum's outline, where one is recorded.
+    pub profile: Option<&'a ArcBins>,
     /// Length of a step [s].
     pub time_step: f64,
     /// Gravity [m/s²].
@@ -80,6 +85,8 @@ pub struct DrumMotion {
     pub rotation: Rotation,
     /// Its mean angular velocity [rad/s].
     pub angular_velocity: f64,
+    /// The number of the step.
+    pub step: u64,
     /// The length of the step [s]: 0 where a load has just been started and has not moved yet.
     pub duration: f64,
 }
@@ -94,9 +101,10 @@ impl Engine {
         let free = world.drum.radius().map_or(1.0, |rim| rim - particles.largest_radius());
         Self {
             pass: new_pass(
-                Model::of(world.table, world.records_gross_work),
+                Model::of(world.table, world.records_gross_work || world.records_contacts),
                 world.drum.surface_count(),
                 &bodies,
+                world.records_contacts,
             ),
             list: PairList::new(count, skin, particles.largest_radius()),
             verlet: Verlet::new(particles, world.time_step, world.gravity),
@@ -188,7 +196,7 @@ impl Engine {
 
     /// Whether the next look at the pair list needs to know the drum's rotation.
     pub fn needs_rotation(&self, world: World) -> bool {
-        world.drum.has_outlines() || self.list.is_due()
+        world.drum.has_outlines() || world.profile.is_some() || self.list.is_due()
     }
 
     /// The longest displacement of a particle in the last drift, as seen from the drum [m].
@@ -242,6 +250,9 @@ impl Engine {
             rotation: drum.rotation,
             angular_velocity: drum.angular_velocity,
             bodies: bodies(particles, self.radius, world.table),
+            step: drum.step,
+            records_gross_work: world.records_gross_work,
+            profile: world.profile,
         }
     }
 

@@ -13,6 +13,7 @@ use crate::engine::contacts::ContactRecord;
 use crate::engine::parallel::chunk_count;
 use crate::error::Error;
 use crate::io::config::SimulationConfig;
+use crate::observe::contact_rows::ContactRow;
 use crate::observe::frames::Frames;
 use crate::observe::memory;
 use crate::physics::drum::Drum;
@@ -36,6 +37,7 @@ struct Snapshot<'a> {
     engine: EngineState,
     rows: Cow<'a, [f64]>,
     frames: Cow<'a, Frames>,
+    contacts: Cow<'a, [ContactRow]>,
 }
 
 fn refuse(reason: impl Into<String>) -> Error {
@@ -60,6 +62,7 @@ impl Simulation {
             engine: self.engine_state(),
             rows: self.records().untaken_rows().into(),
             frames: Cow::Borrowed(self.frames()),
+            contacts: self.records().contacts.as_slice().into(),
         };
         let refused = |error: postcard::Error| refuse(error.to_string());
         let size = HEADER + postcard::experimental::serialized_size(&snapshot).map_err(refused)?;
@@ -90,8 +93,14 @@ impl Simulation {
         let mut records = Records::new(&drum, &config.run.record);
         records.series.prepend(&snapshot.rows)?;
         records.frames = snapshot.frames.into_owned();
+        records.contacts = snapshot.contacts.into_owned();
         check_records(&snapshot.state, &records, snapshot.rows.len())?;
-        Self::resume(config, snapshot.seed, threads, snapshot.state.into_owned(), &snapshot.engine, records)
+        let state = snapshot.state.into_owned();
+        let simulation = Self::resume(config, snapshot.seed, threads, state, &snapshot.engine, records)?;
+        if simulation.has_whole_log(&snapshot.engine) {
+            return Ok(simulation);
+        }
+        Err(refuse("its records of contacts are not those of its bundles and its drum"))
     }
 }
 
@@ -126,12 +135,15 @@ fn check_records(state: &State, records: &Records, values: usize) -> Result<(), 
     let (samples, frames) = (records.series.len(), records.frames.len());
     let recorded = &state.recorded;
     let whole = values == samples * records.series.width() && records.frames.are_of(state.particles.len());
-    let counted = samples as u64 <= recorded.samples && frames as u64 <= recorded.frames;
+    let contacts = records.contacts.len() as u64;
+    let counted = samples as u64 <= recorded.samples
+        && frames as u64 <= recorded.frames
+        && contacts <= recorded.contacts;
     // At most one of each in a step, and one of each at the start.
     if whole && counted && recorded.samples.max(recorded.frames) <= state.step + 1 {
         return Ok(());
     }
-    Err(refuse("its series or frames are not those of its bundles"))
+    Err(refuse("its series, frames or contacts are not those of its bundles"))
 }
 
 /// Refuses a state whose parts do not belong together, which a matching digest alone does not rule out; returns its drum.

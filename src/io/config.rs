@@ -157,6 +157,11 @@ pub struct RunParameters {
     pub skin: Option<f64>,
     /// What is recorded beside what always is.
     pub record: Vec<Recording>,
+    /// Energy [J/m] below which contacts are not listed one by one.
+    pub contact_floor: f64,
+    /// Width of the bins along the drum's outline [m]; none takes a twentieth of the drum's radius.
+    #[serde(deserialize_with = "Option::deserialize")]
+    pub arc_bin: Option<f64>,
     /// Greatest overlap allowed, as a fraction of the smaller radius.
     pub overlap_limit: f64,
 }
@@ -267,6 +272,10 @@ impl RunParameters {
         require_positive("run.frame_every", self.frame_every)?;
         if let Some(skin) = self.skin {
             require_non_negative("run.skin", skin)?;
+        }
+        require_non_negative("run.contact_floor", self.contact_floor)?;
+        if let Some(width) = self.arc_bin {
+            require_positive("run.arc_bin", width)?;
         }
         if self.overlap_limit > 0.0 && self.overlap_limit < 1.0 {
             Ok(())

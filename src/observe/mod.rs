@@ -1,6 +1,7 @@
 //! What is recorded of a simulation, and the statistics of it.
 
 pub mod averages;
+pub mod contact_rows;
 pub mod frames;
 pub mod memory;
 pub mod recorder;

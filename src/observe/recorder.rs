@@ -19,6 +19,21 @@ use crate::physics::energy::{EnergyLedger, StoredEnergy, SurfaceAccount};
 pub enum Recording {
     /// What contacts exchange, loading and unloading both counted.
     GrossWork,
+    /// Every contact, from first touch to opening.
+    Contacts,
+    /// What contacts do along the outline of the drum.
+    WallProfile,
+    /// What contacts take, by pair of species, and by species and part of the drum.
+    LedgerSplit,
+    /// What contacts do to each disc, and its flights.
+    Discs,
+}
+
+impl Recording {
+    /// Whether what each contact does has to be added up for it.
+    pub fn needs_contacts(self) -> bool {
+        self != Self::GrossWork
+    }
 }
 
 /// Everything that a sample may look at.

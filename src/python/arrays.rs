@@ -98,6 +98,7 @@ pub fn initial_state(state: &Bound<'_, PyDict>) -> Result<InitialState, Error> {
                 initial.contacts = Lists {
                     pairs: records("state.contacts.pairs", &value, "pairs")?,
                     walls: records("state.contacts.walls", &value, "walls")?,
+                    ..Lists::default()
                 };
             }
             _ => {

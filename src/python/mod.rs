@@ -2,6 +2,7 @@
 
 mod arrays;
 mod averages;
+mod contact_arrays;
 mod error;
 mod fair_lock;
 mod fork_guard;

@@ -16,10 +16,11 @@ use pyo3::types::PyDict;
 
 use super::fair_lock::FairLock;
 use super::fork_guard::Entered;
-use super::{arrays, averages};
+use super::{arrays, averages, contact_arrays};
 use crate::engine::parallel::CHUNK;
 use crate::error::Error;
 use crate::io::config::SimulationConfig;
+use crate::observe::contact_rows::ContactRow;
 use crate::observe::frames::Frames;
 use crate::observe::recorder::{Recording, columns};
 use crate::observe::summary::summarize;
@@ -53,6 +54,11 @@ impl Simulation {
             let _entered = Entered::enter();
             work(&mut self.core.lock())
         })
+    }
+
+    fn contact_arrays<'py>(&self, py: Python<'py>, rows: &[ContactRow]) -> PyResult<Bound<'py, PyDict>> {
+        let angles = self.with(py, |core| rows.iter().map(|row| core.drum_angle_at(row.opened)).collect());
+        contact_arrays::contacts(py, rows, angles)
     }
 
     /// One of the particles' vectors in id order.
@@ -351,15 +357,39 @@ impl Simulation {
     /// dict: one that is there before, so that no interrupt can come between them and whoever keeps them.
     fn take_records(&self, py: Python<'_>, into: &Bound<'_, PyDict>) -> PyResult<()> {
         let taken = self.with(py, |core| {
-            let (first_sample, first_frame) = (core.first_untaken_sample(), core.first_frame());
-            Ok::<_, Error>((first_sample, first_frame, core.take_rows()?, core.take_frames()))
+            let firsts = [core.first_untaken_sample(), core.first_frame(), core.first_contact()];
+            Ok::<_, Error>((firsts, core.take_rows()?, core.take_frames(), core.take_contacts()))
         });
-        let (first_sample, first_frame, rows, frames) = taken?;
+        let ([first_sample, first_frame, first_contact], rows, frames, contacts) = taken?;
         let (width, count) = self.with(py, |core| (core.series().width(), core.state().particles.len()));
         into.set_item("first_sample", first_sample)?;
         into.set_item("rows", arrays::table_of_rows(py, rows, width))?;
         into.set_item("first_frame", first_frame)?;
-        into.set_item("frames", arrays::frames(py, frames, count)?)
+        into.set_item("frames", arrays::frames(py, frames, count)?)?;
+        into.set_item("first_contact", first_contact)?;
+        into.set_item("contacts", self.contact_arrays(py, &contacts)?)
+    }
+
+    /// The contacts that are still open, up to now, or those in memory that have ended; none where they are not recorded.
+    fn contacts<'py>(&self, py: Python<'py>, are_open: bool) -> PyResult<Bound<'py, PyDict>> {
+        let of = |core: &mut Core| if are_open { core.open_rows() } else { core.records().contacts.clone() };
+        self.contact_arrays(py, &self.with(py, of))
+    }
+
+    /// What is recorded of contacts beside their list, up to now: see `contact_arrays::sums`.
+    fn contact_sums<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let sums = self.with(py, |core| contact_arrays::ContactSums::of(core));
+        sums.into_dict(py)
+    }
+
+    fn put_back_contacts(&self, py: Python<'_>, contacts: &Bound<'_, PyDict>) -> PyResult<()> {
+        let rows = contact_arrays::given_contacts(contacts)?;
+        Ok(self.with(py, |core| core.put_back_contacts(&rows))?)
+    }
+
+    #[getter]
+    fn first_contact(&self, py: Python<'_>) -> u64 {
+        self.with(py, |core| core.first_contact())
     }
 
     fn put_back_rows(&self, py: Python<'_>, rows: &Bound<'_, PyArray2<f64>>, taken: bool) -> PyResult<()> {

@@ -66,6 +66,7 @@ impl Simulation {
     /// Records a sample or a frame where one is due; both or nothing.
     pub(super) fn record(&mut self) -> Result<(), Error> {
         self.state.recorded.is_pending = true;
+        self.collect()?;
         if self.is_sample_due() {
             self.records.series.reserve()?;
         }

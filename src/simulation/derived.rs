@@ -11,6 +11,7 @@ use crate::physics::contact::linear;
 use crate::physics::contact::parameters::{Base, ContactParameters};
 use crate::physics::contact::species::{self, SpeciesTable};
 use crate::physics::drum::Drum;
+use crate::physics::drum::bins::ArcBins;
 use crate::physics::load::composition::Discs;
 use crate::physics::particles::Particles;
 use crate::physics::vector::Vec2;
@@ -21,6 +22,10 @@ pub(super) struct Derived {
     pub(super) drum: Drum,
     pub(super) table: SpeciesTable,
     pub(super) records_gross_work: bool,
+    /// Whether what each contact does is recorded.
+    pub(super) records_contacts: bool,
+    /// The bins of a profile along the drum's outline, where one is recorded.
+    pub(super) profile: Option<ArcBins>,
     pub(super) time_step: f64,
     pub(super) gravity: Vec2,
     pub(super) mass: f64,
@@ -37,11 +42,14 @@ impl Derived {
     pub(super) fn new(config: &SimulationConfig, particles: &Particles) -> Result<Self, Error> {
         let table = config.contact.table()?;
         let time_step = time_step(config, &table, particles)?;
+        let drum = Drum::new(&config.drum)?;
         let every = |interval: f64| ((interval / time_step).round() as u64).max(1);
         Ok(Self {
-            drum: Drum::new(&config.drum)?,
             table,
             records_gross_work: config.run.record.contains(&Recording::GrossWork),
+            records_contacts: config.run.record.iter().any(|recording| recording.needs_contacts()),
+            profile: profile(config, &drum)?,
+            drum,
             time_step,
             gravity: Vec2::new(config.gravity[0], config.gravity[1]),
             mass: particles.total_mass(),
@@ -59,10 +67,34 @@ impl Derived {
             drum: &self.drum,
             table: &self.table,
             records_gross_work: self.records_gross_work,
+            records_contacts: self.records_contacts,
+            profile: self.profile.as_ref(),
             time_step: self.time_step,
             gravity: self.gravity,
         }
     }
+}
+
+/// Bins in the radius of a drum.
+const BINS_PER_RADIUS: f64 = 20.0;
+
+/// The bins of the profile along the drum's outline, if one is recorded.
+///
+/// # Errors
+/// `Error::Config` where they would be too many, or their width is not known.
+fn profile(config: &SimulationConfig, drum: &Drum) -> Result<Option<ArcBins>, Error> {
+    if !config.run.record.contains(&Recording::WallProfile) {
+        return Ok(None);
+    }
+    let width = config.run.arc_bin.or_else(|| drum.bounding_radius().map(|radius| radius / BINS_PER_RADIUS));
+    let unknown = || {
+        Error::config(
+            "run.arc_bin",
+            "not given",
+            "given in a drum without rim and shell, which has no radius",
+        )
+    };
+    ArcBins::new(drum, width.ok_or_else(unknown)?).map(Some)
 }
 
 /// The configured time step, or the shortest collision time / 50.

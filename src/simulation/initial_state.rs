@@ -76,7 +76,7 @@ impl InitialState {
             particles.angular_velocities.clone_from(spins);
         }
         require_finite("state.drum_angle", self.drum_angle)?;
-        let Lists { pairs, walls } = &self.contacts;
+        let Lists { pairs, walls, .. } = &self.contacts;
         let are_finite = pairs.iter().chain(walls).all(ContactRecord::is_finite);
         require(are_finite, "state.contacts", "not finite", "finite")?;
         particles.validate()?;
@@ -141,7 +141,11 @@ pub fn missing(found: Lists, given: &Lists) -> Lists {
         records.retain(|record| known.binary_search(&record.key()).is_err());
         records
     };
-    Lists { pairs: fresh(found.pairs, &given.pairs), walls: fresh(found.walls, &given.walls) }
+    Lists {
+        pairs: fresh(found.pairs, &given.pairs),
+        walls: fresh(found.walls, &given.walls),
+        ..Lists::default()
+    }
 }
 
 /// The keys of contacts, in order.
@@ -204,6 +208,7 @@ pub fn matching(contacts: &Lists, particles: &Particles, drum: &Drum, rotation: 
     Lists {
         pairs: without_repeats(pairs.copied().collect()),
         walls: without_repeats(walls.copied().collect()),
+        ..Lists::default()
     }
 }
 

@@ -1,6 +1,8 @@
 //! `Simulation`: configuration, state and engine; it steps, guards and records.
 
 mod accounts;
+mod collect;
+pub mod contact_log;
 pub mod derived;
 mod guards;
 pub mod initial_state;
@@ -10,6 +12,7 @@ pub mod state;
 mod views;
 pub mod warnings;
 
+use contact_log::ContactLog;
 use derived::Derived;
 use initial_state::InitialState;
 pub use records::Records;
@@ -103,9 +106,10 @@ impl Simulation {
             initial_angle: initial.drum_angle,
             recorded: Recorded::default(),
             ledger: EnergyLedger::default(),
+            log: ContactLog::default(),
             particles,
         };
-        let engine_state = EngineState { contacts, totals: Vec::new() };
+        let engine_state = EngineState { contacts, totals: Vec::new(), events: Vec::new() };
         let records = Records::new(&derived.drum, &config.run.record);
         let mut simulation = Self::assemble(config, seed, threads, state, &engine_state, records, derived);
         simulation.open(&engine_state);
@@ -127,7 +131,11 @@ impl Simulation {
     ) -> Result<Lists, Error> {
         let mut engine = Engine::new(particles, derived.world(), skin(config, particles), Threads::new(1)?);
         let angular_velocity = config.rotation.angular_velocity(0.0);
-        engine.open(particles, derived.world(), DrumMotion { rotation, angular_velocity, duration: 0.0 });
+        engine.open(
+            particles,
+            derived.world(),
+            DrumMotion { rotation, angular_velocity, step: 0, duration: 0.0 },
+        );
         Ok(engine.pass().contacts())
     }
 
@@ -159,6 +167,7 @@ impl Simulation {
         let mut engine = Engine::new(&state.particles, derived.world(), skin, threads);
         engine.insert(&engine_state.contacts, &state.particles, derived.world());
         engine.pass_mut().set_totals(&engine_state.totals);
+        engine.pass_mut().set_events(engine_state.events.clone());
         Self { config, seed, state, derived, engine, records, next_event: 0, failure: None }
     }
 
@@ -167,6 +176,7 @@ impl Simulation {
         let drum = DrumMotion {
             rotation: Rotation::new(self.state.initial_angle),
             angular_velocity: self.config.rotation.angular_velocity(0.0),
+            step: 0,
             duration: 0.0,
         };
         let surfaces = if given.contacts == Lists::default() {
@@ -185,11 +195,13 @@ impl Simulation {
         );
         self.state.ledger = EnergyLedger::open(self.stored(), moments, &surfaces);
         self.state.ledger.overlap_ratio = overlap_ratio;
+        self.open_log();
     }
 
     /// What the engine holds of the state.
     pub fn engine_state(&self) -> EngineState {
-        EngineState { contacts: self.engine.pass().contacts(), totals: self.engine.pass().totals() }
+        let pass = self.engine.pass();
+        EngineState { contacts: pass.contacts(), totals: pass.totals(), events: pass.events() }
     }
 
     fn id_of(&self, place: usize) -> usize {

@@ -1,22 +1,25 @@
 //! What was recorded, until someone takes it: beside the state, since no step needs it.
 //!
-//! Frames are moved out when they are taken. Samples stay, for the averages over a window need them all and they are few;
+//! Frames and contacts are moved out when they are taken. Samples stay, for the averages over a window need them all and they are few;
 //! those that were taken are only noted, so that they are neither taken twice nor written to checkpoints.
 
 use super::Simulation;
 use crate::error::Error;
+use crate::observe::contact_rows::ContactRow;
 use crate::observe::frames::Frames;
 use crate::observe::memory;
 use crate::observe::recorder::{Recording, Series, columns};
 use crate::physics::drum::Drum;
 
-/// Samples and frames in memory: the last of those that the state counts.
+/// Samples, frames and contacts in memory: the last of those that the state counts.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Records {
     /// The samples.
     pub series: Series,
     /// The frames.
     pub frames: Frames,
+    /// The contacts that have ended.
+    pub contacts: Vec<ContactRow>,
     /// Samples at the beginning of `series` that were taken.
     pub(super) taken: usize,
 }
@@ -65,9 +68,20 @@ impl Simulation {
         self.state.recorded.frames - self.records.frames.len() as u64
     }
 
+    /// How many contacts were recorded before the first in memory.
+    pub fn first_contact(&self) -> u64 {
+        self.state.recorded.contacts - self.records.contacts.len() as u64
+    }
+
     /// Memory that records take which were not taken yet [bytes].
     pub fn untaken_size(&self) -> usize {
-        size_of_val(self.records.untaken_rows()) + self.records.frames.size()
+        let contacts = size_of_val(self.records.contacts.as_slice());
+        size_of_val(self.records.untaken_rows()) + self.records.frames.size() + contacts
+    }
+
+    /// Hands over the contacts in memory, without copying them.
+    pub fn take_contacts(&mut self) -> Vec<ContactRow> {
+        std::mem::take(&mut self.records.contacts)
     }
 
     /// Hands over the frames in memory, without copying them.
@@ -112,6 +126,17 @@ impl Simulation {
             return Err(not_missing("frames", self.first_frame(), frames.len()));
         }
         self.records.frames.prepend(frames, count)
+    }
+
+    /// Puts contacts back that were recorded before the first in memory, up to that one.
+    ///
+    /// # Errors
+    /// `Error::Checkpoint` where they are not those, `Error::Memory` where there is no room for them.
+    pub fn put_back_contacts(&mut self, contacts: &[ContactRow]) -> Result<(), Error> {
+        if contacts.len() as u64 != self.first_contact() {
+            return Err(not_missing("contacts", self.first_contact(), contacts.len()));
+        }
+        memory::prepend(&mut self.records.contacts, contacts, "putting contacts back")
     }
 }
 

@@ -42,6 +42,8 @@ impl Simulation {
                 }
                 self.engine.finish();
                 self.engine.write_back(&mut self.state.particles);
+                // Where there is no memory for it, that is not what the run ended on.
+                let _ = self.collect();
                 self.record_end();
                 return Err(error);
             }
@@ -92,6 +94,8 @@ impl Simulation {
                 self.engine.write_back(&mut self.state.particles);
                 self.guard(mass_moment)
             })?;
+            // Where there is no memory for them, events wait for the next sample or frame, which tells.
+            let _ = self.collect();
         }
         self.next_event = self.event_after(self.state.step);
         if !(is_last || self.is_record_due() || self.is_sort_due()) {
@@ -125,7 +129,7 @@ impl Simulation {
             Rotation::IDENTITY
         };
         let duration = self.derived.time_step;
-        DrumMotion { rotation, angular_velocity: turn / duration, duration }
+        DrumMotion { rotation, angular_velocity: turn / duration, step: self.state.step, duration }
     }
 
     /// The angle by which the drum turns in a step [rad].

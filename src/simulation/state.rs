@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::contact_log::ContactLog;
+use crate::engine::contacts::ContactEvent;
 use crate::engine::forces::{Lists, Totals};
 use crate::observe::recorder::Earlier;
 use crate::physics::energy::EnergyLedger;
@@ -18,6 +20,8 @@ pub struct State {
     pub particles: Particles,
     /// The accounts.
     pub ledger: EnergyLedger,
+    /// What contacts did, where that is recorded.
+    pub log: ContactLog,
     /// How much has been recorded.
     pub recorded: Recorded,
 }
@@ -29,6 +33,8 @@ pub struct Recorded {
     pub samples: u64,
     /// Number of frames.
     pub frames: u64,
+    /// Number of contacts that have ended, those below the floor left out.
+    pub contacts: u64,
     /// What the last sample had seen.
     pub earlier: Earlier,
     /// Whether what is due at this step is still to be recorded, since there was no memory for it.
@@ -42,4 +48,6 @@ pub struct EngineState {
     pub contacts: Lists,
     /// Sums for the ledger since the last sample, by chunk.
     pub totals: Vec<Totals>,
+    /// Events of contacts for whose records there has been no memory yet.
+    pub events: Vec<ContactEvent>,
 }

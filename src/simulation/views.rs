@@ -70,7 +70,7 @@ impl Simulation {
 
     /// Angle of the drum [rad].
     pub fn drum_angle(&self) -> f64 {
-        self.state.initial_angle + self.config.rotation.angle_by(&self.derived.angles_at_knots, self.time())
+        self.drum_angle_at(self.state.step)
     }
 
     /// Shortest collision times [s] of this load: (between bundles, with the drum).

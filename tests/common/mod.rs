@@ -118,6 +118,8 @@ pub fn baseline(count: usize, baffle_count: usize) -> SimulationConfig {
             frame_every: 0.04,
             skin: None,
             record: Vec::new(),
+            contact_floor: 0.0,
+            arc_bin: None,
             overlap_limit: 0.5,
         },
     }

@@ -6,6 +6,7 @@
 mod common;
 
 mod config;
+mod contact_records;
 mod determinism;
 mod errors;
 mod fuzz;

@@ -46,6 +46,9 @@ proptest! {
                 species: &particles.species,
                 table: &table,
             },
+            step: 0,
+            records_gross_work: false,
+            profile: None,
         };
         let mut list = PairList::new(particles.len(), skin, particles.largest_radius());
         list.rebuild(&particles.positions, &inputs, &Threads::new(threads).unwrap());

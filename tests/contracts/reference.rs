@@ -119,6 +119,7 @@ fn compare(name: &str, tolerances: [f64; 2]) {
                 record
             })
             .collect(),
+        ..Lists::default()
     };
     let given = contacts.clone();
     let initial = InitialState {

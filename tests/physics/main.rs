@@ -5,6 +5,7 @@ mod common;
 
 mod baffles;
 mod collision;
+mod contact_records;
 mod damping;
 mod drum;
 mod energy;

@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use drumrs::io::config::{ContactTables, LoadParameters, RunParameters, SimulationConfig};
+use drumrs::observe::recorder::Recording;
 use drumrs::physics::contact::parameters::{Base, ContactParameters, Tension};
 use drumrs::physics::contact::species::SpeciesTable;
 use drumrs::physics::drum::DrumParameters;
@@ -38,6 +39,7 @@ struct Draw {
     laws: [Law; 2],
     steps_a_collision: f64,
     skin: Option<f64>,
+    records: bool,
     seed: u64,
 }
 
@@ -61,6 +63,10 @@ prop_compose! {
     }
 }
 
+/// All that is recorded of contacts.
+pub const CONTACT_RECORDS: [Recording; 4] =
+    [Recording::Contacts, Recording::WallProfile, Recording::LedgerSplit, Recording::Discs];
+
 /// A number of any of these powers of ten.
 fn decades(low: f64, high: f64) -> impl Strategy<Value = f64> {
     (low..high).prop_map(|power| libm::pow(10.0, power))
@@ -77,11 +83,12 @@ prop_compose! {
         laws in [law(), law()],
         steps_a_collision in prop_oneof![Just(50.0), 10.5..80.0_f64],
         skin in prop_oneof![Just(None), Just(Some(0.0)), (0.0..1.0_f64).prop_map(Some)],
+        records in any::<bool>(),
         seed in 0..1000_u64,
     ) -> Draw {
         Draw {
             radius, size, fill, density, gravity, start, spin_locked, speeds, hardness, laws, steps_a_collision, skin,
-            seed,
+            records, seed,
         }
     }
 }
@@ -138,7 +145,9 @@ fn put_together(draw: &Draw, mut baffles: BaffleParameters, mut walls: Vec<Vec<[
         sample_every: 100.0 * time_step,
         frame_every: 1000.0 * time_step,
         skin: draw.skin.map(|skin| skin * diameter),
-        record: Vec::new(),
+        record: if draw.records { CONTACT_RECORDS.to_vec() } else { Vec::new() },
+        contact_floor: 0.0,
+        arc_bin: None,
         overlap_limit: 0.5,
     };
     let load = LoadParameters {

@@ -236,7 +236,7 @@ class Config(Tables):
     def digest(self) -> str:
         """32 hexadecimal digits that name this configuration: equal values, equal digest."""
         said = self.model_dump(mode="json", exclude_none=True)
-        # Equal bundles in a level drum: keys that say no more do not rename the results that lie on disk.
+        # Keys that say no more than their absence do not rename the results that lie on disk.
         if not self.load.species:
             said["contact"] |= {"species": 1, "pairs": [], "walls": []}
         if not self.drum.tilt:
@@ -245,6 +245,8 @@ class Config(Tables):
             del said["drum"]["liner"]
         if not self.drum.baffles.corner_radius:
             del said["drum"]["baffles"]["corner_radius"]
+        if not self.run.contact_floor:
+            del said["run"]["contact_floor"]
         canonical = json.dumps(said, sort_keys=True)
         return hashlib.sha256(canonical.encode()).hexdigest()[:32]
 

@@ -149,7 +149,14 @@ class Run(ConfigTable):
     record: types.Recordings = key(
         (),
         "What is recorded on request: 'gross_work', the energy that contacts exchange, loading and unloading both "
-        "counted; a run is a few per cent slower with it",
+        "counted; 'contacts', every contact; 'wall_profile', impulse, losses and wear along the outline of the drum; "
+        "'ledger_split', losses by species and part; 'discs', what each bundle received, and its flights",
+    )
+    contact_floor: NonNegative = key(
+        0.0, "Energy below which a contact is not listed by itself, but in one row with all of these", "J/m"
+    )
+    arc_bin: Positive | None = key(
+        None, "Width of the bins of 'wall_profile'; a twentieth of the drum's radius unless given", "m", 0.01
     )
     overlap_limit: types.OpenFraction = key(
         0.5, "Greatest overlap, over the smaller radius, before the run is given up as unstable", "1"

@@ -111,5 +111,7 @@ def _run(run: "Run") -> dict[str, Any]:
         "frame_every": run.frame_every,
         "skin": None if run.skin == "auto" else run.skin,
         "record": run.record,
+        "contact_floor": run.contact_floor,
+        "arc_bin": run.arc_bin,
         "overlap_limit": run.overlap_limit,
     }

@@ -93,7 +93,10 @@ PartName = Annotated[
     Field(strict=True, pattern=r"^[a-z]\w*$"),
     Limit("a name that begins with a small letter, then letters, digits and _, such as 'lifter'"),
 ]
-Recordings = Annotated[tuple[Literal["gross_work"], ...], Limit("a list of 'gross_work'")]
+Recordings = Annotated[
+    tuple[Literal["gross_work", "contacts", "wall_profile", "ledger_split", "discs"], ...],
+    Limit("a list of any of 'gross_work', 'contacts', 'wall_profile', 'ledger_split', 'discs'"),
+]
 
 _NAME = re.compile(r"[^\W\d_][\w-]*")
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from functools import cache, cached_property
 
 from drumrs.config import Config
+from drumrs.contact_records import COLUMNS
 from drumrs.errors import ConfigError
 from drumrs.simulation import info
 
@@ -58,6 +59,11 @@ class Case:
     def wants_frames(self) -> bool:
         """Whether frames are kept: where ``run.frame_every`` is smaller than ``run.duration``."""
         return self.config.run.frame_every < self.config.run.duration
+
+    @property
+    def contact_tables(self) -> tuple[str, ...]:
+        """Names of the tables of contacts that are kept: those that ``run.record`` asks for."""
+        return tuple(kind for kind in COLUMNS if kind in self.config.run.record)
 
     @cached_property
     def cost(self) -> float:

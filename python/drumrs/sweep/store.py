@@ -5,6 +5,7 @@
 | `<id>.toml` | the configuration |
 | `<id>.series.parquet` | the series |
 | `<id>.frames.parquet` | the frames, where the case wants them |
+| `<id>.contacts.parquet`, … | what the case's `run.record` asks of contacts |
 | `<id>.facts.json` | time taken and machine: what differs from run to run |
 | `<id>.parquet` | one row of parameters and summary, written last: its being there means that the case is finished |
 | `<id>.error.json` | why the case failed |
@@ -18,6 +19,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from drumrs.analysis import statistics
+from drumrs.contact_records import COLUMNS, file_words
 from drumrs.errors import ConfigError, format_value
 from drumrs.files import NO_ROOM, read_object, write_whole
 from drumrs.folders import marker, require_own
@@ -36,7 +38,10 @@ if TYPE_CHECKING:
 
 MARK = marker("sweep")
 TABLE = "table.parquet"
-_ENDINGS = ("toml", "series.parquet", "frames.parquet", "facts.json", "parquet", "error.json")
+_ENDINGS = (
+    *("toml", "series.parquet", "frames.parquet", "facts.json", "parquet", "error.json"),
+    *(f"{kind}.parquet" for kind in COLUMNS),
+)
 _HOUR = 3600.0
 
 
@@ -118,7 +123,7 @@ class Store:
             return ""
         try:
             self._read_row(case)
-            for content in ("series", *(["frames"] if case.wants_frames else [])):
+            for content in ("series", *(["frames"] if case.wants_frames else []), *case.contact_tables):
                 self._read(case, content)
         except ConfigError as error:
             return str(error)
@@ -151,6 +156,10 @@ class Store:
         )
         if case.wants_frames:
             write_sealed_frames(self._parquet(case, "frames"), case, result.frames)
+        tables = result.contact_tables()
+        for kind in case.contact_tables:
+            words = file_words(kind, tables["dissipated"])
+            write_sealed(self._parquet(case, kind), case, kind, tables[kind], words)
         timings = {name: getattr(result.summary, name) for name in TIMINGS}
         self._write_json(case, "facts", {"case": case.id, **timings, **facts})
         self._write_row(case, result.summary, result.series)
@@ -166,12 +175,8 @@ class Store:
         bool
             Whether the results are whole now.
         """
-        import polars as pl
-
         try:
-            old = pl.read_parquet(self._read(case, "summary")).row(0, named=True)
-            summary = Summary.from_mapping({**dict.fromkeys(TIMINGS), **old})
-            self._write_row(case, summary, self.series(case))
+            self._write_row(case, self._summary(case), self.series(case))
         except (ConfigError, KeyError):
             return False
         return self.fault(case) is None
@@ -210,12 +215,40 @@ class Store:
         """Return the frames of a finished case."""
         return Frames.load(self._read(case, "frames"))
 
+    def contact_table(self, case: Case, kind: str) -> "pl.DataFrame":
+        """Return a table of what a finished case has recorded of contacts, such as "wall_profile"."""
+        import polars as pl
+
+        return pl.read_parquet(self._read(case, kind))
+
+    def result(self, case: Case) -> Result:
+        """Return a finished case as its run left it, but for timings; without frames where it keeps none."""
+        import polars as pl
+
+        tables: dict[str, Any] = {}
+        for kind in case.contact_tables:
+            tables[kind] = self.contact_table(case, kind)
+            tables["dissipated"] = json.loads(pl.read_parquet_metadata(self._read(case, kind))["dissipated"])
+        return Result(
+            config=case.config,
+            summary=self._summary(case),
+            series=self.series(case),
+            frames=self.frames(case) if case.wants_frames else Frames.none(),
+            **tables,
+        )
+
     def facts(self, case: Case) -> dict[str, Any]:
         """Return time taken and machine."""
         return read_object(self._path(case, "facts.json")) or {}
 
     def _read(self, case: Case, content: str) -> "io.BytesIO":
         return read_sealed(self._parquet(case, content), case, content)
+
+    def _summary(self, case: Case) -> Summary:
+        import polars as pl
+
+        row = pl.read_parquet(self._read(case, "summary")).row(0, named=True)
+        return Summary.from_mapping({**dict.fromkeys(TIMINGS), **row})
 
     def _write_row(self, case: Case, summary: Summary, series: "pl.DataFrame") -> None:
         found = statistics(series, case.config.run.averaging_window, case.load_mass)

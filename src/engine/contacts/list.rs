@@ -1,11 +1,13 @@
 //! A list of contacts, four to a block, column by column.
 
+use super::event::{ContactTally, Opening};
 use super::record::{ContactRecord, PairParameters};
 use crate::engine::motion::{at_offset, offset};
 use crate::engine::simd::{F64x4, LANES};
 use crate::physics::columns::{Columns, Of};
 use crate::physics::contact::ContactState;
 use crate::physics::contact::law::ContactLaw;
+use crate::physics::contact::tally::Tally;
 
 /// The bodies of four contacts.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -62,13 +64,19 @@ pub struct ContactList<L: ContactLaw> {
     pub neighbors: Vec<u32>,
     /// What they are with.
     pub kind: ListKind,
+    /// By block, what the contacts have done since they opened; empty where that is not recorded.
+    pub tallies: Vec<Of<Tally, [f64; LANES]>>,
+    /// By contact, how they began; likewise.
+    pub openings: Vec<Opening>,
+    /// Whether that is recorded.
+    pub is_tallied: bool,
     /// The bodies of a vacant lane.
     vacant: (u32, u32),
 }
 
 impl<L: ContactLaw> ContactList<L> {
-    /// No contacts yet.
-    pub fn new(parameters: ListParameters<L>, vacant: (u32, u32), kind: ListKind) -> Self {
+    /// No contacts yet; what they do is recorded or not.
+    pub fn new(parameters: ListParameters<L>, vacant: (u32, u32), kind: ListKind, is_tallied: bool) -> Self {
         Self {
             ids: Vec::new(),
             blocks: Vec::new(),
@@ -76,6 +84,9 @@ impl<L: ContactLaw> ContactList<L> {
             parameters,
             neighbors: Vec::new(),
             kind,
+            tallies: Vec::new(),
+            openings: Vec::new(),
+            is_tallied: L::IS_RECORDED && is_tallied,
             vacant,
         }
     }
@@ -125,6 +136,32 @@ impl<L: ContactLaw> ContactList<L> {
         (0..self.len()).map(|index| self.record(index))
     }
 
+    /// What contact `index` has done since it opened, where that is recorded.
+    pub fn tally(&self, index: usize) -> ContactTally {
+        let (block, lane) = (index / LANES, index % LANES);
+        ContactTally {
+            opening: self.openings[index],
+            tally: Tally::map(&self.tallies[block], |column: [f64; LANES]| column[lane]),
+        }
+    }
+
+    /// The same of all contacts, in order; none where it is not recorded.
+    pub fn all_tallies(&self) -> impl Iterator<Item = ContactTally> + '_ {
+        (0..self.openings.len()).map(|index| self.tally(index))
+    }
+
+    /// Replaces what contact `index` has done, where that is recorded.
+    pub fn set_tally(&mut self, index: usize, contact: &ContactTally) {
+        if !self.is_tallied {
+            return;
+        }
+        self.openings[index] = contact.opening;
+        for column in 0..Tally::COUNT {
+            let value = Tally::field(&contact.tally, column);
+            Tally::field_mut(&mut self.tallies[index / LANES], column)[index % LANES] = value;
+        }
+    }
+
     /// The law of contact `index`, and the radii of its bodies.
     pub fn parameters(&self, index: usize) -> Of<PairParameters<L>, f64> {
         match &self.parameters {
@@ -152,6 +189,9 @@ impl<L: ContactLaw> ContactList<L> {
         }
         self.neighbors.push(neighbor);
         self.put(index, record, parameters);
+        if self.is_tallied {
+            self.openings.push(Opening::default());
+        }
     }
 
     /// Appends a vacant block. Its parameters are those of a contact, so that it can be worked out.
@@ -164,6 +204,9 @@ impl<L: ContactLaw> ContactList<L> {
         });
         if self.kind == ListKind::PairsOfTwoMoments {
             self.other_moments.push([0.0; LANES]);
+        }
+        if self.is_tallied {
+            self.tallies.push(Tally::build(|_| [0.0; LANES]));
         }
         if let ListParameters::Each(blocks) = &mut self.parameters {
             blocks.push(PairParameters::<L>::map(parameters, |value| [value; LANES]));
@@ -211,6 +254,11 @@ impl<L: ContactLaw> ContactList<L> {
             let parameters = self.parameters(last);
             self.put(index, &self.record(last), &parameters);
         }
+        if self.is_tallied {
+            self.set_tally(index, &self.tally(last));
+            self.set_tally(last, &ContactTally::default());
+            self.openings.pop();
+        }
         let parameters = self.parameters(last);
         let (particle, other) = self.vacant;
         self.put(last, &ContactRecord { particle, other, ..ContactRecord::default() }, &parameters);
@@ -219,6 +267,7 @@ impl<L: ContactLaw> ContactList<L> {
             self.ids.pop();
             self.blocks.pop();
             self.other_moments.pop();
+            self.tallies.pop();
             if let ListParameters::Each(blocks) = &mut self.parameters {
                 blocks.pop();
             }

@@ -6,9 +6,11 @@
 //! keeps its place. Sums run in this order, so no list and no thread shows in a result; a checkpoint keeps it, and a sort of
 //! memory carries it along.
 
+mod event;
 mod list;
 mod record;
 
+pub use event::{ContactEvent, ContactTally, EventKind, NO_BIN, Opening};
 pub use list::{Block, ContactList, Ids, ListKind, ListParameters};
 pub use record::{ContactRecord, Geometry, PairParameters};
 

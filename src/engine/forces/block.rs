@@ -1,5 +1,6 @@
 //! One step of a block of four contacts: relative motion, law, new state; the same for pairs and for walls.
 
+use super::tallies::{self, BlockRecords};
 use super::totals::Totals;
 use crate::engine::contacts::Block;
 use crate::engine::simd::{F64x4, Vec2x4};
@@ -36,6 +37,7 @@ pub fn evaluate<L: ContactLaw>(
     (normal, arm): (Vec2x4, F64x4),
     time: [f64; 2],
     totals: &mut Totals<F64x4>,
+    records: BlockRecords,
 ) -> BlockForces {
     let last = ContactState::map(&block.state, F64x4::new);
     let history = L::History::map(&block.history, F64x4::new);
@@ -45,7 +47,12 @@ pub fn evaluate<L: ContactLaw>(
     let force = Vec2x4 { x: normal.x * push + normal.y * pull, y: normal.y * push - normal.x * pull };
     let moment = if L::ROLLS { arm * pull + response.rolling_moment } else { arm * pull };
     totals.add_flows(L::FLOWS, &response.flows);
-    if L::RECORDS_GROSS_WORK {
+    if L::IS_RECORDED
+        && let Some(tally) = records.tally
+    {
+        tallies::add::<L>(tally, &contact, &response, records.at_wall);
+    }
+    if L::IS_RECORDED && records.gross_work {
         // The last force as the normal and the tangent of now see it.
         let (x, y) = (last.force_x, last.force_y);
         let last_force = [x * normal.x + y * normal.y, x * normal.y - y * normal.x];

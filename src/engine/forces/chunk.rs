@@ -6,7 +6,7 @@ use super::pairs::GroupGeometry;
 use super::reactions::RemoteReactions;
 use super::totals::Totals;
 use super::{Bodies, StepInputs, outlines, pairs, walls};
-use crate::engine::contacts::{ContactList, ListKind, ListParameters};
+use crate::engine::contacts::{ContactEvent, ContactList, ListKind, ListParameters};
 use crate::engine::motion::{CHUNK_FLAT, MotionView, far, inside};
 use crate::engine::pair_list::{ChunkNeighbors, Opened};
 use crate::engine::parallel::CHUNK;
@@ -30,6 +30,8 @@ pub struct Chunk<L: ContactLaw> {
     pub remote: RemoteReactions,
     /// What each surface of the drum does to the particles.
     pub surfaces: Vec<SurfaceLoad>,
+    /// What has happened to contacts that are recorded, until someone takes it; in order.
+    pub events: Vec<ContactEvent>,
     scratch: Scratch,
 }
 
@@ -43,6 +45,8 @@ pub struct ChunkStep<'a, V> {
     pub sums: ChunkSums<'a, V>,
     /// What the ledger is told.
     pub totals: &'a mut Totals,
+    /// What happens to contacts that are recorded.
+    pub events: &'a mut Vec<ContactEvent>,
     pub scratch: &'a mut Scratch,
 }
 
@@ -108,14 +112,22 @@ impl Ended {
 }
 
 impl<L: ContactLaw> Chunk<L> {
-    /// No contacts yet, for chunk `index` of `count` particles, which are equal in what contacts follow from or not.
-    pub fn new(index: usize, count: usize, surfaces: usize, bodies: &Bodies, are_equal: bool) -> Self {
+    /// No contacts yet, for chunk `index` of `count` particles, which are equal in what contacts follow from or not; what contacts
+    /// do is recorded or not.
+    pub fn new(
+        index: usize,
+        count: usize,
+        surfaces: usize,
+        bodies: &Bodies,
+        are_equal: bool,
+        is_tallied: bool,
+    ) -> Self {
         let first = (index * CHUNK) as u32;
         let pairs = if L::ROLLS || !are_equal { ListKind::PairsOfTwoMoments } else { ListKind::Pairs };
         let list = |kind: ListKind, vacant| {
             let same = || ListParameters::Same(bodies.parameters::<L>((0, 0), kind));
             let parameters = if are_equal { same() } else { ListParameters::Each(Vec::new()) };
-            ContactList::new(parameters, vacant, kind)
+            ContactList::new(parameters, vacant, kind, is_tallied)
         };
         Self {
             pairs: list(pairs, (first, far(count))),
@@ -124,6 +136,7 @@ impl<L: ContactLaw> Chunk<L> {
             totals: Totals::default(),
             remote: RemoteReactions::default(),
             surfaces: vec![SurfaceLoad::default(); surfaces],
+            events: Vec::new(),
             scratch: Scratch::default(),
         }
     }
@@ -148,14 +161,14 @@ impl<L: ContactLaw> Chunk<L> {
         inputs: &StepInputs,
         (force, torque): (&mut [f64; CHUNK_FLAT], &mut [f64; CHUNK]),
     ) {
-        let Self { pairs, rim, outlines, totals, remote, surfaces, scratch } = self;
+        let Self { pairs, rim, outlines, totals, remote, surfaces, events, scratch } = self;
         if neighbors.horizon.is_over() {
             neighbors.refresh(motion, inputs);
         }
         remote.clear();
         let chunk = neighbors.particles.start / CHUNK as u32;
         let sums = ChunkSums::new(chunk, force, torque, remote);
-        let step = &mut ChunkStep { motion, inputs, sums, totals, scratch };
+        let step = &mut ChunkStep { motion, inputs, sums, totals, events, scratch };
         pairs::evaluate(pairs, &mut neighbors.pairs, step);
         surfaces[0] = walls::evaluate_rim(rim, &mut neighbors.rim, step);
         if inputs.drum.has_outlines() {

@@ -8,6 +8,7 @@ mod outlines;
 mod pairs;
 mod pass;
 mod reactions;
+mod tallies;
 mod totals;
 mod walls;
 
@@ -19,6 +20,7 @@ use crate::physics::columns::Of;
 use crate::physics::contact::law::{BodyPair, ContactLaw};
 use crate::physics::contact::species::SpeciesTable;
 use crate::physics::drum::Drum;
+use crate::physics::drum::bins::ArcBins;
 use crate::physics::energy::SurfaceLoad;
 use crate::physics::vector::Rotation;
 
@@ -36,6 +38,12 @@ pub struct StepInputs<'a> {
     pub angular_velocity: f64,
     /// What the particles are.
     pub bodies: Bodies<'a>,
+    /// The number of the step.
+    pub step: u64,
+    /// Whether gross work is summed up.
+    pub records_gross_work: bool,
+    /// The bins of a profile along the drum's outline, where one is recorded.
+    pub profile: Option<&'a ArcBins>,
 }
 
 /// What particles are made of.

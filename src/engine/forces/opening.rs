@@ -2,12 +2,13 @@
 
 use super::chunk::{ChunkStep, Ended, Scratch};
 use super::{Bodies, Totals};
-use crate::engine::contacts::{ContactList, ContactRecord};
+use crate::engine::contacts::{ContactList, ContactRecord, ContactTally, NOT_LISTED};
+use crate::engine::motion::MotionView;
 use crate::engine::pair_list::{Neighbors, Opened};
 use crate::engine::simd::{F64x4, LANES};
 use crate::physics::contact::law::ContactLaw;
 
-impl<V> ChunkStep<'_, V> {
+impl<V: MotionView> ChunkStep<'_, V> {
     /// Makes contacts of neighbors that have begun to touch. Returns the sums to add to, none where the list is empty.
     #[inline]
     pub fn open<L: ContactLaw>(
@@ -15,11 +16,15 @@ impl<V> ChunkStep<'_, V> {
         list: &mut ContactList<L>,
         neighbors: &mut Neighbors,
     ) -> Option<Totals<F64x4>> {
-        let Scratch { opened, ended, .. } = &mut *self.scratch;
+        let Scratch { opened, .. } = &mut *self.scratch;
         if !opened.is_empty() {
+            let first = list.len();
             list.open(opened, neighbors, &self.inputs.bodies);
+            if L::IS_RECORDED && list.is_tallied {
+                self.note_opened(list, first);
+            }
         }
-        ended.clear(list.blocks.len());
+        self.scratch.ended.clear(list.blocks.len());
         (!list.is_empty()).then(|| self.totals.open::<L>())
     }
 
@@ -33,14 +38,21 @@ impl<V> ChunkStep<'_, V> {
         unit: f64,
     ) {
         self.totals.close::<L>(sums, unit);
+        if L::IS_RECORDED && list.is_tallied {
+            self.note_moved(list);
+            self.note_ended(list);
+        }
         list.close(&self.scratch.ended, neighbors);
     }
 }
 
 impl<L: ContactLaw> ContactList<L> {
-    /// Adds a contact as it is, at the end of the list; `place` is its place among the neighbors.
-    pub fn insert(&mut self, record: &ContactRecord, place: u32, bodies: &Bodies) {
-        self.push(record, place, &bodies.parameters::<L>(record.key(), self.kind));
+    /// Adds a contact as it is, at the end of the list, with what it has done where that is known.
+    pub fn insert(&mut self, record: &ContactRecord, tally: Option<&ContactTally>, bodies: &Bodies) {
+        self.push(record, NOT_LISTED, &bodies.parameters::<L>(record.key(), self.kind));
+        if let Some(tally) = tally {
+            self.set_tally(self.len() - 1, tally);
+        }
     }
 
     /// Links the contacts to neighbors that have been searched for anew.
@@ -60,7 +72,7 @@ impl<L: ContactLaw> ContactList<L> {
         opened.dedup();
         for ((particle, other), place) in opened.drain(..) {
             let record = ContactRecord { particle, other, ..ContactRecord::default() };
-            self.insert(&record, place, bodies);
+            self.push(&record, place, &bodies.parameters::<L>(record.key(), self.kind));
             neighbors.open(place);
         }
     }

@@ -51,6 +51,7 @@ pub fn evaluate<L: ContactLaw, V: MotionView>(
     for (index, spots) in spots.chunks(LANES).enumerate() {
         let parameters = list.block_parameters(index);
         let (block, ids) = (&mut list.blocks[index], &list.ids[index]);
+        let tally = if L::IS_RECORDED { list.tallies.get_mut(index) } else { None };
         let position = vectors(|lane| motion.position(ids.own[lane]));
         let spot = |lane: usize| spots.get(lane).copied().unwrap_or_default();
         let overlap = lanes(|lane| spot(lane).overlap);
@@ -59,8 +60,17 @@ pub fn evaluate<L: ContactLaw, V: MotionView>(
         let point = position.plus(normal.scaled(arm));
         let surface_rates = [speed * point.cross(normal), speed * point.dot(normal)];
         let geometry = ContactGeometry { normal, overlap, arm, surface_rates };
-        let forces =
-            advance::<L, V, true>(block, ids, &geometry, &parameters, motion, inputs, sums, &mut totals);
+        let forces = advance::<L, V, true>(
+            block,
+            ids,
+            &geometry,
+            &parameters,
+            motion,
+            inputs,
+            sums,
+            &mut totals,
+            tally,
+        );
         let moments = (forces.moment - position.cross(forces.force)).to_array();
         for (lane, force) in forces.force.to_array().into_iter().enumerate().take(spots.len()) {
             let surface = &mut surfaces[inputs.drum.surface_of(at_offset(ids.other[lane]))];

@@ -5,6 +5,7 @@
 
 use super::accumulate::ChunkSums;
 use super::chunk::{ChunkStep, Scratch};
+use super::tallies::BlockRecords;
 use super::{Totals, block};
 use crate::engine::contacts::{Block, ContactList, Geometry, Ids, ListParameters, PairParameters};
 use crate::engine::motion::{MotionView, at_offset};
@@ -13,6 +14,7 @@ use crate::engine::simd::{F64x4, LANES, Vec2x4, differences, lanes};
 use crate::physics::columns::{Columns, Of};
 use crate::physics::contact::RelativeMotion;
 use crate::physics::contact::law::ContactLaw;
+use crate::physics::contact::tally::Tally;
 use crate::physics::scalar::Scalar;
 
 /// Blocks that go through the stages together; 4 and 16 are no faster.
@@ -38,20 +40,21 @@ pub fn evaluate<L: ContactLaw, V: MotionView>(
 ) {
     find_touching(neighbors, step);
     let Some(mut totals) = step.open(list, neighbors) else { return };
-    let ContactList { ids, blocks, other_moments, parameters, .. } = list;
+    let ContactList { ids, blocks, other_moments, tallies, parameters, .. } = list;
+    let lists = PassLists { ids, blocks, other_moments, tallies };
     let unit = match parameters {
         ListParameters::Same(same) => {
             let own = PairParameters::<L>::map(same, F64x4::splat);
-            if other_moments.is_empty() {
-                run::<L, V, false, false>(ids, blocks, other_moments, |_| own, step, &mut totals);
+            if lists.other_moments.is_empty() {
+                run::<L, V, false, false>(lists, |_| own, step, &mut totals);
             } else {
-                run::<L, V, true, false>(ids, blocks, other_moments, |_| own, step, &mut totals);
+                run::<L, V, true, false>(lists, |_| own, step, &mut totals);
             }
             same.1.radius.min(same.1.other_radius)
         }
         ListParameters::Each(each) => {
             let of = |block: usize| PairParameters::<L>::map(&each[block], F64x4::new);
-            run::<L, V, true, true>(ids, blocks, other_moments, of, step, &mut totals);
+            run::<L, V, true, true>(lists, of, step, &mut totals);
             1.0
         }
     };
@@ -78,17 +81,24 @@ fn find_touching<V: MotionView>(neighbors: &mut Neighbors, step: &mut ChunkStep<
     }
 }
 
+/// What a pass goes through, by block.
+struct PassLists<'a, L: ContactLaw> {
+    ids: &'a [Ids],
+    blocks: &'a mut [Block<L>],
+    other_moments: &'a mut [[f64; LANES]],
+    tallies: &'a mut [Of<Tally, [f64; LANES]>],
+}
+
 /// One pass over a list. With `BOTH`, moments on bodies j are kept apart from those on bodies i; with `MIXED`, radii differ,
 /// and depths are ratios.
 #[inline(never)]
 fn run<L: ContactLaw, V: MotionView, const BOTH: bool, const MIXED: bool>(
-    ids: &[Ids],
-    blocks: &mut [Block<L>],
-    other_moments: &mut [[f64; LANES]],
+    PassLists { ids, blocks, other_moments, tallies }: PassLists<L>,
     parameters: impl Fn(usize) -> Of<PairParameters<L>, F64x4>,
     step: &mut ChunkStep<V>,
     totals: &mut Totals<F64x4>,
 ) {
+    let gross_work = step.inputs.records_gross_work;
     let ChunkStep { sums, scratch: Scratch { group: GroupGeometry(geometries), ended, .. }, .. } = step;
     let (motion, time) = (step.motion, step.inputs.time);
     for (group, (blocks, ids)) in blocks.chunks_mut(GROUP).zip(ids.chunks(GROUP)).enumerate() {
@@ -97,6 +107,7 @@ fn run<L: ContactLaw, V: MotionView, const BOTH: bool, const MIXED: bool>(
         for (index, ((block, ids), geometry)) in blocks.iter_mut().zip(ids).zip(&*geometries).enumerate() {
             let index = first + index;
             let other = if BOTH { Some(&mut other_moments[index]) } else { None };
+            let tally = if L::IS_RECORDED { tallies.get_mut(index) } else { None };
             let touching = advance::<L, V, BOTH, MIXED>(
                 block,
                 ids,
@@ -107,6 +118,7 @@ fn run<L: ContactLaw, V: MotionView, const BOTH: bool, const MIXED: bool>(
                 time,
                 sums,
                 totals,
+                BlockRecords { gross_work, tally, at_wall: false },
             );
             ended.note(index, touching);
         }
@@ -143,6 +155,7 @@ fn advance<L: ContactLaw, V: MotionView, const BOTH: bool, const MIXED: bool>(
     time: [f64; 2],
     sums: &mut ChunkSums<V>,
     totals: &mut Totals<F64x4>,
+    records: BlockRecords,
 ) -> u32 {
     let velocity = between(ids, |particle| view.velocity(particle));
     let spin = lanes(|lane| view.angular_velocity(ids.own[lane]));
@@ -157,7 +170,7 @@ fn advance<L: ContactLaw, V: MotionView, const BOTH: bool, const MIXED: bool>(
         slip_rate: normal.cross(velocity) - turning,
         rolling_rate: spin - other_spin,
     };
-    let step = block::evaluate::<L>(block, law, &motion, (normal, arm), time, totals);
+    let step = block::evaluate::<L>(block, law, &motion, (normal, arm), time, totals, records);
 
     let moment = step.moment;
     let moment_on_other = if BOTH { other_arm * step.tangential - step.rolling_moment } else { moment };

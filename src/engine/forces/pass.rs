@@ -9,7 +9,7 @@ use std::fmt::Debug;
 use super::chunk::Chunk;
 use super::totals::Totals;
 use super::{Bodies, StepInputs};
-use crate::engine::contacts::{ContactRecord, ListKind, NOT_LISTED};
+use crate::engine::contacts::{ContactEvent, ContactRecord, ContactTally, ListKind};
 use crate::engine::motion::verlet::{DriftSums, Verlet, WHOLE};
 use crate::engine::motion::{Arrays, MotionArrays, with_arrays};
 use crate::engine::pair_list::PairList;
@@ -28,6 +28,10 @@ pub struct Lists {
     pub pairs: Vec<ContactRecord>,
     /// Of particles with the drum.
     pub walls: Vec<ContactRecord>,
+    /// What those of particles with each other have done; empty where that is not recorded.
+    pub pair_tallies: Vec<ContactTally>,
+    /// What those with the drum have done, likewise.
+    pub wall_tallies: Vec<ContactTally>,
 }
 
 impl Lists {
@@ -95,11 +99,20 @@ pub trait ForcePass: Debug + Send + Sync {
 
     /// Takes all contacts out.
     fn drain(&mut self) -> Lists;
+
+    /// How many events of contacts have not been taken.
+    fn event_count(&self) -> usize;
+
+    /// Those events, chunk by chunk.
+    fn events(&self) -> Vec<ContactEvent>;
+
+    /// Replaces them.
+    fn set_events(&mut self, events: Vec<ContactEvent>);
 }
 
-/// A pass for these particles, with the law that they need.
-pub fn new_pass(model: Model, surfaces: usize, bodies: &Bodies) -> Box<dyn ForcePass> {
-    with_law!(model, L => Box::new(Pass::<L>::new(surfaces, bodies)))
+/// A pass for these particles, with the law that they need; what each contact does is recorded or not.
+pub fn new_pass(model: Model, surfaces: usize, bodies: &Bodies, is_tallied: bool) -> Box<dyn ForcePass> {
+    with_law!(model, L => Box::new(Pass::<L>::new(surfaces, bodies, is_tallied)))
 }
 
 #[derive(Debug, Clone)]
@@ -112,10 +125,10 @@ struct Pass<L: ContactLaw> {
 }
 
 impl<L: ContactLaw> Pass<L> {
-    fn new(surfaces: usize, bodies: &Bodies) -> Self {
+    fn new(surfaces: usize, bodies: &Bodies, is_tallied: bool) -> Self {
         let count = bodies.radii.len();
         let are_equal = bodies.are_equal();
-        let chunk = |index| Chunk::new(index, count, surfaces, bodies, are_equal);
+        let chunk = |index| Chunk::new(index, count, surfaces, bodies, are_equal, is_tallied);
         let chunks = (0..chunk_count(count)).map(chunk).collect();
         let senders = vec![Vec::new(); chunk_count(count)];
         Self { count, chunks, senders, surfaces: vec![SurfaceLoad::default(); surfaces] }
@@ -256,18 +269,21 @@ impl<L: ContactLaw> ForcePass for Pass<L> {
         for chunk in &self.chunks {
             lists.pairs.extend(chunk.pairs.records());
             lists.walls.extend(chunk.rim.records().chain(chunk.outlines.records()));
+            lists.pair_tallies.extend(chunk.pairs.all_tallies());
+            lists.wall_tallies.extend(chunk.rim.all_tallies().chain(chunk.outlines.all_tallies()));
         }
         lists
     }
 
     fn insert(&mut self, contacts: &Lists, bodies: &Bodies) {
-        for record in &contacts.pairs {
-            self.chunks[record.particle as usize / CHUNK].pairs.insert(record, NOT_LISTED, bodies);
+        for (index, record) in contacts.pairs.iter().enumerate() {
+            let list = &mut self.chunks[record.particle as usize / CHUNK].pairs;
+            list.insert(record, contacts.pair_tallies.get(index), bodies);
         }
-        for record in &contacts.walls {
+        for (index, record) in contacts.walls.iter().enumerate() {
             let Chunk { rim, outlines, .. } = &mut self.chunks[record.particle as usize / CHUNK];
             let list = if record.other == RIM { rim } else { outlines };
-            list.insert(record, NOT_LISTED, bodies);
+            list.insert(record, contacts.wall_tallies.get(index), bodies);
         }
     }
 
@@ -279,5 +295,20 @@ impl<L: ContactLaw> ForcePass for Pass<L> {
             }
         }
         lists
+    }
+
+    fn event_count(&self) -> usize {
+        self.chunks.iter().map(|chunk| chunk.events.len()).sum()
+    }
+
+    fn events(&self) -> Vec<ContactEvent> {
+        self.chunks.iter().flat_map(|chunk| chunk.events.iter().copied()).collect()
+    }
+
+    fn set_events(&mut self, events: Vec<ContactEvent>) {
+        self.chunks.iter_mut().for_each(|chunk| chunk.events.clear());
+        if let Some(first) = self.chunks.first_mut() {
+            first.events = events;
+        }
     }
 }

@@ -39,7 +39,7 @@ impl Totals {
     /// To be added to by contacts of a law; depths begin anew, as they are in a unit of their own.
     #[inline(always)]
     pub fn open<L: ContactLaw>(&self) -> Totals<F64x4> {
-        let recorded = |sum| if L::RECORDS_GROSS_WORK { F64x4::new(sum) } else { F64x4::ZERO };
+        let recorded = |sum| if L::IS_RECORDED { F64x4::new(sum) } else { F64x4::ZERO };
         Totals {
             power: F64x4::new(self.power),
             flows: Flows::map(&self.flows, F64x4::new),
@@ -55,7 +55,7 @@ impl Totals {
         self.deepest = ratios.larger(F64x4::new(self.deepest)).to_array();
         self.power = totals.power.to_array();
         self.flows = Flows::map(&totals.flows, F64x4::to_array);
-        if L::RECORDS_GROSS_WORK {
+        if L::IS_RECORDED {
             self.gross_work = GrossWork::map(&totals.gross_work, F64x4::to_array);
         }
     }

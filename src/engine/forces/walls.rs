@@ -5,6 +5,7 @@ use wide::f64x2;
 use super::accumulate::ChunkSums;
 use super::block::{self, BlockForces};
 use super::chunk::{ChunkStep, Scratch};
+use super::tallies::BlockRecords;
 use super::{StepInputs, SurfaceLoad, Totals};
 use crate::engine::contacts::{Block, ContactList, Ids, ListParameters, PairParameters};
 use crate::engine::motion::{MotionView, at_offset};
@@ -13,6 +14,7 @@ use crate::engine::simd::{F64x4, LANES, Vec2x4, lanes, sum, vectors};
 use crate::physics::columns::{Columns, Of};
 use crate::physics::contact::RelativeMotion;
 use crate::physics::contact::law::ContactLaw;
+use crate::physics::contact::tally::Tally;
 use crate::physics::scalar::Scalar;
 use crate::physics::vector::Vec2;
 
@@ -38,15 +40,15 @@ pub fn evaluate_rim<L: ContactLaw, V: MotionView>(
 ) -> SurfaceLoad {
     find_touching_rim(neighbors, step);
     let Some(mut totals) = step.open(list, neighbors) else { return SurfaceLoad::default() };
-    let ContactList { ids, blocks, parameters, .. } = list;
+    let ContactList { ids, blocks, tallies, parameters, .. } = list;
     let (load, unit) = match parameters {
         ListParameters::Same(same) => {
             let own = PairParameters::<L>::map(same, F64x4::splat);
-            (rim_pass::<L, V, false>(ids, blocks, |_| own, step, &mut totals), same.1.radius)
+            (rim_pass::<L, V, false>((ids, blocks, tallies), |_| own, step, &mut totals), same.1.radius)
         }
         ListParameters::Each(each) => {
             let of = |block: usize| PairParameters::<L>::map(&each[block], F64x4::new);
-            (rim_pass::<L, V, true>(ids, blocks, of, step, &mut totals), 1.0)
+            (rim_pass::<L, V, true>((ids, blocks, tallies), of, step, &mut totals), 1.0)
         }
     };
     step.close(list, neighbors, &totals, unit);
@@ -71,8 +73,7 @@ fn find_touching_rim<V: MotionView>(neighbors: &mut Neighbors, step: &mut ChunkS
 /// One pass over the contacts with the rim.
 #[inline(always)]
 fn rim_pass<L: ContactLaw, V: MotionView, const MIXED: bool>(
-    ids: &[Ids],
-    blocks: &mut [Block<L>],
+    (ids, blocks, tallies): (&[Ids], &mut [Block<L>], &mut [Of<Tally, [f64; LANES]>]),
     parameters: impl Fn(usize) -> Of<PairParameters<L>, F64x4>,
     step: &mut ChunkStep<V>,
     totals: &mut Totals<F64x4>,
@@ -96,7 +97,9 @@ fn rim_pass<L: ContactLaw, V: MotionView, const MIXED: bool>(
             // The rim moves along itself.
             surface_rates: [zero, speed * (distance + arm)],
         };
-        let step = advance::<L, V, MIXED>(block, ids, &geometry, &parameters, motion, inputs, sums, totals);
+        let tally = if L::IS_RECORDED { tallies.get_mut(index) } else { None };
+        let step =
+            advance::<L, V, MIXED>(block, ids, &geometry, &parameters, motion, inputs, sums, totals, tally);
         moment += step.moment - position.cross(step.force);
         force = force.plus(step.force);
         ended.note(index, step.touching);
@@ -118,6 +121,7 @@ pub fn advance<L: ContactLaw, V: MotionView, const MIXED: bool>(
     inputs: &StepInputs,
     sums: &mut ChunkSums<V>,
     totals: &mut Totals<F64x4>,
+    tally: Option<&mut Of<Tally, [f64; LANES]>>,
 ) -> BlockForces {
     let velocity = vectors(|lane| view.velocity(ids.own[lane]));
     let spin = lanes(|lane| view.angular_velocity(ids.own[lane]));
@@ -128,7 +132,8 @@ pub fn advance<L: ContactLaw, V: MotionView, const MIXED: bool>(
         slip_rate: sliding - normal.cross(velocity) - arm * spin,
         rolling_rate: spin - F64x4::splat(inputs.angular_velocity),
     };
-    let step = block::evaluate::<L>(block, law, &motion, (normal, arm), inputs.time, totals);
+    let records = BlockRecords { gross_work: inputs.records_gross_work, tally, at_wall: true };
+    let step = block::evaluate::<L>(block, law, &motion, (normal, arm), inputs.time, totals, records);
     let both = Vec2x4 { x: step.force.x + step.last.force_x, y: step.force.y + step.last.force_y };
     // What the drum does is charged to its surfaces: this is the work on the particles alone.
     totals.power -= (step.moment + step.last.moment) * spin - both.dot(velocity);

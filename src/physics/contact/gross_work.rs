@@ -44,16 +44,16 @@ impl<S: Scalar> GrossWork<S> {
     }
 }
 
-/// The same law, of which the gross work is recorded.
+/// The same law, of whose contacts more is recorded than the ledger needs.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct WithGrossWork<L>(L);
+pub struct WithRecords<L>(L);
 
-impl<L: ContactLaw> ContactLaw for WithGrossWork<L> {
+impl<L: ContactLaw> ContactLaw for WithRecords<L> {
     type Parameters = L::Parameters;
     type History = L::History;
     const FLOWS: Flows<bool> = L::FLOWS;
     const ROLLS: bool = L::ROLLS;
-    const RECORDS_GROSS_WORK: bool = true;
+    const IS_RECORDED: bool = true;
 
     fn between(parameters: &ContactParameters, bodies: BodyPair) -> Of<Self::Parameters, f64> {
         L::between(parameters, bodies)

@@ -53,8 +53,8 @@ pub trait ContactLaw: Copy + Debug + Default + PartialEq + Send + Sync + 'static
     const FLOWS: Flows<bool>;
     /// Whether the moments on the two bodies can differ where their arms are equal.
     const ROLLS: bool;
-    /// Whether its gross work is recorded.
-    const RECORDS_GROSS_WORK: bool = false;
+    /// Whether more is recorded of its contacts than the ledger needs.
+    const IS_RECORDED: bool = false;
 
     /// The law between two bodies.
     fn between(parameters: &ContactParameters, bodies: BodyPair) -> Of<Self::Parameters, f64>;

@@ -21,6 +21,7 @@ pub mod model;
 pub mod parameters;
 pub mod rolling;
 pub mod species;
+pub mod tally;
 pub mod tangential_dashpot;
 
 pub use kinematics::{Kinematics, RelativeMotion};

@@ -1,7 +1,7 @@
-//! The list of laws: which base law a simulation has, which terms act with it, and whether its gross work is recorded.
+//! The list of laws: which base law a simulation has, which terms act with it, and whether more is recorded of its contacts.
 
 use super::adhesion::Adhesion;
-use super::gross_work::WithGrossWork;
+use super::gross_work::WithRecords;
 use super::hertz::Hertz;
 use super::linear::Linear;
 use super::parameters::{Base, ContactParameters};
@@ -24,15 +24,15 @@ pub type BareHertzLaw = Hertz;
 /// Hertz–Mindlin with the terms that do not go with the tangential stiffness.
 pub type FullHertzLaw = (Hertz, Adhesion);
 
-/// `ClippedLaw` with its gross work; where tension is allowed, nothing is clipped.
-pub type ClippedGrossLaw = WithGrossWork<ClippedLaw>;
-/// `FullLaw` with its gross work.
-pub type FullGrossLaw = WithGrossWork<FullLaw>;
-/// `FullHertzLaw` with its gross work.
-pub type FullHertzGrossLaw = WithGrossWork<FullHertzLaw>;
+/// `ClippedLaw` with records; where tension is allowed, nothing is clipped.
+pub type RecordedClippedLaw = WithRecords<ClippedLaw>;
+/// `FullLaw` with records.
+pub type RecordedFullLaw = WithRecords<FullLaw>;
+/// `FullHertzLaw` with records.
+pub type RecordedFullHertzLaw = WithRecords<FullHertzLaw>;
 
-/// Which law a simulation has. Chosen once: a term that is 0 for every pair costs nothing, nor does gross work that is not
-/// recorded.
+/// Which law a simulation has. Chosen once: a term that is 0 for every pair costs nothing, nor does a record that nobody asked
+/// for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Model {
     /// `BareLaw`
@@ -45,22 +45,22 @@ pub enum Model {
     Hertz,
     /// `FullHertzLaw`
     FullHertz,
-    /// `ClippedGrossLaw`
-    ClippedGross,
-    /// `FullGrossLaw`
-    FullGross,
-    /// `FullHertzGrossLaw`
-    FullHertzGross,
+    /// `RecordedClippedLaw`
+    RecordedClipped,
+    /// `RecordedFullLaw`
+    RecordedFull,
+    /// `RecordedFullHertzLaw`
+    RecordedFullHertz,
 }
 
 impl Model {
-    /// The simplest one that does what the table asks for.
-    pub fn of(table: &SpeciesTable, records_gross_work: bool) -> Self {
+    /// The simplest one that does what the table asks for, with records of contacts or not.
+    pub fn of(table: &SpeciesTable, is_recorded: bool) -> Self {
         let has_terms = table.all().any(ContactParameters::has_terms);
         match table.base() {
-            Base::Hertz if records_gross_work => Self::FullHertzGross,
-            Base::Linear if records_gross_work && has_terms => Self::FullGross,
-            Base::Linear if records_gross_work => Self::ClippedGross,
+            Base::Hertz if is_recorded => Self::RecordedFullHertz,
+            Base::Linear if is_recorded && has_terms => Self::RecordedFull,
+            Base::Linear if is_recorded => Self::RecordedClipped,
             Base::Hertz if has_terms => Self::FullHertz,
             Base::Hertz => Self::Hertz,
             Base::Linear if has_terms => Self::Full,
@@ -75,7 +75,8 @@ macro_rules! with_law {
     ($model:expr, $law:ident => $work:expr) => {
         $crate::physics::contact::model::with_law!($model, $law => $work;
             Bare BareLaw, Clipped ClippedLaw, Full FullLaw, Hertz BareHertzLaw, FullHertz FullHertzLaw,
-            ClippedGross ClippedGrossLaw, FullGross FullGrossLaw, FullHertzGross FullHertzGrossLaw)
+            RecordedClipped RecordedClippedLaw, RecordedFull RecordedFullLaw,
+            RecordedFullHertz RecordedFullHertzLaw)
     };
     ($model:expr, $law:ident => $work:expr; $($value:ident $type:ident),*) => {{
         use $crate::physics::contact::model as laws;

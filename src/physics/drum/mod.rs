@@ -7,6 +7,7 @@
 //! with the same bits, scaled.
 
 pub mod baffle;
+pub mod bins;
 mod feature;
 mod graph;
 mod network;

@@ -126,7 +126,9 @@ VALUES = {
     "run.checkpoint_every": positive,
     "run.seed": st.integers(0, 2**63 - 1),
     "run.skin": non_negative | st.just("auto"),
-    "run.record": st.sampled_from([(), ("gross_work",)]),
+    "run.record": st.sampled_from([(), ("gross_work",), ("contacts", "discs")]),
+    "run.contact_floor": non_negative,
+    "run.arc_bin": positive,
     "run.overlap_limit": st.floats(0.01, 0.99),
 } | {
     f"contact.{kind}.{key}": strategy
