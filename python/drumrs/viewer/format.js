@@ -13,20 +13,18 @@ export function formatNumber(value) {
   return value.toFixed(digits).replace("-", "−");
 }
 
-// A round number at an axis: as short as it can be, with a power of ten where it is very small or large.
-export function formatTick(value) {
-  const size = Math.abs(value);
-  const exponent = Math.floor(Math.log10(size));
-  const isPlain = size === 0 || (size >= 0.001 && size < 1e5);
-  const told = isPlain ? `${value}` : `${Number((value / 10 ** exponent).toPrecision(3))}·${powerOfTen(10 ** exponent)}`;
-  return told.replace("-", "−");
-}
-
 // A power of ten with its exponent raised.
 export function powerOfTen(value) {
   const exponent = Math.round(Math.log10(value));
   const raised = String(Math.abs(exponent)).replace(/./g, (digit) => "⁰¹²³⁴⁵⁶⁷⁸⁹"[digit]);
   return exponent === 0 ? "1" : exponent === 1 ? "10" : `10${exponent < 0 ? "⁻" : ""}${raised}`;
+}
+
+// A round number in the few characters that there is room for beside an axis.
+export function formatTick(value) {
+  const power = 10 ** Math.floor(Math.log10(Math.abs(value) || 1));
+  const written = power < 1e5 ? String(value) : `${Number((value / power).toPrecision(3))}·${powerOfTen(power)}`;
+  return written.replace("-", "−");
 }
 
 // Round numbers between two ends, some `wanted` of them, and the step between them.

@@ -9,7 +9,7 @@ import { prepare } from "./canvas.js";
 import { decades, formatTick, powerOfTen, roundSteps } from "./format.js";
 import { mix } from "./recording.js";
 
-const LEFT = 46;
+const LEFT = 52;
 const RIGHT = 10;
 const TOP = 8;
 const BOTTOM = 22;
