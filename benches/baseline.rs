@@ -1,6 +1,6 @@
-//! The loads for `instructions.sh`, which counts what a step costs: `settle FILE COUNT BAFFLES RATIO` makes one in the tumble,
-//! whose largest bundles are RATIO times as wide as the smallest, and prints its contacts per bundle; with `recorded` after
-//! it, all is recorded that can be; `run FILE STEPS` goes on with it.
+//! The loads for `instructions.sh`, which counts what a step costs: `settle FILE COUNT BAFFLES` makes one in the tumble and prints its
+//! contacts per bundle, with `mixed` one of sizes 1 : 2, with `recorded` one of which all is recorded that can be; `run FILE
+//! STEPS` goes on with it.
 
 mod scenes;
 
@@ -19,13 +19,14 @@ fn main() {
     let arguments: Vec<String> = std::env::args().collect();
     let words: Vec<&str> = arguments[1..].iter().map(String::as_str).collect();
     match words[..] {
-        ["settle", file, count, baffles, ratio, ref more @ ..] => {
-            let record = if more == ["recorded"] { scenes::ALL_RECORDS } else { &[] };
-            let mut simulation = match number(ratio) {
-                1 => scenes::started_with(number(count), number(baffles), record),
-                ratio => scenes::mixed(number(count), ratio as f64),
+        ["settle", file, count, baffles, ref more @ ..] => {
+            let (count, baffles) = (number(count), number(baffles));
+            let mut simulation = match more {
+                [] => scenes::started(count, baffles),
+                ["mixed"] => scenes::mixed(count, 2.0),
+                _ => scenes::started_with(count, baffles, scenes::ALL_RECORDS),
             };
-            let steps = match number(count) {
+            let steps = match count {
                 0..=300 => (SETTLING / simulation.time_step()).round() as u64,
                 _ => LARGE_STEPS,
             };
@@ -33,13 +34,13 @@ fn main() {
             let bytes = simulation.to_checkpoint().expect("a stable load");
             std::fs::write(file, bytes).expect("a file to write");
             let (pairs, walls) = simulation.contacts().counts();
-            println!("{:.2}", (pairs + walls) as f64 / number(count) as f64);
+            println!("{:.2}", (pairs + walls) as f64 / count as f64);
         }
         ["run", file, steps] => {
             let bytes = std::fs::read(file).expect("a file to read");
             let mut simulation = Simulation::from_checkpoint(&bytes, 1).expect("a settled load");
             simulation.run(number(steps) as u64).expect("a stable run");
         }
-        _ => panic!("settle FILE COUNT BAFFLES RATIO [recorded], or run FILE STEPS"),
+        _ => panic!("settle FILE COUNT BAFFLES [mixed | recorded], or run FILE STEPS"),
     }
 }

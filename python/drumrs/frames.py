@@ -73,6 +73,13 @@ class Frames:
     baffles: tuple[NDArray[np.float64], ...] = ()
     walls: tuple[NDArray[np.float64], ...] = ()
 
+    @classmethod
+    def none(cls) -> "Frames":
+        """Return no frames of no bundles: what is left of a run that kept none."""
+        flat, one = np.empty((0, 0), np.float32), np.empty(0)
+        pairs, counts = np.empty((0, 0, 2), np.float32), np.empty((0, 0), np.uint16)
+        return cls(one, one, pairs, flat, pairs, counts, one)
+
     def __len__(self) -> int:
         """Return the number of frames."""
         return len(self.times)
@@ -234,10 +241,11 @@ class FramesFile:
         """
         import polars as pl
 
+        scene = json.loads(pl.read_parquet_metadata(source)["scene"])
         table = pl.scan_parquet(source)
         path = Path("frames.parquet") if isinstance(source, io.BytesIO) else Path(source)
         require(path, table.collect_schema().names(), (name for name in COLUMNS if name != "species"))
-        return cls(table, json.loads(pl.read_parquet_metadata(source)["scene"]))
+        return cls(table, scene)
 
     def __len__(self) -> int:
         """Return the number of frames."""

@@ -462,6 +462,19 @@ _MEASURES = (
         "mean",
         "angle that 5 % of the energy of landing falls lies beyond, as seen from the top",
     ),
+    # washing and drying
+    _made(
+        "center_turning", "rad/s", "mean", "change of the polar angle of the center of mass, without its sign"
+    ),
+    _made("disc_turning", "rad/s", "mean", "change of the polar angle of a disc, without its sign"),
+    _made("moving_speed", "m/s", "mean", "way of a disc between frames, over their interval"),
+    _made("moving_spread", "1", "mean", "standard deviation of these ways over discs, over their mean"),
+    _made("axis_distance_spread", "m", "mean", "standard deviation of the distances of discs from the axis"),
+    _made("shape_factor", "1", "mean", "roundness of the outline of the load", formula="4 π A/P²"),
+    _made(
+        "openness", "1", "mean", "share of the discs' perimeters from which a line of D/4 meets no other disc"
+    ),
+    _made("curtain", "1", "mean", "share of vertical lines through the drum that meet a disc in flight"),
 )
 MEASURES = tuple(row.name for row in _MEASURES)
 

@@ -190,7 +190,7 @@ def test_frames_of_older_columns_are_refused_with_the_way_out(tmp_path):
     words = {"scene": pl.read_parquet_metadata(frames)["scene"]}
     pl.read_parquet(frames).drop("velocity_x").write_parquet(frames, metadata=words)
     for read in (drumrs.load, viewer.read):
-        with pytest.raises(ConfigError, match=r"frames\.parquet' has no 'velocity_x'.*another version"):
+        with pytest.raises(ConfigError, match=r"frames.parquet' has no 'velocity_x'.*another version"):
             read(tmp_path)
 
 

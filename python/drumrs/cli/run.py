@@ -9,17 +9,21 @@ from cyclopts import Parameter
 
 from drumrs.analysis.phases import phases_of
 from drumrs.cli.options import NUMBER, PATH, Seed, Settings, Threads, check_folder, layered
-from drumrs.cli.tables import print_paths, print_phases, print_table
+from drumrs.cli.tables import print_paths, print_phases, print_species, print_table
 from drumrs.config import Config
 from drumrs.config.softening import softening
 from drumrs.errors import ConfigError, UnstableError
 from drumrs.folders import RUN_FILES, require_own, require_unused
+from drumrs.frames import Frames
 from drumrs.limits import require_disk
 from drumrs.precision import Goal, run_until_precise
 from drumrs.run_folder import RunFolder
 from drumrs.runs import packing, run_to_end
 from drumrs.simulation import Simulation
 from drumrs.unstable import refuse_to_repeat
+
+# Bundles times frames that are read for means by species.
+_MOST_PLACES = 2_000_000
 
 
 def run(
@@ -104,6 +108,8 @@ def run(
         print_table({"": summary})
         if simulation.config.rotation.phase:
             print_phases(phases_of(simulation.config, simulation.series))
+        if simulation.config.load.species:
+            _print_species(simulation, folder, (summary.window_start, summary.window_end))
         print_paths(written)
     if reached:
         sys.stderr.write(f"drumrs: {reached}\n")
@@ -162,6 +168,15 @@ def _keep_unstable(simulation: Simulation, folder: RunFolder | None, error: Unst
     folder.conclude_unstable(simulation, error)
     out = folder.path
     sys.stderr.write(f"drumrs: what was recorded is in {out}; look at its end with: drumrs view {out}\n")
+
+
+def _print_species(simulation: Simulation, folder: RunFolder | None, window: tuple[float, float]) -> None:
+    """Print what each species has, where the averages' window holds frames."""
+    from drumrs.measures import by_species
+
+    if 2.0 * simulation.config.run.frame_every <= window[1] - window[0]:
+        kept = Frames.load(folder.path / "frames.parquet", _MOST_PLACES) if folder else simulation.frames
+        print_species(by_species(simulation.config, kept, window))
 
 
 def _finish(simulation: Simulation, folder: RunFolder | None, goal: Goal | None) -> str:

@@ -47,6 +47,30 @@ def print_phases(phases: "pl.DataFrame") -> None:
     Console(highlight=False).print(table)
 
 
+def print_species(species: "pl.DataFrame") -> None:
+    """Print who has how much of the load and of its energy of motion, a row for each species."""
+    import polars as pl
+    from rich.console import Console
+    from rich.markup import escape
+    from rich.table import Table
+
+    mass, energy = pl.col("load_mass"), pl.col("kinetic_translation")
+    # A load at rest has nothing to share.
+    share = pl.when(energy.sum() > 0.0).then(energy / energy.sum()).otherwise(0.0)
+    shares = {
+        "mass_share": 100.0 * mass / mass.sum(),
+        "specific": energy / mass,
+        "energy_share": 100.0 * share,
+    }
+    rows = species.select("species", "bundle_count", "load_mass", **shares)
+    table = Table(box=None, highlight=False)
+    for label in ("species", "bundles", "mass [kg/m]", "[%]", "kinetic energy [J/kg]", "[%]"):
+        table.add_column(escape(label), justify="left" if label == "species" else "right")
+    for name, *numbers in rows.iter_rows():
+        table.add_row(escape(name), *(f"{number:.4g}" for number in numbers))
+    Console(highlight=False).print(table)
+
+
 def print_paths(paths: Sequence[Path]) -> None:
     """Say which files were written."""
     for path in paths:

@@ -25,6 +25,8 @@ from drumrs.config.toml_writer import to_toml
 from drumrs.errors import ConfigError
 
 _CHANGES = "a dict of keys with their values, such as {'load.fill': 0.3}"
+# Less load than such a part of a bundle comes of lengths in another unit.
+_FAR_OFF = 10.0
 _WRITE_ONE = "drumrs config > case.toml writes one with every key"
 
 
@@ -70,13 +72,16 @@ class Config(Tables):
             raise conflict("load.diameter", load.diameter, f"smaller than drum.diameter = {drum.diameter}")
         key, value, one = self.amount
         if key != "load.count" and not 0.5 * one < value <= GREATEST_COUNT * one:
-            which = "on average " if load.species else f"of diameter {load.diameter} "
-            does = "weighs" if key == "load.mass" else "fills"
-            limit = (
-                f"between {0.5 * one:.4g} and {GREATEST_COUNT * one:.4g}: one bundle {which}{does} {one:.4g} of a drum "
-                f"of diameter {drum.area_diameter:.6g}"
+            which = "on average" if load.species else f"of diameter {load.diameter}"
+            does = (
+                f"weighs {one:.4g} kg in a drum {drum.depth:g} m deep"
+                if key == "load.mass"
+                else f"fills {one:.4g} of a drum of diameter {drum.area_diameter:.6g}"
             )
-            raise conflict(key, value, limit)
+            limit = f"between {0.5 * one:.4g} and {GREATEST_COUNT * one:.4g}: one bundle {which} {does}"
+            far_off = value > GREATEST_COUNT * one or value < one / _FAR_OFF
+            hint = "lengths are in meters: are some of these millimeters?" if far_off else ""
+            raise conflict(key, value, limit, hint=hint)
         return self
 
     def _mean_bundle(self) -> tuple[float, float]:

@@ -183,6 +183,9 @@ class Drum(ConfigTable):
         if rail.count and rail.height >= self.diameter / 2.0:
             limit = f"smaller than half of {{at}}diameter = {self.diameter}, so that it ends before the axis"
             raise conflict("{at}liner.rail.height", rail.height, limit)
+        if rail.count and rail.width >= self.diameter:
+            limit = f"smaller than {{at}}diameter = {self.diameter}"
+            raise conflict("{at}liner.rail.width", rail.width, limit)
         return self
 
     @model_validator(mode="after")

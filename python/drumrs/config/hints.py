@@ -42,6 +42,7 @@ _DRUM = _Range("drum.diameter", 5e-3, 20.0, "m", _SHORTER)
 _FARTHEST = 100.0
 _GRAVITY = _Range("gravity", 1e-3, 100.0, "m/s²", (("cm/s²", 1e-2), ("mm/s²", 1e-3)))
 _DENSITY = _Range("load.density", 5.0, 25e3, "kg/m³", (("g/cm³", 1e3), ("g/m³", 1e-3)))
+_MOISTURE = _Range("load.moisture", 0.0, 5.0, "kg per kg", (("per cent", 1e-2),))
 _MODULUS = _Range("young_modulus", 1e3, 1e13, "Pa", (("MPa", 1e6), ("GPa", 1e9)))
 # Froude numbers between which loads roll, tumble and begin to centrifuge.
 _LEAST_FROUDE, _MOST_FROUDE = 1e-3, 3.0
@@ -67,6 +68,8 @@ def _lengths(config: "Tables") -> Iterator[str]:
             yield from replace(_BUNDLE, key=f"load.species[{index}].diameter").hint(species.diameter)
     if drum.rim:
         yield from _DRUM.hint(drum.diameter)
+    elif drum.shell is not None:
+        yield from replace(_DRUM, key="drum.liner.outlines").hint(drum.area_diameter)
     # Walls stand within the rim, or are a machine of their own.
     reach = drum.diameter if drum.rim else _FARTHEST
     for index, line in enumerate(drum.walls):
@@ -98,6 +101,7 @@ def _tumbles(froude: float) -> bool:
 
 def _others(config: "Tables") -> Iterator[str]:
     yield from _DENSITY.hint(config.load.density)
+    yield from _MOISTURE.hint(config.load.moisture or 0.0)
     for index, species in enumerate(config.load.species or ()):
         if species.density is not None:
             yield from replace(_DENSITY, key=f"load.species[{index}].density").hint(species.density)
@@ -107,6 +111,13 @@ def _others(config: "Tables") -> Iterator[str]:
             yield from replace(_MODULUS, key=f"contact.{table}.{_MODULUS.key}").hint(modulus)
     if config.drum.baffles.count:
         yield from _degrees("drum.baffles.phase", config.drum.baffles.phase)
+    rail = config.drum.liner.rail
+    for key in ("face_angle", "back_angle") if rail.count else ():
+        angle = getattr(rail, key)
+        # Liners have faces along the radial, or leaning by more than that.
+        if 0.0 < abs(angle) < math.pi / 2.0:
+            meant = math.degrees(angle)
+            yield f"drum.liner.rail.{key} is {angle:g} degrees: write {meant:.3g} where radians were meant"
     yield from _degrees("drum.tilt", config.drum.tilt)
     if config.drum.tilt:
         angle = math.radians(config.drum.tilt)

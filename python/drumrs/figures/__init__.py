@@ -1,25 +1,43 @@
 """Pictures: frames and tables in, matplotlib figures out; one function a figure, none sees a simulation.
 
+Those of the load and its history: `snapshot`, `snapshots`, `time_series`, `curves`. Those of what `drumrs.measures`
+returns: `flow`, `wall_profile`, `collision_spectrum`, `mixing_curve`, `landing_rose`, `unbalance_histogram`,
+`regime_map`.
+
 A figure of one's own has their style where it is made with `new_figure` within `drumrs_style`, and written by `write`.
 """
 
 import drumrs.figures.backend  # noqa: F401 - imports matplotlib, so it comes first
 from drumrs.figures.curves import Labels, curves
+from drumrs.figures.flow import flow
 from drumrs.figures.history import time_series
+from drumrs.figures.landing import landing_rose
+from drumrs.figures.mixing import mixing_curve
+from drumrs.figures.regimes import regime_map
 from drumrs.figures.shared import INK, drumrs_style, line_colors, new_figure, render, write
 from drumrs.figures.snapshots import View, snapshot, snapshots
+from drumrs.figures.spectrum import collision_spectrum
+from drumrs.figures.unbalance import unbalance_histogram
+from drumrs.figures.walls import wall_profile
 
 __all__ = [
     "INK",
     "Labels",
     "View",
+    "collision_spectrum",
     "curves",
     "drumrs_style",
+    "flow",
+    "landing_rose",
     "line_colors",
+    "mixing_curve",
     "new_figure",
+    "regime_map",
     "render",
     "snapshot",
     "snapshots",
     "time_series",
+    "unbalance_histogram",
+    "wall_profile",
     "write",
 ]

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING
 import matplotlib as mpl
 import numpy as np
 from matplotlib.collections import EllipseCollection, LineCollection, PolyCollection
-from matplotlib.colors import Colormap, Normalize
+from matplotlib.colors import Colormap, ListedColormap, Normalize
 from matplotlib.patches import Circle, FancyArrowPatch, Polygon
 
 from drumrs.figures import labels
-from drumrs.figures.shared import INK, STEEL, Array, drumrs_style, new_figure
+from drumrs.figures.shared import INK, STEEL, Array, drumrs_style, line_colors, new_figure
 from drumrs.frames import Frames
 
 if TYPE_CHECKING:
@@ -50,6 +50,8 @@ class View:
 def snapshot(frames: Frames, index: int = -1, label: str = "") -> "Figure":
     """Draw one frame: bundles colored by speed, a radius on each to show its spin, rim, baffles, rotation.
 
+    Where there are several species, it is drawn again below, colored by them.
+
     Parameters
     ----------
     frames
@@ -71,7 +73,7 @@ def snapshot(frames: Frames, index: int = -1, label: str = "") -> "Figure":
 
 
 def snapshots(views: Sequence[View]) -> "Figure":
-    """Draw several frames in a row, on one scale of speed.
+    """Draw several frames in a row, on one scale of speed; where there are several species, a second time by them.
 
     Parameters
     ----------
@@ -96,20 +98,44 @@ def snapshots(views: Sequence[View]) -> "Figure":
     if not views:
         raise ValueError("views is empty, but must hold at least one frame")
     fastest = max((float(view.speeds.max(initial=0.0)) for view in views), default=0.0)
+    known = all(view.frames.species for view in views)
+    names = sorted({name for view in views for name in view.frames.species}) if known else []
     with drumrs_style():
-        norm = Normalize(0.0, fastest or 1.0)
-        figure = new_figure(_PANEL * len(views) + 0.9, _PANEL + 0.45)
-        row = figure.subplots(1, len(views), squeeze=False)[0]
-        for axes, view in zip(row, views, strict=True):
-            discs = _draw_view(axes, view, norm)
-        figure.colorbar(discs, ax=list(row), label=labels.SPEED, shrink=0.8, pad=0.02)
+        rows = 2 if len(names) > 1 else 1
+        figure = new_figure(_PANEL * len(views) + 0.9, rows * (_PANEL + 0.45))
+        grid = figure.subplots(rows, len(views), squeeze=False)
+        scale = _Scale(mpl.colormaps[mpl.rcParams["image.cmap"]], Normalize(0.0, fastest or 1.0))
+        for axes, view in zip(grid[0], views, strict=True):
+            discs = _draw_view(axes, view, view.speeds, scale)
+        figure.colorbar(discs, ax=list(grid[0]), label=labels.SPEED, shrink=0.8, pad=0.02)
+        if rows > 1:
+            _draw_species(figure, list(grid[1]), views, names)
     return figure
 
 
-def _draw_view(axes: "Axes", view: View, norm: Normalize) -> EllipseCollection:
+@dataclass(frozen=True)
+class _Scale:
+    """Colors of values."""
+
+    colors: Colormap
+    norm: Normalize
+
+
+def _draw_species(figure: "Figure", row: "list[Axes]", views: Sequence[View], names: list[str]) -> None:
+    """Draw the frames once more, bundles colored by species."""
+    colors = [line_colors()[place % len(line_colors())] for place in range(len(names))]
+    scale = _Scale(ListedColormap(colors), Normalize(-0.5, len(names) - 0.5))
+    for axes, view in zip(row, views, strict=True):
+        places = np.array([names.index(name) for name in view.frames.species], dtype=float)
+        discs = _draw_view(axes, view, places, scale)
+    bar = figure.colorbar(discs, ax=row, shrink=0.8, pad=0.02, ticks=range(len(names)))
+    bar.ax.set_yticklabels(names)
+
+
+def _draw_view(axes: "Axes", view: View, values: Array, scale: _Scale) -> EllipseCollection:
     frames, index = view.frames, view.index % len(view.frames)
     _draw_drum(axes, frames, index)
-    discs = _draw_bundles(axes, frames, index, norm)
+    discs = _draw_bundles(axes, frames, index, values, scale)
     reach = _reach(frames, index)
     # The arrow of rotation needs room above.
     axes.set(xlim=(-1.03 * reach, 1.03 * reach), ylim=(-1.03 * reach, 1.15 * reach), aspect="equal")
@@ -153,9 +179,10 @@ def _draw_arrow(axes: "Axes", radius: float, sense: int) -> None:
     axes.add_patch(head)
 
 
-def _draw_bundles(axes: "Axes", frames: Frames, index: int, norm: Normalize) -> EllipseCollection:
-    centers, speeds, radii = frames.positions[index], frames.speeds[index], frames.radii
-    colors = mpl.colormaps[mpl.rcParams["image.cmap"]]
+def _draw_bundles(
+    axes: "Axes", frames: Frames, index: int, values: Array, scale: _Scale
+) -> EllipseCollection:
+    centers, radii = frames.positions[index], frames.radii
     discs = EllipseCollection(
         2.0 * radii,
         2.0 * radii,
@@ -163,9 +190,9 @@ def _draw_bundles(axes: "Axes", frames: Frames, index: int, norm: Normalize) -> 
         units="xy",
         offsets=centers,
         offset_transform=axes.transData,
-        array=speeds,
-        cmap=colors,
-        norm=norm,
+        array=values,
+        cmap=scale.colors,
+        norm=scale.norm,
         edgecolors=INK,
         linewidths=0.4,
     )
@@ -173,13 +200,13 @@ def _draw_bundles(axes: "Axes", frames: Frames, index: int, norm: Normalize) -> 
     angles = frames.angles[index]
     ends = centers + radii[:, np.newaxis] * np.column_stack([np.cos(angles), np.sin(angles)])
     marks = np.stack([centers, ends], axis=1)
-    axes.add_collection(LineCollection(list(marks), colors=_contrast(colors, norm, speeds), linewidths=0.9))
+    axes.add_collection(LineCollection(list(marks), colors=_contrast(scale, values), linewidths=0.9))
     return discs
 
 
-def _contrast(colors: Colormap, norm: Normalize, values: Array) -> list[str]:
+def _contrast(scale: _Scale, values: Array) -> list[str]:
     """Choose black or white marks, whichever shows on the disc's color."""
-    luminance = colors(norm(values))[:, :3] @ np.array([0.2126, 0.7152, 0.0722])
+    luminance = scale.colors(scale.norm(values))[:, :3] @ np.array([0.2126, 0.7152, 0.0722])
     return ["black" if light > _LIGHT else "white" for light in luminance]
 
 

@@ -1,11 +1,13 @@
 """What designers of rotating drums measure: pure functions on frames and tables, in short modules by family.
 
-- the load as a whole: `motion`, `depth`, `bed`
+- the load as a whole: `motion`, `depth`, `bed`, `species`
 - shape of the charge: `shape`, `surface`, `toe`
 - mixing and segregation: `colors`, `cells`, `segregation`, `rate`, `neighbors`
 - fields, and the flowing layer: `coarse_graining`, `profile`
 - unbalance: `balance`
-- collisions and walls: `spectra`, `walls`
+- collisions and walls: `spectra`, `walls`; torque and forces over frequency: `signals`
+- washing and drying: `laundry`
+- the regime: `regimes`
 - flight and fall: `airborne`, `orbit`
 
 Statistics are those of `drumrs.analysis`; nothing here sees a simulation.
@@ -25,12 +27,14 @@ from drumrs.measures.cells import entropy, lacey, mixing_curve, relative_deviati
 from drumrs.measures.coarse_graining import Fields, center_of_circulation, fields
 from drumrs.measures.colors import COLORINGS, cell_side, coloring
 from drumrs.measures.depth import depth_profile
+from drumrs.measures.laundry import curtain, knocking_and_rubbing, openness, shape_factor, washing
 from drumrs.measures.masses import disc_masses
-from drumrs.measures.motion import along_the_rim, carried_round, circulation
+from drumrs.measures.motion import along_the_rim, carried_round, circulation, wall_slip
 from drumrs.measures.neighbors import mixed_in_a_turn, mixing
 from drumrs.measures.orbit import Orbit, davis
 from drumrs.measures.profile import flowing_layer
 from drumrs.measures.rate import MixingRate, mixing_rate
+from drumrs.measures.regimes import Regime, RegimeLimits, regime
 from drumrs.measures.segregation import (
     RadialSegregation,
     mean_position_index,
@@ -39,6 +43,8 @@ from drumrs.measures.segregation import (
     unlike_contacts,
 )
 from drumrs.measures.shape import Occupancy, charge, occupancy
+from drumrs.measures.signals import frequency_spectrum, peak_factor
+from drumrs.measures.species import by_species
 from drumrs.measures.spectra import collision_spectrum, enduring, impacts, sum_rule
 from drumrs.measures.surface import FreeSurface, free_surface
 from drumrs.measures.walls import finnie_f, wear, worn_outline
@@ -52,9 +58,12 @@ __all__ = [
     "Occupancy",
     "Orbit",
     "RadialSegregation",
+    "Regime",
+    "RegimeLimits",
     "Suspension",
     "along_the_rim",
     "bulk_fill",
+    "by_species",
     "carried_round",
     "cell_side",
     "center_of_circulation",
@@ -62,6 +71,7 @@ __all__ = [
     "circulation",
     "collision_spectrum",
     "coloring",
+    "curtain",
     "davis",
     "depth_profile",
     "disc_masses",
@@ -74,7 +84,9 @@ __all__ = [
     "flights",
     "flowing_layer",
     "free_surface",
+    "frequency_spectrum",
     "impacts",
+    "knocking_and_rubbing",
     "lacey",
     "mean_position_index",
     "memory_of_places",
@@ -83,13 +95,19 @@ __all__ = [
     "mixing_curve",
     "mixing_rate",
     "occupancy",
+    "openness",
+    "peak_factor",
     "radial_segregation",
+    "regime",
     "relative_deviation",
+    "shape_factor",
     "sum_rule",
     "turning_force",
     "unbalance",
     "unbalance_vectors",
     "unlike_contacts",
+    "wall_slip",
+    "washing",
     "wear",
     "worn_outline",
 ]

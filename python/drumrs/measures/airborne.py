@@ -84,6 +84,14 @@ def flights(frames: "Frames", window: tuple[float, float], gravity: float = _GRA
     )
 
 
+def in_flight(frames: "Frames", gravity: float) -> NDArray[np.bool_]:
+    """Tell which discs fly, frame by frame, shape (frames, n); those whose flight is cut at either end, too."""
+    flies = np.zeros(frames.contacts.shape, dtype=bool)
+    for disc, first, end in zip(*_spells(frames, gravity), strict=True):
+        flies[first:end, disc] = True
+    return flies
+
+
 def _spells(frames: "Frames", gravity: float) -> tuple[Indices, Indices, Indices]:
     """Return disc, first frame and frame after the last of every flight, by disc and time, cut ones included."""
     lonely = np.zeros((frames.count, len(frames) + 2), dtype=bool)
@@ -156,9 +164,7 @@ def flight(
     seen = counter_clockwise(within(frames, window))
     weights = seen.radii**2 if masses is None else np.asarray(masses, dtype=np.float64)
     weights = weights / weights.sum()
-    flies, height = np.zeros(seen.contacts.shape, dtype=bool), seen.positions[..., 1].astype(np.float64)
-    for disc, first, end in zip(*_spells(seen, gravity), strict=True):
-        flies[first:end, disc] = True
+    flies, height = in_flight(seen, gravity), seen.positions[..., 1].astype(np.float64)
     interval = float(seen.times[-1] - seen.times[0]) / (len(seen) - 1)
     turns = float(seen.drum_angles[-1] - seen.drum_angles[0]) / (2.0 * math.pi)
     falls = flights(frames, window, gravity).filter("is_fall")

@@ -63,6 +63,39 @@ def depth_profile(
     return tuple(map(ratio_of_sums, np.array(sums).T, np.array(counts, dtype=np.float64).T))
 
 
+def surface_energy(frames: "Frames", window: tuple[float, float]) -> Array:
+    """Return the mean square of the speeds relative to the turning drum, of the bundles at the free surface.
+
+    They are those less deep than one and a half diameters, see `depth_profile`.
+
+    Parameters
+    ----------
+    frames
+        Frames of a run in a drum with a rim.
+    window
+        Start and end [s].
+
+    Returns
+    -------
+    array
+        From each frame to the next [m²/s²], shape (frames − 1,); 0 where there is no surface.
+
+    Raises
+    ------
+    ConfigError
+        Where the window holds fewer than two frames.
+    """
+    seen = FrameWindow.of(frames, window)
+    places = _places(frames, frames.drum_radius or 0.0)
+    diameter = 2.0 * float(frames.radii.mean())
+    energies = []
+    for (before, after, _), span in zip(seen.pairs_from_the_drum(), np.diff(seen.times), strict=True):
+        top = _depths(before, places, diameter) < _LAYERS[1]
+        squares = ((after - before)[top] ** 2).sum(axis=1)
+        energies.append(squares.mean() / span**2 if len(squares) else 0.0)
+    return np.array(energies)
+
+
 def _depths(points: Array, places: Array, diameter: float) -> Array:
     """Return depths below the free surface in diameters, infinite where nothing more would fit."""
     from scipy.spatial import KDTree

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from drumrs.analysis.blocks import Array, Mean, mean_with_error
+from drumrs.analysis.blocks import Array, Mean, mean_with_error, ratio_of_sums
 from drumrs.measures.frame_window import FrameWindow, counter_clockwise, turn_back
 
 if TYPE_CHECKING:
@@ -112,6 +112,42 @@ def along_the_rim(frames: "Frames", window: tuple[float, float]) -> Mean | None:
         for before, after, angle in seen.pairs()
     ]
     return mean_with_error(shares, seen.interval)
+
+
+def wall_slip(frames: "Frames", window: tuple[float, float]) -> Mean | None:
+    """Return how far the layer at the wall stays behind the drum: 1 − ⟨ω⟩/Ω, with its angular velocity about the axis.
+
+    The layer is what lies within one and a half diameters of the wall. The slip is 0 for a load that goes with the
+    drum, 1 for one that stays where it is.
+
+    Parameters
+    ----------
+    frames
+        Frames of a run, no further apart than a quarter of a turn.
+    window
+        Start and end [s].
+
+    Returns
+    -------
+    Mean or None
+        `None` where the drum does not turn, or has no rim, or nothing is at the wall.
+
+    Raises
+    ------
+    ConfigError
+        Where the window holds fewer than two frames.
+    """
+    seen = FrameWindow.of(frames, window)
+    if seen.turned == 0.0 or frames.drum_radius is None:
+        return None
+    reach = frames.drum_radius - 2.0 * _LAYER * frames.radii
+    layers = [(np.hypot(*before.T) >= reach) for before, _, _ in seen.pairs()]
+    turned = [
+        (_swept(before, after) / angle)[layer].sum()
+        for (before, after, angle), layer in zip(seen.pairs(), layers, strict=True)
+    ]
+    found = ratio_of_sums(np.array(turned), np.array([layer.sum() for layer in layers], dtype=np.float64))
+    return None if found is None else Mean(1.0 - found.value, found.error)
 
 
 def _goes_with_the_drum(before: Array, after: Array, angle: float) -> NDArray[np.bool_]:

@@ -140,8 +140,8 @@ def charge(frames: "Frames", window: tuple[float, float]) -> dict[str, Mean]:
     >>> 0.2 < found["filling"].value < 0.4, -1.0 < found["arm"].value < 1.0
     (True, True)
     """
-    drum_radius, diameter = _rim(frames), 2.0 * float(frames.radii.mean())
     seen = counter_clockwise(within(frames, window))
+    drum_radius, diameter = _rim(frames), 2.0 * float(frames.radii.mean())
     every = FrameWindow.of(seen, window)
     weights = seen.radii**2 / (seen.radii**2).sum()
     centers = np.einsum("fnk,n->fk", every.positions, weights)

@@ -13,6 +13,8 @@ from drumrs.errors import ConfigError
 from drumrs.measures.recorded import required
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     import polars as pl
 
 # What a contact may take, by the names of the ledger's columns that are its sums.
@@ -22,6 +24,7 @@ KINDS = {
     "rolling": ("dissipated_rolling",),
     "total": ("dissipated_normal", "dissipated_tangential", "dissipated_rolling"),
 }
+# The columns of the ledger that a column of the table splits: there, sliding and its dashpot are two.
 _LEDGER = {
     "dissipated_normal": ("dissipated_normal",),
     "dissipated_tangential": ("dissipated_sliding", "dissipated_tangential"),
@@ -33,6 +36,8 @@ _ENDURES = 3.0
 
 def impacts(contacts: "pl.DataFrame | None", collision_time: float) -> "pl.DataFrame":
     """Return the contacts that are over within three collision times; see `enduring` for the others.
+
+    Those below ``run.contact_floor`` are in neither.
 
     Parameters
     ----------
@@ -97,7 +102,7 @@ def collision_spectrum(
         One row a bin, rising: ``energy_low``, ``energy_high`` [J/m, or J/kg], powers of 10^(1/per_decade) for every run
         alike; ``events``, how many; ``rate`` [1/(kg s)] with ``rate_error``, that of a count of independent events;
         ``rate_above``, of all from ``energy_low`` on; ``power`` [W/kg], what they take; ``share_above``, of the power
-        in all rows. Contacts that have taken nothing are in none.
+        of all contacts, those below ``run.contact_floor`` included. Contacts that have taken nothing are in no bin.
 
     Raises
     ------
@@ -113,17 +118,20 @@ def collision_spectrum(
     --------
     >>> import polars as pl
     >>> from drumrs.measures import collision_spectrum
-    >>> contacts = pl.DataFrame({"dissipated_normal": [0.02, 0.5, 0.5]})
+    >>> contacts = pl.DataFrame({"particle": [0, 1, 2], "dissipated_normal": [0.02, 0.5, 0.5]})
     >>> spectrum = collision_spectrum(contacts, mass=2.0, duration=1.0, kind="normal", per_decade=1)
     >>> spectrum["energy_low"].round(3).to_list(), spectrum["rate"].to_list()
     ([0.01, 0.1], [0.5, 1.0])
     """
     import polars as pl
 
-    table = required(contacts, "contacts", "a spectrum of collision energies")
+    everything = required(contacts, "contacts", "a spectrum of collision energies")
     if kind not in KINDS:
         raise ConfigError("kind", kind, f"one of {', '.join(KINDS)}")
-    energies = table.select(pl.sum_horizontal(KINDS[kind]).alias("energy"))["energy"].to_numpy()
+    everything = everything.with_columns(energy=pl.sum_horizontal(KINDS[kind]))
+    # Those below the floor are one row, without particles: their energy counts, in no bin.
+    table = everything.filter(pl.col("particle").is_not_null())
+    energies = table["energy"].to_numpy()
     taken = energies > 0.0
     energies = energies[taken]
     marks = energies if masses is None else energies / _lighter(table.filter(taken), masses)
@@ -134,6 +142,7 @@ def collision_spectrum(
     power = np.bincount(bins - first, energies, minlength=count) / (mass * duration)
     edges = 10.0 ** (np.arange(first, last + 2) / per_decade)
     above = np.cumsum(power[::-1])[::-1]
+    whole = float(everything["energy"].sum()) / (mass * duration)
     return pl.DataFrame(
         {
             "energy_low": edges[:-1],
@@ -143,7 +152,7 @@ def collision_spectrum(
             "rate_error": np.sqrt(events) / (mass * duration),
             "rate_above": np.cumsum(events[::-1])[::-1] / (mass * duration),
             "power": power,
-            "share_above": above / above[0] if count else above,
+            "share_above": above / whole if count else above,
         }
     )
 
@@ -159,15 +168,15 @@ def _lighter(table: "pl.DataFrame", masses: ArrayLike) -> "np.ndarray[tuple[int]
     return lighter
 
 
-def sum_rule(contacts: "pl.DataFrame | None", series: "pl.DataFrame") -> dict[str, float]:
-    """Return by how much the sums over all contacts miss the ledger, over the sum of their magnitudes.
+def sum_rule(contacts: "pl.DataFrame | None", dissipated: "Mapping[str, float] | None") -> dict[str, float]:
+    """Return by how much the sums over all contacts miss what was taken in all, over the sum of their magnitudes.
 
     Parameters
     ----------
     contacts
-        ``result.contacts``, complete.
-    series
-        ``result.series``.
+        ``result.contacts``, complete; ``result.wall_profile`` has the same columns, but contacts with the drum only.
+    dissipated
+        ``result.dissipated``.
 
     Returns
     -------
@@ -183,7 +192,7 @@ def sum_rule(contacts: "pl.DataFrame | None", series: "pl.DataFrame") -> dict[st
     found = {}
     for name, columns in _LEDGER.items():
         parts = table[name].to_numpy()
-        taken = math.fsum(float(series[column][-1] - series[column][0]) for column in columns)
+        taken = math.fsum((dissipated or {})[column] for column in columns)
         scale = max(math.fsum(np.abs(parts)), abs(taken))
         found[name] = (math.fsum(parts) - taken) / scale if scale else 0.0
     return found

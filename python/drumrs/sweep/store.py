@@ -175,12 +175,8 @@ class Store:
         bool
             Whether the results are whole now.
         """
-        import polars as pl
-
         try:
-            old = pl.read_parquet(self._read(case, "summary")).row(0, named=True)
-            summary = Summary.from_mapping({**dict.fromkeys(TIMINGS), **old})
-            self._write_row(case, summary, self.series(case))
+            self._write_row(case, self._summary(case), self.series(case))
         except (ConfigError, KeyError):
             return False
         return self.fault(case) is None
@@ -225,12 +221,34 @@ class Store:
 
         return pl.read_parquet(self._read(case, kind))
 
+    def result(self, case: Case) -> Result:
+        """Return a finished case as its run left it, but for timings; without frames where it keeps none."""
+        import polars as pl
+
+        tables: dict[str, Any] = {}
+        for kind in case.contact_tables:
+            tables[kind] = self.contact_table(case, kind)
+            tables["dissipated"] = json.loads(pl.read_parquet_metadata(self._read(case, kind))["dissipated"])
+        return Result(
+            config=case.config,
+            summary=self._summary(case),
+            series=self.series(case),
+            frames=self.frames(case) if case.wants_frames else Frames.none(),
+            **tables,
+        )
+
     def facts(self, case: Case) -> dict[str, Any]:
         """Return time taken and machine."""
         return read_object(self._path(case, "facts.json")) or {}
 
     def _read(self, case: Case, content: str) -> "io.BytesIO":
         return read_sealed(self._parquet(case, content), case, content)
+
+    def _summary(self, case: Case) -> Summary:
+        import polars as pl
+
+        row = pl.read_parquet(self._read(case, "summary")).row(0, named=True)
+        return Summary.from_mapping({**dict.fromkeys(TIMINGS), **row})
 
     def _write_row(self, case: Case, summary: Summary, series: "pl.DataFrame") -> None:
         found = statistics(series, case.config.run.averaging_window, case.load_mass)

@@ -1,6 +1,6 @@
 """`Sweep`: the cases of a study, run once each and read back as tables."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import Executor
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
@@ -16,6 +16,9 @@ from drumrs.sweep.store import Store
 
 if TYPE_CHECKING:
     import polars as pl
+
+    from drumrs.analysis import Mean
+    from drumrs.result import Result
 
 
 class Sweep:
@@ -206,6 +209,39 @@ class Sweep:
             Where a file is damaged or another's; the sentence names it.
         """
         return table.scan(self.cases, self._store(folder))
+
+    def measure(
+        self,
+        measure: "Callable[[Result], Mapping[str, Mean | float | None]]",
+        folder: str | Path | None = None,
+    ) -> "pl.DataFrame":
+        """Return the table with a column for each number that a function measures, from the files: nothing is run.
+
+        Parameters
+        ----------
+        measure
+            Function from a finished case, as its run left it, to numbers by name, such as those of `drumrs.measures`.
+            A `Mean` has a column for its error, too; `None` is null.
+        folder
+            Where the results are; that of the last `run` unless given.
+
+        Raises
+        ------
+        ConfigError
+            Where a file is damaged or another's, or the function refuses a case: one without frames, say.
+
+        Examples
+        --------
+        >>> import tempfile, drumrs
+        >>> from drumrs import measures
+        >>> base = drumrs.baseline(fill=0.1).replace({"run.duration": 0.2, "run.frame_every": 0.02})
+        >>> sweep = drumrs.Sweep(base, axes={"rotation.rpm": [30.0, 60.0]})
+        >>> outcome = sweep.run(tempfile.mkdtemp(), progress=False)
+        >>> table = sweep.measure(lambda result: measures.charge(result.frames, result.config.run.averaging_window))
+        >>> table.select("rotation.rpm", "arm").shape
+        (2, 2)
+        """
+        return table.measured(self.cases, self._store(folder), measure)
 
     def write_table(self, folder: str | Path | None = None) -> Path:
         """Write the table as table.parquet into the folder, and return its path."""

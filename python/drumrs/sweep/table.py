@@ -1,10 +1,11 @@
 """The table of a sweep: one row a finished case, sorted, whatever order they were finished in."""
 
 import io
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from drumrs.analysis import Mean
 from drumrs.errors import ConfigError
 from drumrs.files import write_whole
 from drumrs.sweep.case import Case
@@ -12,7 +13,11 @@ from drumrs.sweep.columns import metadata, schema, sort_keys
 from drumrs.sweep.store import TABLE, Store
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     import polars as pl
+
+    from drumrs.result import Result
 
 
 def scan(cases: Sequence[Case], store: Store) -> "pl.LazyFrame":
@@ -51,6 +56,36 @@ def write(cases: Sequence[Case], store: Store) -> Path:
     path = store.folder / TABLE
     write_whole(path, buffer.getvalue())
     return path
+
+
+def measured(
+    cases: Sequence[Case], store: Store, measure: "Callable[[Result], Mapping[str, Mean | float | None]]"
+) -> "pl.DataFrame":
+    """Return the table with what a function measures of each finished case; of a mean, its error is a column, too.
+
+    Raises
+    ------
+    ConfigError
+        Where a file is damaged or another's, or the function refuses a case.
+    """
+    import polars as pl
+
+    table = scan(cases, store).collect()
+    finished = set(table["case"])
+    rows: list[dict[str, Any]] = []
+    for case in cases:
+        if case.id in finished:
+            rows.append({"case": case.id})
+            for name, found in measure(store.result(case)).items():
+                if isinstance(found, Mean):
+                    rows[-1] |= {name: found.value, f"{name}_error": found.error}
+                else:
+                    rows[-1][name] = found
+    names = dict.fromkeys(name for row in rows for name in row if name != "case")
+    # A number that is none is null, as everywhere in tables; what was there by that name gives way.
+    columns = pl.DataFrame(rows, {"case": pl.String, **dict.fromkeys(names, pl.Float64)}, orient="row")
+    own = table.drop(names, strict=False)
+    return own.join(columns.fill_nan(None), on="case", how="left", maintain_order="left")
 
 
 def facts(cases: Sequence[Case], store: Store) -> "pl.DataFrame":

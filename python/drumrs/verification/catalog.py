@@ -16,8 +16,10 @@ from drumrs.verification import (
     friction,
     hertz,
     impacts,
+    laundry,
     mixing,
     promises,
+    regimes,
     rolling,
     rotation,
     sliding,
@@ -42,6 +44,8 @@ FAMILIES = MappingProxyType(
         "Measures: fields": fields.CASES,
         "Measures: unbalance and flight": balance.CASES + flight.CASES,
         "Measures: collisions and walls": contact_tables.CASES,
+        "Measures: washing, and torque over frequency": laundry.CASES,
+        "Measures: the regime": regimes.CASES,
     }
 )
 

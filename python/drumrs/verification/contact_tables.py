@@ -6,9 +6,11 @@ import numpy as np
 import polars as pl
 from numpy.typing import NDArray
 
-from drumrs import measures
+from drumrs import State, measures
+from drumrs.verification import scenes
 from drumrs.verification.case import case
 from drumrs.verification.evidence import Check, Evidence, Panel, Trace, checks, checks_at
+from drumrs.verification.scenes import DRUM_RADIUS, GRAVITY, MASS, RADIUS
 
 Array = NDArray[np.float64]
 
@@ -128,4 +130,80 @@ def wear() -> Evidence:
     return Evidence(tuple(found), Panel("γ [°]", "f(γ)", (trace,)))
 
 
-CASES = (spectrum, wear)
+@case(
+    "wear-locked-disc",
+    source="statics",
+    formula="∫Fₙ ds = m g cos θ · R Ω t with tan θ = μ, even all round; μ ∫Fₙ ds = sliding = motor work",
+    cost=2e6,
+)
+def wear_locked_disc() -> Evidence:
+    """The wear of a smooth drum below a disc that may not spin, two turns long.
+
+    The disc swings by the impulse of one step of sliding, see `spin-locked-disc`; of the drum's work the part that
+    moves it is not sliding. A bin is left up to 16 steps late: that part of the time that it takes to pass one.
+    """
+    friction, speed, turns, step = 0.4, 5.0, 2.0, 1e-5
+    angle, time = math.atan(friction), turns * math.tau / speed
+    orbit = DRUM_RADIUS - RADIUS + MASS * GRAVITY * math.cos(angle) / scenes.WALL_STIFFNESS
+    changes = {
+        "rotation.rpm": speed * 30.0 / math.pi,
+        "load.spin_locked": True,
+        "contact.drum.friction": friction,
+        "run.time_step": step,
+        "run.record": ["wall_profile"],
+    }
+    state = State([[orbit * math.sin(angle), -orbit * math.cos(angle)]])
+    run = scenes.after(scenes.drum(changes), state, time, samples=10)
+    worn = measures.wear(run.result().wall_profile, turns=turns)
+    series = run.series
+    weight = MASS * GRAVITY * math.cos(angle)
+    swing = GRAVITY * math.sin(angle) * step / math.sqrt(GRAVITY * orbit / math.cos(angle))
+    moved = swing * orbit / (DRUM_RADIUS * speed * time) + step / time
+    whole = weight * math.tau * DRUM_RADIUS
+    late = 2.0 * 16.0 * step * speed * len(worn) / math.tau
+    volume = float(worn["wear_volume"].sum())
+    rubbed = friction * turns * volume
+    found = [
+        Check("∫Fₙ ds in a turn / 2π R m g cos θ", "1", 1.0, volume / whole, swing + moved),
+        *checks("relative wear in bin {}", "1", 1.0, worn["relative_wear"].to_numpy(), late),
+        *(
+            Check(
+                f"{column} / μ ∫Fₙ ds",
+                "1",
+                1.0,
+                float(series[column][-1]) / rubbed,
+                moved + swing,
+            )
+            for column in ("dissipated_sliding", "drum_work")
+        ),
+    ]
+    arc = worn["arc_start"].to_numpy()
+    trace = Trace("", arc, worn["relative_wear"].to_numpy(), (arc, np.ones(len(arc))))
+    return Evidence(tuple(found), Panel("arc [m]", "relative wear", (trace,)))
+
+
+@case(
+    "contact-sums",
+    source="identity",
+    formula="Σ over contacts = ledger, for normal and tangential damping with sliding",
+    cost=2e6,
+)
+def contact_sums() -> Evidence:
+    """What all contacts of a thrown load with baffles have taken, added up one by one, and by spectra.
+
+    Round-off: 10⁻¹² of the sum of magnitudes.
+    """
+    config = scenes.drum({"load.start_speed": 1.0, "run.record": ["contacts"]}, baffles=True).softer(100.0)
+    run = scenes.after(config, None, 0.1, samples=10)
+    result = run.result()
+    missing = measures.sum_rule(result.contacts, result.dissipated)
+    found = [Check(f"missing, {name}", "1", 0.0, value, 1e-12) for name, value in missing.items()]
+    taken = sum((result.dissipated or {}).values())
+    seen = measures.collision_spectrum(result.contacts, 1.0, 1.0)
+    found.append(Check("power in the spectrum / ledger", "1", 1.0, float(seen["power"].sum()) / taken, 1e-12))
+    low = seen["energy_low"].to_numpy()
+    trace = Trace("", low, seen["rate_above"].to_numpy(), (low, seen["rate_above"].to_numpy()))
+    return Evidence(tuple(found), Panel("energy [J/m]", "contacts above", (trace,), logarithmic=True))
+
+
+CASES = (spectrum, wear, wear_locked_disc, contact_sums)

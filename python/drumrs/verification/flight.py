@@ -94,7 +94,7 @@ def flight() -> Evidence:
     landing. The head is the height that all but a hundredth of the flight lies below, to a thousandth of the orbit;
     falls are counted, to one a disc.
     """
-    frames, orbit, speed = _orbits()
+    frames, orbit, speed = orbits()
     seen = measures.flight(frames, (0.0, float(frames.times[-1])), gravity=_GRAVITY)
     step, reach = float(frames.times[1]), 1.0 - _RADIUS
     flies = orbit.flight * math.tau / speed
@@ -121,7 +121,7 @@ def flight() -> Evidence:
     return Evidence(tuple(found), Panel("x [m]", "y [m]", (trace,)))
 
 
-def _orbits() -> tuple[Frames, measures.Orbit, float]:
+def orbits() -> tuple[Frames, measures.Orbit, float]:
     """Return frames of discs on Davis's orbit, the orbit, and the speed of the drum [rad/s]."""
     orbit, reach = measures.davis(_FROUDE), 1.0 - _RADIUS
     speed = math.sqrt(_FROUDE * _GRAVITY / reach)

@@ -59,6 +59,8 @@ def _read_frames(path: Path) -> Frames:
 
     try:
         return Frames.load(path, MOST_PLACES)
+    except ConfigError:
+        raise
     except (PolarsError, PanicException, KeyError, ValueError, TypeError, OSError):
         raise ConfigError(
             Path(path), problem="holds no frames, but must be a file that drumrs wrote"

@@ -54,7 +54,16 @@ pub enum BaffleShape {
 impl BaffleParameters {
     /// The key of its points, in words of the user.
     pub(super) fn points_key(&self) -> &'static str {
-        if self.shape == BaffleShape::Outline { "drum.liner" } else { "drum.baffles.points" }
+        if self.shape == BaffleShape::Outline { "drum.liner.outlines" } else { "drum.baffles.points" }
+    }
+
+    /// What a user calls the number of copies.
+    pub(super) fn count_key(&self) -> &'static str {
+        match (self.shape, self.name.as_str()) {
+            (BaffleShape::Outline, "rail") => "drum.liner.rail.count",
+            (BaffleShape::Outline, _) => "drum.liner.repeat",
+            _ => "drum.baffles.count",
+        }
     }
 
     /// The corners as given, without a last one that repeats the first.

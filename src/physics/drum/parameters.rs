@@ -40,10 +40,10 @@ impl DrumParameters {
         self.validate_size()?;
         validate_spacing(&self.baffles, self.radius)?;
         for (index, wall) in self.walls.iter().enumerate() {
-            validate_wall(index + 1, wall)?;
+            validate_wall(index, wall)?;
             if let Some(radius) = self.radius {
                 let points: Vec<Vec2> = wall.iter().map(|&point| point.into()).collect();
-                validate_unit("drum.walls", &points, radius)?;
+                validate_unit(&format!("drum.walls[{index}]"), &points, radius)?;
             }
         }
         self.joined_walls().map(drop)
@@ -128,27 +128,28 @@ impl DrumParameters {
 /// outline, so that time and memory to find out grow with the square of the one and with the product of both.
 const MOST_CORNERS: (usize, usize) = (1000, 20_000);
 
-/// Checks the wall that a user counts as `number`.
-fn validate_wall(number: usize, wall: &[[f64; 2]]) -> Result<(), Error> {
+/// Checks the wall at this place of the list.
+fn validate_wall(index: usize, wall: &[[f64; 2]]) -> Result<(), Error> {
+    let key = format!("drum.walls[{index}]");
     for coordinate in wall.iter().flatten() {
-        require_finite("drum.walls", *coordinate)?;
+        require_finite(&key, *coordinate)?;
     }
-    let refuse = |problem: String, limit: &str| {
-        Err(Error::config("drum.walls", format!("a list whose wall {number} {problem}"), limit))
-    };
-    if wall.len() < 2 {
-        let plural = if wall.len() == 1 { "" } else { "s" };
-        return refuse(format!("has {} point{plural}", wall.len()), "a list of walls of at least 2 points");
-    }
+    require(
+        wall.len() >= 2,
+        &key,
+        format!("a line of {} points", wall.len()),
+        "a line of at least 2 points",
+    )?;
     let points: Vec<Vec2> = wall.iter().map(|&point| point.into()).collect();
     let segments = polygon::segments(&points, false);
-    if let Some(index) = polygon::empty_segment(&segments) {
-        let problem = format!("has a side {} without length", index + 1);
-        return refuse(problem, "a list of walls of distinct points");
+    if let Some(side) = polygon::empty_segment(&segments) {
+        let found = format!("a line whose points {} and {} are the same", side + 1, side + 2);
+        return Err(Error::config(key, found, "a line of distinct points"));
     }
     match segments.windows(2).position(|pair| polygon::folds_back(&pair[0], &pair[1])) {
         Some(corner) => {
-            refuse(format!("folds back on itself at point {}", corner + 2), "a list of walls that do not")
+            let found = format!("a line that folds back on itself at point {}", corner + 2);
+            Err(Error::config(key, found, "a line that does not"))
         }
         None => Ok(()),
     }

@@ -55,18 +55,18 @@ impl BaffleParameters {
     fn validate_base(&self, radius: f64) -> Result<(), Error> {
         let diameter = 2.0 * radius;
         let limit = format!("smaller than the drum's diameter {diameter}");
-        require(self.base < diameter, "drum.baffles.base", self.base, limit)?;
+        require_shorter("drum.baffles.base", self.base, diameter, limit)?;
         let limit = format!("smaller than the drum's radius {radius}, so that it ends before the axis");
-        require(self.height < radius, "drum.baffles.height", self.height, limit)?;
+        require_shorter("drum.baffles.height", self.height, radius, limit)?;
         let foot = half_chord(radius, 0.5 * self.base);
-        let limit = format!("greater than {}, the depth of the rim behind the base", radius - foot);
+        let limit = format!("greater than {:.4}, the depth of the rim behind the base", radius - foot);
         require(radius - self.height < foot, "drum.baffles.height", self.height, limit)
     }
 
     fn validate_tip(&self, radius: f64) -> Result<(), Error> {
         let widest = 2.0 * half_chord(radius, radius - self.height);
-        let limit = format!("smaller than {widest}, the width of the drum at that height");
-        require(self.tip < widest, "drum.baffles.tip", self.tip, limit)
+        let limit = format!("smaller than {widest:.4}, the width of the drum at that height");
+        require_shorter("drum.baffles.tip", self.tip, widest, limit)
     }
 
     fn validate_points(&self, radius: Option<f64>) -> Result<(), Error> {
@@ -101,8 +101,8 @@ impl BaffleParameters {
         }
         let most = greatest_radius(&self.sharp_profile(radius), radius.unwrap_or(f64::INFINITY));
         let limit =
-            format!("smaller than {most}, so that rounded corners leave a part of every side straight");
-        require(self.corner_radius < most, "drum.baffles.corner_radius", self.corner_radius, limit)
+            format!("smaller than {most:.4}, so that rounded corners leave a part of every side straight");
+        require_shorter("drum.baffles.corner_radius", self.corner_radius, most, limit)
     }
 }
 
@@ -120,9 +120,8 @@ pub(super) fn validate_spacing(sets: &[BaffleParameters], radius: Option<f64>) -
         let copies: Vec<Vec<Segment>> =
             (0..set.count).map(|index| segments(&set.copy(&profile, index), true)).collect();
         if let [first, second, ..] = copies.as_slice() {
-            let limit = "so small that neighboring baffles of this size neither touch nor overlap";
-            let key = if set.shape == BaffleShape::Outline { "drum.liner" } else { "drum.baffles.count" };
-            require(are_apart(first, second), key, set.count, limit)?;
+            let limit = format!("so small that no {} touches or overlaps the next", set.name);
+            require(are_apart(first, second), set.count_key(), set.count, limit)?;
         }
         let known = earlier.len();
         for (copy, name) in copies.into_iter().zip(names.by_ref()) {
@@ -134,12 +133,9 @@ pub(super) fn validate_spacing(sets: &[BaffleParameters], radius: Option<f64>) -
                         || contains(&copy, other[0].start))
             };
             if let Some((other, ..)) = earlier[..known].iter().find(meets) {
-                let found = format!("a drum in which {other} and {name} touch or overlap");
-                return Err(Error::config(
-                    "drum.baffles",
-                    found,
-                    "a drum of baffles and lifters that are apart",
-                ));
+                let found = format!("so placed that {other} and {name} touch or overlap");
+                let key = set.count_key().rsplit_once('.').map_or("drum", |(table, _)| table);
+                return Err(Error::config(key, found, "so placed that all parts are apart"));
             }
             earlier.push((name, copy, bounds));
         }
@@ -165,8 +161,15 @@ pub(super) fn simple_polygon(key: &str, corners: &[Vec2]) -> Result<Vec<Segment>
     Ok(segments)
 }
 
-/// Points farther from the axis than this many radii of the rim are in another unit than meters.
-const FARTHEST: f64 = 20.0;
+/// What is this many times too long is in another unit than meters.
+const FARTHEST: f64 = 3.0;
+const UNITS: &str = "lengths are in meters: are these centimeters or millimeters?";
+
+/// Refuses a length [m] that is not smaller than the longest there may be.
+fn require_shorter(key: &str, length: f64, longest: f64, limit: String) -> Result<(), Error> {
+    let refused = require(length < longest, key, length, limit);
+    if length > FARTHEST * longest { refused.map_err(|error| error.with_hint(UNITS)) } else { refused }
+}
 
 /// Refuses points so far outside of a rim of this radius [m] that they must be in another unit.
 pub(super) fn validate_unit(key: &str, points: &[Vec2], radius: f64) -> Result<(), Error> {
@@ -174,7 +177,7 @@ pub(super) fn validate_unit(key: &str, points: &[Vec2], radius: f64) -> Result<(
     if farthest <= FARTHEST * radius {
         return Ok(());
     }
-    let found = format!("of points as far as {farthest:.4} m from the axis of a drum of radius {radius} m");
-    let limit = format!("of points within {FARTHEST} radii");
-    Err(Error::config(key, found, limit).with_hint("lengths are in meters: are these millimeters?"))
+    let found = format!("as far as {farthest:.4} m from the axis");
+    let limit = format!("in or near the drum, whose radius is {radius} m");
+    Err(Error::config(key, found, limit).with_hint(UNITS))
 }

@@ -87,11 +87,11 @@ fn sizes_that_do_not_fit_the_rim_are_refused() {
     let (triangle, trapezoid) = (baffles(BaffleShape::Triangle), baffles(BaffleShape::Trapezoid));
     let half_chord = |distance: f64| ((DRUM_RADIUS - distance) * (DRUM_RADIUS + distance)).sqrt();
     let shallow = format!(
-        "height is 0.001, but must be greater than {}, the depth of the rim behind the base",
+        "height is 0.001, but must be greater than {:.4}, the depth of the rim behind the base",
         DRUM_RADIUS - half_chord(0.03)
     );
     let widest = format!(
-        "tip is 0.4, but must be smaller than {}, the width of the drum at that height",
+        "tip is 0.4, but must be smaller than {:.4}, the width of the drum at that height",
         2.0 * half_chord(DRUM_RADIUS - 0.05)
     );
     refuses(&[
@@ -108,7 +108,7 @@ fn sizes_that_do_not_fit_the_rim_are_refused() {
         (BaffleParameters { count: 1001, ..triangle.clone() }, "count is 1001, but must be at most 1000"),
         (
             BaffleParameters { count: 25, ..triangle },
-            "count is 25, but must be so small that neighboring baffles of this size neither touch nor overlap",
+            "count is 25, but must be so small that no baffle touches or overlaps the next",
         ),
     ]);
     let message = without_rim(&trapezoid).validate().unwrap_err().to_string();
@@ -167,7 +167,7 @@ fn unusable_polygons_are_refused() {
         ),
         (
             BaffleParameters { count: 8, ..polygon(&hooked) },
-            "count is 8, but must be so small that neighboring baffles of this size neither touch nor overlap",
+            "count is 8, but must be so small that no baffle touches or overlaps the next",
         ),
     ]);
     assert!(in_rim(&polygon(&hooked)).validate().is_ok());
@@ -248,33 +248,28 @@ fn several_sets_stand_in_one_drum() {
 #[test]
 fn sets_that_meet_are_refused_by_the_names_of_the_two() {
     let found = |parameters: &DrumParameters| parameters.validate().unwrap_err().to_string();
-    let limit = "touch or overlap, but must be a drum of baffles and lifters that are apart";
-    assert_eq!(
-        found(&high_and_low(0.1)),
-        format!("drum.baffles is a drum in which high 1 and low 1 {limit}")
-    );
+    let limit = "touch or overlap, but must be so placed that all parts are apart";
+    assert_eq!(found(&high_and_low(0.1)), format!("drum.liner is so placed that high 1 and low 1 {limit}"));
     let crossing = high_and_low(TAU / 8.0);
-    assert_eq!(found(&crossing), format!("drum.baffles is a drum in which high 1 and baffle 1 {limit}"));
+    assert_eq!(found(&crossing), format!("drum.baffles is so placed that high 1 and baffle 1 {limit}"));
     // One within the other, without a common point of their sides.
     let mut nested = high_and_low(0.0);
     nested.baffles[1].points = Some(vec![[0.21, -0.005], [0.22, -0.005], [0.22, 0.005]]);
-    assert_eq!(found(&nested), format!("drum.baffles is a drum in which high 1 and low 1 {limit}"));
+    assert_eq!(found(&nested), format!("drum.liner is so placed that high 1 and low 1 {limit}"));
 }
 
 #[test]
 fn lengths_in_millimeters_are_told() {
-    let hint = "lengths are in meters: are these millimeters?";
+    let hint = "lengths are in meters: are these centimeters or millimeters?";
     let mut parameters = in_rim(&polygon(&[[0.0, 20.0], [50.0, 10.0], [40.0, -20.0]]));
     let message = parameters.validate().unwrap_err().to_string();
-    let found = "of points as far as 50.7573 m from the axis of a drum of radius 0.2375 m";
-    assert_eq!(
-        message,
-        format!("drum.baffles.points is {found}, but must be of points within 20 radii; {hint}")
-    );
+    let found = "as far as 50.7573 m from the axis";
+    let limit = "in or near the drum, whose radius is 0.2375 m";
+    assert_eq!(message, format!("drum.baffles.points is {found}, but must be {limit}; {hint}"));
     parameters = DrumParameters { walls: vec![vec![[0.0, -50.0], [100.0, -50.0]]], ..triangles() };
     let message = parameters.validate().unwrap_err().to_string();
-    assert!(
-        message.starts_with("drum.walls is of points as far as 111.8") && message.ends_with(hint),
-        "{message}"
-    );
+    assert!(message.starts_with("drum.walls[0] is as far as 111.8") && message.ends_with(hint), "{message}");
+    let tall = BaffleParameters { height: 40.0, ..baffles(BaffleShape::Triangle) };
+    let message = in_rim(&tall).validate().unwrap_err().to_string();
+    assert!(message.starts_with("drum.baffles.height is 40,") && message.ends_with(hint), "{message}");
 }

@@ -225,19 +225,19 @@ fn unusable_walls_are_refused() {
     };
     assert_eq!(
         message(&[[0.0, 0.0]]),
-        "drum.walls is a list whose wall 2 has 1 point, but must be a list of walls of at least 2 points"
+        "drum.walls[1] is a line of 1 points, but must be a line of at least 2 points"
     );
     assert_eq!(
         message(&[[0.0, 0.0], [1.0, 0.0], [1.0, 0.0]]),
-        "drum.walls is a list whose wall 2 has a side 2 without length, but must be a list of walls of distinct points"
+        "drum.walls[1] is a line whose points 2 and 3 are the same, but must be a line of distinct points"
     );
     assert_eq!(
         message(&[[0.0, 0.0], [1.0, 0.0], [0.5, 0.0]]),
-        "drum.walls is a list whose wall 2 folds back on itself at point 2, but must be a list of walls that do not"
+        "drum.walls[1] is a line that folds back on itself at point 2, but must be a line that does not"
     );
     assert_eq!(
         message(&[[0.0, f64::INFINITY], [1.0, 0.0]]),
-        "drum.walls is inf, but must be a finite number"
+        "drum.walls[1] is inf, but must be a finite number"
     );
 }
 

@@ -151,8 +151,8 @@ def test_layers_name_the_parts_of_high_and_low_lifters(tmp_path):
 def test_parts_of_a_liner_and_baffles_that_meet_are_named():
     both = {"drum.liner.rail": RAILS, "drum.baffles.count": 4}
     assert refusal(both) == (
-        "drum.baffles is a drum in which baffle 1 and rail 1 touch or overlap, "
-        "but must be a drum of baffles and lifters that are apart"
+        "drum.liner.rail is so placed that baffle 1 and rail 1 touch or overlap, "
+        "but must be so placed that all parts are apart"
     )
     drumrs.Simulation(config({**both, "drum.liner.rail.phase": 22.5}))
 
@@ -171,6 +171,39 @@ def test_a_bundle_in_many_sides_rests_as_low_as_in_a_round_drum():
     low, less = heights[32] - bare.positions[0, 1], heights[64] - bare.positions[0, 1]
     assert low == pytest.approx(0.2375 * (1 - math.cos(math.pi / 32)), rel=1e-6)
     assert low / less == pytest.approx(4.0, rel=0.01)
+
+
+def test_a_drum_of_many_sides_takes_the_power_of_a_round_one():
+    long = {"load.count": 100, "run.duration": 10.0, "run.window": [3.0, 10.0], "load.start_speed": 0.0}
+    shell = {"drum.rim": False, "drum.liner.outlines": [{"points": polygon(64)}]}
+    round_, many = (drumrs.run(config({**long, **drum}), progress=False).summary for drum in ({}, shell))
+    error = math.hypot(round_.drum_specific_power_error, many.drum_specific_power_error)
+    assert abs(round_.drum_specific_power - many.drum_specific_power) < 3.0 * error
+    assert error < 0.05 * round_.drum_specific_power
+
+
+@pytest.mark.parametrize(
+    "plate",
+    [
+        {"drum.walls": [[[0.05, -0.24], [0.05, 0.24]]]},
+        # A hundredth of a millimeter thick.
+        {
+            "drum.liner.outlines": [
+                {"points": [[0.05, -0.24], [0.05001, -0.24], [0.05001, 0.24], [0.05, 0.24]]}
+            ]
+        },
+    ],
+)
+def test_nothing_passes_a_plate_thinner_than_a_step_of_motion(plate):
+    changes = {"load.count": 120, "run.duration": 2.0, "run.window": [0.0, 2.0], **plate}
+    divided = config(changes)
+    frames = drumrs.run(divided, progress=False).frames
+    assert frames.speeds.max() * divided.derived.time_step > 5e-5
+    x, y = np.moveaxis(frames.positions, -1, 0)
+    turn = frames.drum_angles[:, np.newaxis]
+    beyond = x * np.cos(turn) + y * np.sin(turn) > 0.05
+    assert 30 < beyond[0].sum() < 60
+    assert (beyond == beyond[0]).all()
 
 
 def test_a_drum_that_is_not_round_packs_shows_and_saves_itself(tmp_path):
@@ -235,7 +268,7 @@ REFUSED = {
     ),
     "rails too many": (
         {"drum.liner.rail": {**RAILS, "count": 40}},
-        "drum.liner is 40, but must be so small that neighboring baffles of this size neither touch nor overlap",
+        "drum.liner.rail.count is 40, but must be so small that no rail touches or overlaps the next",
     ),
     "a corner too round": (
         {"drum.baffles.count": 3, "drum.baffles.corner_radius": 0.05},
@@ -243,7 +276,8 @@ REFUSED = {
     ),
     "an outline that crosses itself": (
         {"drum.liner.outlines": [{"points": [[0.2, 0.01], [0.22, -0.01], [0.22, 0.01], [0.2, -0.01]]}]},
-        "drum.liner is a polygon whose sides 1 and 3 cross or touch, but must be a polygon that never meets itself",
+        "drum.liner.outlines is a polygon whose sides 1 and 3 cross or touch, but must be a polygon that never meets "
+        "itself",
     ),
     "a name that is none": (
         {"drum.liner.outlines": [{"name": "7 up", "points": polygon(3)}]},
@@ -251,8 +285,36 @@ REFUSED = {
     ),
     "walls in millimeters": (
         {"drum.walls": [[[0.0, -50.0], [100.0, -50.0]]]},
-        "drum.walls is of points as far as 111.8034 m from the axis of a drum of radius 0.2375 m, "
-        "but must be of points within 20 radii; lengths are in meters: are these millimeters?",
+        "drum.walls[0] is as far as 111.8034 m from the axis, but must be in or near the drum, whose radius is 0.2375 "
+        "m; lengths are in meters: are these centimeters or millimeters?",
+    ),
+    "baffles in millimeters": (
+        {"drum.baffles.count": 3, "drum.baffles.height": 40.0},
+        "drum.baffles.height is 40, but must be smaller than the drum's radius 0.2375, so that it ends before the "
+        "axis; lengths are in meters: are these centimeters or millimeters?",
+    ),
+    "a rail in millimeters": (
+        {"drum.liner.rail": {**RAILS, "width": 20.0}},
+        "drum.liner.rail.width is 20.0, but must be smaller than drum.diameter = 0.475",
+    ),
+    "a shell in millimeters": (
+        {
+            "drum.rim": False,
+            "drum.liner.outlines": [{"points": polygon(12, 237.5)}],
+            "load.count": None,
+            "load.fill": 0.3,
+        },
+        "one bundle of diameter 0.02375 fills 2.618e-09 of a drum of diameter 464.172; lengths are in meters: are some "
+        "of these millimeters?",
+    ),
+    "a drum in millimeters": (
+        {"drum.diameter": 475.0, "load.count": None, "load.fill": 0.3},
+        "fills 2.5e-09 of a drum of diameter 475; lengths are in meters: are some of these millimeters?",
+    ),
+    "a depth in millimeters": (
+        {"drum.depth": 350.0, "load.count": None, "load.mass": 5.0},
+        "one bundle of diameter 0.02375 weighs 155.1 kg in a drum 350 m deep; lengths are in meters: are some of these "
+        "millimeters?",
     ),
 }
 
@@ -260,7 +322,7 @@ REFUSED = {
 @pytest.mark.parametrize("kind", REFUSED)
 def test_what_is_no_drum_is_refused(kind):
     changes, sentence = REFUSED[kind]
-    assert refusal(changes).startswith(sentence)
+    assert sentence in refusal(changes)
 
 
 def test_a_drawing_of_the_whole_drum_beside_a_rim_is_refused(tmp_path):

@@ -43,8 +43,8 @@ HINTS = {
         "load.diameter is 2.375e-05 m, below 0.0001: is it in m?",
     ),
     "walls": (
-        {"drum.walls": [[[0.0, 0.1], [0.1, 0.1]], [[-1.0, 0.5], [-1.0, 1.2]]]},
-        "drum.walls[1] is 1.2 m from the axis, above 0.475: write 0.012 where centimeters were meant or 0.0012 where "
+        {"drum.walls": [[[0.0, 0.1], [0.1, 0.1]], [[-0.2, 0.5], [-0.2, 0.6]]]},
+        "drum.walls[1] is 0.6 m from the axis, above 0.475: write 0.006 where centimeters were meant or 0.0006 where "
         "millimeters were meant",
     ),
     "density": (
@@ -69,6 +69,25 @@ HINTS = {
         {"drum.tilt": 30.0},
         "drum.tilt is 30 degrees: 8.496 m/s² of gravity act in the plane; 4.905 m/s² along the axis are left out, and "
         "with them what the load does towards the end walls",
+    ),
+    "shell": (
+        {
+            "drum.baffles.count": 0,
+            "drum.rim": False,
+            "drum.liner.outlines": [{"points": [[-200, -200], [200, -200], [200, 200], [-200, 200]]}],
+            "load.fill": None,
+            "load.count": 10,
+        },
+        "drum.liner.outlines is 451.352 m, above 20: write 4.51352 where centimeters were meant or 0.451352 where "
+        "millimeters were meant",
+    ),
+    "moisture": (
+        {"load.moisture": 60.0},
+        "load.moisture is 60 kg per kg, above 5: write 0.6 where per cent were meant",
+    ),
+    "rail": (
+        {"drum.baffles.count": 0, "drum.liner.rail": {"count": 8, "face_angle": 0.61}},
+        "drum.liner.rail.face_angle is 0.61 degrees: write 35 where radians were meant",
     ),
     "phase": (
         {"drum.baffles.phase": -1.047},

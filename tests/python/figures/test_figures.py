@@ -1,5 +1,7 @@
 """Figures from made-up frames and tables: each kind of scene gives a picture, the same bytes each time."""
 
+from dataclasses import replace
+
 import numpy as np
 import polars as pl
 import pytest
@@ -37,6 +39,23 @@ def test_snapshots_share_one_scale_of_speed():
     norms = [axes.collections[-2].norm for axes in drums]
     assert norms[0] is norms[1]
     assert norms[0].vmax == max(frames.speeds[0].max(), frames.speeds[2].max())
+
+
+def test_snapshots_of_several_species_show_them_in_a_second_row():
+    frames = replace(SCENES["bare drum"], species=("ore", "ball") * 6)
+    figure = figures.snapshots([figures.View(frames, 0), figures.View(frames, 2)])
+    discs = [axes.collections[-2] for axes in figure.axes if axes.get_title()]
+    assert [len(set(disc.get_array())) for disc in discs[2:]] == [2, 2]
+    assert np.array_equal(discs[2].get_array(), [1.0, 0.0] * 6)
+    assert [label.get_text() for label in figure.axes[-1].get_yticklabels()] == ["ball", "ore"]
+    # One of them, or frames that do not say: one row.
+    for views in ([replace(frames, species=("ore",) * 12)], [frames, SCENES["bare drum"]]):
+        drums = [
+            axes
+            for axes in figures.snapshots([figures.View(each) for each in views]).axes
+            if axes.get_title()
+        ]
+        assert len(drums) == len(views)
 
 
 def test_snapshots_need_a_view():

@@ -8,6 +8,7 @@ from drumrs.errors import ConfigError
 
 CONTACTS = pl.DataFrame(
     {
+        "particle": [0, 1],
         "duration": [1e-3, 1.0],
         "dissipated_normal": [0.5, 0.25],
         "dissipated_tangential": [0.25, 0.0],
@@ -35,7 +36,7 @@ SQUARE = pl.DataFrame(
         (lambda: measures.collision_spectrum(None, 1.0, 1.0), "contacts"),
         (lambda: measures.impacts(None, 1e-3), "contacts"),
         (lambda: measures.enduring(None, 1e-3), "contacts"),
-        (lambda: measures.sum_rule(None, pl.DataFrame()), "contacts"),
+        (lambda: measures.sum_rule(None, {}), "contacts"),
         (lambda: measures.wear(None), "wall_profile"),
     ],
 )
@@ -45,19 +46,22 @@ def test_what_was_not_recorded_is_asked_for(measure, record):
 
 
 def test_sums_of_contacts_meet_the_ledger():
-    series = pl.DataFrame(
-        {
-            "dissipated_normal": [1.0, 1.75],
-            "dissipated_sliding": [0.0, 0.15],
-            "dissipated_tangential": [0.5, 0.6],
-            "dissipated_rolling": [0.0, 0.0],
-        }
-    )
-    assert measures.sum_rule(CONTACTS, series) == pytest.approx(dict.fromkeys(SUMS, 0.0), abs=1e-15)
-    missing = measures.sum_rule(CONTACTS[:1], series)
+    dissipated = dict(zip(FLOWS, (0.75, 0.15, 0.1, 0.0), strict=True))
+    assert measures.sum_rule(CONTACTS, dissipated) == pytest.approx(dict.fromkeys(SUMS, 0.0), abs=1e-15)
+    missing = measures.sum_rule(CONTACTS[:1], dissipated)
     assert missing["dissipated_normal"] == pytest.approx(-1.0 / 3.0)
 
 
+def test_what_is_below_the_floor_counts_in_shares_alone():
+    floor = CONTACTS[:1].with_columns(particle=pl.lit(None, pl.Int64), duration=pl.lit(None, pl.Float64))
+    whole = pl.concat([CONTACTS, floor.with_columns(dissipated_normal=pl.lit(0.25))])
+    seen = measures.collision_spectrum(whole, 1.0, 1.0, "normal")
+    assert seen["events"].sum() == 2
+    assert seen["share_above"][0] == pytest.approx(0.75)
+    assert len(measures.enduring(whole, 1e-3)) + len(measures.impacts(whole, 1e-3)) == 2
+
+
+FLOWS = ("dissipated_normal", "dissipated_sliding", "dissipated_tangential", "dissipated_rolling")
 SUMS = ("dissipated_normal", "dissipated_tangential", "dissipated_rolling")
 
 

@@ -11,8 +11,9 @@ import polars as pl
 import pytest
 
 import drumrs
-from drumrs.analysis import statistics
+from drumrs.analysis import Mean, statistics
 from drumrs.errors import ConfigError
+from drumrs.measures import charge
 from drumrs.sweep.columns import TIMINGS, schema
 from drumrs.sweep.sealed import FORMAT, write_sealed
 
@@ -66,6 +67,40 @@ def test_results_are_those_of_a_run(finished):
     }
     known = {name: value for name, value in found.items() if value is not None}
     assert {name: row[name] for name in known} == pytest.approx(known, rel=1e-9)
+
+
+def test_measures_of_a_sweep_are_those_of_its_runs(tmp_path):
+    changes = {"run.record": ["contacts", "wall_profile"], "drum.baffles.count": 3}
+    sweep = drumrs.Sweep(BASE.replace(changes), seeds=2)
+    sweep.run(tmp_path, progress=False)
+    results = []
+
+    def measure(result):
+        results.append(result)
+        return {
+            "arm": Mean(0.25, None),
+            "drum_power": float("nan"),
+            "hits": len(result.contacts),
+            "none": None,
+        }
+
+    table = sweep.measure(measure)
+    assert table.select("arm", "arm_error", "drum_power", "none").rows() == [(0.25, None, None, None)] * 2
+    run = drumrs.run(sweep.cases[0].config, progress=False)
+    assert table["hits"][0] == len(run.contacts)
+    assert results[0].dissipated == run.dissipated
+    assert results[0].wall_profile.equals(run.wall_profile)
+    assert results[0].config == run.config
+    assert results[0].summary.drum_power == run.summary.drum_power
+
+
+def test_a_case_without_frames_is_measured_without(tmp_path):
+    sweep = drumrs.Sweep(BASE.replace({"run.frame_every": 1.0}))
+    sweep.run(tmp_path, progress=False)
+    table = sweep.measure(lambda result: {"frames": len(result.frames), "rows": len(result.series)})
+    assert table.select("frames", "rows").row(0) == (0.0, len(sweep.series(sweep.cases[0])))
+    with pytest.raises(ConfigError, match="at least two frames"):
+        sweep.measure(lambda result: charge(result.frames, (0.0, 0.06)))
 
 
 def test_a_row_tells_the_whole_configuration(tmp_path):

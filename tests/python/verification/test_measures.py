@@ -89,6 +89,28 @@ WRONG = [
     ("flowing-layer", "profile", "surface - offset / (self", "surface - rate / (self"),
     ("flowing-layer", "profile", "self.surface - self.foot", "self.surface + self.foot"),
     ("flowing-layer", "profile", "_HALF = 0.5", "_HALF = 0.1"),
+    ("washing", "laundry", "4.0 * math.pi * outline.area", "math.pi * outline.area"),
+    ("washing", "laundry", "(along > 0.0)", "(along < 0.0)"),
+    ("washing", "laundry", "along - half_chord", "along + half_chord"),
+    ("washing", "laundry", "np.maximum(left, reached)", "left"),
+    ("washing", "laundry", ".std(axis=1) / ways", ".std(axis=1) * ways"),
+    ("washing", "laundry", "~of_the_load", "of_the_load"),
+    ("washing", "laundry", '"dissipated_tangential") if name', '"dissipated_normal") if name'),
+    ("frequency-spectrum", "signals", "1.0 / rows.interval", "0.9 / rows.interval"),
+    ("frequency-spectrum", "signals", 'detrend="constant"', "detrend=False"),
+    ("frequency-spectrum", "signals", "np.mean(values**2)", "np.mean(values) ** 2"),
+    ("wear-locked-disc", "walls", '"archard": "normal_force_slip"', '"archard": "normal_impulse"'),
+    (
+        "contact-sums",
+        "spectra",
+        '"dissipated_tangential": ("dissipated_sliding", "dissipated_tangential")',
+        '"dissipated_tangential": ("dissipated_tangential",)',
+    ),
+    ("regimes", "regimes", "** 2 * surface.drum_radius / gravity", "* surface.drum_radius / gravity"),
+    ("regimes", "regimes", "weights[falls[", "0.1 * weights[falls["),
+    ("regimes", "regimes", "early[below[0] :].max()", "early[below[0] :].min()"),
+    ("regimes", "motion", "1.0 - found.value", "found.value"),
+    ("regimes", "depth", "[top] ** 2)", "[~top] ** 2)"),
 ]
 
 
