@@ -38,9 +38,9 @@ pub fn add<L: ContactLaw>(
     response: &Response<F64x4>,
     at_wall: bool,
 ) {
-    for flow in 0..Flows::COUNT {
+    for (flow, sum) in tally.iter_mut().enumerate().take(Flows::COUNT) {
         if Flows::field(&L::FLOWS, flow) {
-            tally[flow] = (F64x4::new(tally[flow]) + Flows::field(&response.flows, flow)).to_array();
+            *sum = (F64x4::new(*sum) + Flows::field(&response.flows, flow)).to_array();
         }
     }
     // The columns of `Exertion` come after those of `Flows`.
