@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from drumrs.analysis.blocks import Array, Mean, mean_with_error, ratio_of_sums
-from drumrs.measures.frame_window import FrameWindow, counter_clockwise, turn_back
+from drumrs.measures.frame_window import FrameWindow, counter_clockwise, turn_back, within
 
 if TYPE_CHECKING:
     from drumrs.frames import Frames
@@ -190,7 +190,7 @@ def circulation(frames: "Frames", window: tuple[float, float], center: ArrayLike
     ConfigError
         Where the window holds fewer than two frames.
     """
-    seen = FrameWindow.of(counter_clockwise(frames), window)
+    seen = FrameWindow.of(counter_clockwise(within(frames, window)), window)
     if seen.turned == 0.0:
         return None
     apart = seen.positions - np.asarray(center)

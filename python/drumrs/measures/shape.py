@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
-from drumrs.analysis.blocks import Array, Mean, mean_with_error
+from drumrs.analysis.blocks import Array, Mean, mean_with_error, ratio_of_sums
 from drumrs.errors import ConfigError
 from drumrs.measures.frame_window import FrameWindow, counter_clockwise, turn_back, with_errors, within
 from drumrs.measures.room import from_solids
@@ -36,12 +36,15 @@ class Occupancy:
     layers
         Edges of the layers, as distances from the shell [m], shape (k + 1,).
     solid_fraction
-        Covered part of the area that baffles leave, shape (k, bins).
+        Covered part of the area that baffles leave, shape (k, bins); not a number where they leave none.
+    error
+        Its standard error, not a number where the window has few frames; shape (k, bins).
     """
 
     angles: Array
     layers: Array
     solid_fraction: Array
+    error: Array
 
 
 def occupancy(
@@ -88,17 +91,20 @@ def occupancy(
     places = np.stack([reach * np.cos(angles), reach * np.sin(angles)], axis=-1).reshape(-1, 2)
     areas = np.broadcast_to(reach, (len(depths), len(angles))).ravel()
     tree = KDTree(places)
-    covered, open_to_discs = np.zeros(len(places)), np.zeros(len(places))
+    shape = (len(edges) - 1, _ACROSS, bins, _ALONG)
+    covered, left = [], []
     for positions, angle in zip(seen.positions, seen.drum_angles, strict=True):
         bare = from_solids(seen, places @ turn_back(angle)) > 0.0 if seen.baffles else np.ones(len(places))
         hit = np.zeros(len(places))
         hit[np.concatenate(tree.query_ball_point(positions, seen.radii)).astype(int)] = 1.0
-        covered += hit * bare * areas
-        open_to_discs += bare * areas
-    shape = (len(edges) - 1, _ACROSS, bins, _ALONG)
-    with np.errstate(invalid="ignore"):
-        fraction = covered.reshape(shape).sum(axis=(1, 3)) / open_to_discs.reshape(shape).sum(axis=(1, 3))
-    return Occupancy(2.0 * math.pi * (np.arange(bins) + 0.5) / bins, edges, fraction)
+        covered.append((hit * bare * areas).reshape(shape).sum(axis=(1, 3)))
+        left.append((bare * areas).reshape(shape).sum(axis=(1, 3)))
+    found = np.full((2, len(edges) - 1, bins), np.nan)
+    for place in np.ndindex(len(edges) - 1, bins):
+        mean = ratio_of_sums(*(np.array([each[place] for each in sums]) for sums in (covered, left)))
+        if mean is not None:
+            found[:, *place] = mean.value, math.nan if mean.error is None else mean.error
+    return Occupancy(2.0 * math.pi * (np.arange(bins) + 0.5) / bins, edges, *found)
 
 
 def charge(frames: "Frames", window: tuple[float, float]) -> dict[str, Mean]:

@@ -14,7 +14,7 @@ from drumrs.verification.flight import orbits
 
 Array = NDArray[np.float64]
 
-_RADIUS, _SPEED, _TURNS, _FRAMES = 0.04, 2.0, 2.0, 65
+_RADIUS, _SPEED, _TURNS, _FRAMES = 0.04, 2.0, 2.0, 49
 # Half of the angle that the bed spans, slope, and how much faster than the rim it flows down its surface.
 _HALF_ANGLE, _SLOPE, _FLOW = 1.3, 0.5, 3.0
 # How far the surface of the cascading bed is off its chord, over the chord.
@@ -64,7 +64,7 @@ def _loads() -> dict[str, Frames]:
     return {
         "centrifuging": _frames(riding, angles),
         "partly centrifuging": _frames(np.concatenate([riding, staying], axis=1), angles),
-        "cataracting": flying.picked(slice(None, None, 10)),
+        "cataracting": flying.picked(slice(None, 1000, 20)),
         "slipping": _frames(staying, angles),
         "slumping": _frames(_bed(fits, 0.0), angles),
         "cascading": _frames(_bed(angles, _S_SHAPE * 2.0 * math.sin(_HALF_ANGLE)), angles),

@@ -41,6 +41,16 @@ def test_area_of_baffles_is_taken_out():
     assert one.solid_fraction == pytest.approx(other.solid_fraction, nan_ok=True)
 
 
+def test_occupancy_knows_its_error():
+    # Sixteen packings drawn independently: the error is the deviation over them, over 4.
+    ring = measures.occupancy(TILTED, WINDOW, bins=36)
+    frames = [measures.occupancy(TILTED.picked(slice(k, k + 2)), WINDOW, bins=36) for k in range(0, 16, 2)]
+    deviation = np.std([each.solid_fraction for each in frames], axis=0, ddof=1) / np.sqrt(8.0)
+    bed = np.abs(ring.angles - 1.5 * np.pi - 0.5) < 1.0
+    assert np.median(ring.error[0, bed] / deviation[0, bed]) == pytest.approx(1.0, abs=0.4)
+    assert np.isnan(frames[0].error).all()
+
+
 def test_room_counts_the_size_of_each_disc_and_baffles():
     frames = made_up.frames([[[0.0, 0.0], [0.5, 0.0]]] * 2, [0.2, 0.05], drum_angles=[0.0, np.pi / 2.0])
     points = np.array([[0.35, 0.0], [0.0, 0.9]])

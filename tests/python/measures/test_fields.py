@@ -45,6 +45,19 @@ def test_discs_that_go_round_a_center_are_counted(sense):
     assert measures.circulation(frames, WINDOW, np.array([0.3, -0.4])).value == pytest.approx(2.5)
 
 
+def test_the_way_of_the_drum_is_that_of_the_window():
+    # Two turns back, then one ahead: the window is the last turn.
+    angles = np.concatenate(
+        [np.linspace(0.0, -2.0 * math.tau, 81)[:-1], -2.0 * math.tau + np.linspace(0.0, math.tau, 81)]
+    )
+    places = [np.array([[0.3, -0.2], [0.5, 0.1]]) @ made_up.turned(angle) for angle in angles]
+    frames = made_up.frames(places, 0.05, drum_angles=angles)
+    found = measures.circulation(frames, (0.8, 1.6), np.array([0.1, 0.05]))
+    assert found.value == pytest.approx(1.0)
+    off_center = made_up.frames(np.add(places, [0.4, 0.0]), 0.05, drum_angles=angles)
+    assert measures.circulation(off_center, (0.8, 1.6), np.array([0.4, 0.0])).value == pytest.approx(1.0)
+
+
 def test_a_load_at_rest_has_no_turn_to_count_by():
     still = made_up.frames(np.full((4, 1, 2), 0.3), 0.05, drum_angles=np.zeros(4))
     assert measures.circulation(still, WINDOW) is None
