@@ -28,6 +28,7 @@ from drumrs.sweep import Case, Sweep
 
 if TYPE_CHECKING:
     from drumrs.glossary import quantities
+    from drumrs.reports import report
     from drumrs.verification import Verification, verify
 
 __version__ = version("drumrs")
@@ -59,6 +60,7 @@ __all__ = [
     "player",
     "quantities",
     "quantity",
+    "report",
     "run",
     "save",
     "verify",
@@ -66,11 +68,15 @@ __all__ = [
 
 
 def __getattr__(name: str) -> Any:
-    """Load on demand what most scripts do without: the table of quantities, and the verification."""
+    """Load on demand what most scripts do without: the table of quantities, reports, and the verification."""
     if name == "quantities":
         from drumrs import glossary
 
         return glossary.quantities
+    if name == "report":
+        from drumrs import reports
+
+        return reports.report
     if name in {"Verification", "verify"}:
         from drumrs import verification
 

@@ -440,6 +440,13 @@ _MEASURES = (
         "mean",
         "how often a disc goes round the center of circulation in a turn of the drum",
     ),
+    _made(
+        "wall_slip",
+        "1",
+        "ratio",
+        "how far the layer at the wall stays behind the drum, over the drum's speed",
+        formula="1 − ω/Ω",
+    ),
     # flight
     _made(
         "share_in_flight",

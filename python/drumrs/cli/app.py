@@ -15,6 +15,7 @@ from drumrs.cli.info import info
 from drumrs.cli.init import init
 from drumrs.cli.options import cut_by_shell
 from drumrs.cli.quantities import quantities
+from drumrs.cli.report import report
 from drumrs.cli.reproduce import reproduce
 from drumrs.cli.run import run
 from drumrs.cli.sweep import sweep
@@ -44,6 +45,7 @@ app = App(
         "- `drumrs run --set 'run.window=[5, 15]' --set run.duration=15 --seed 2 --json`\n"
         "- `drumrs run --resume out/case` goes on after Ctrl-C or a power cut\n"
         "- `drumrs view out/case` plays the run in the browser\n"
+        "- `drumrs report out/case --page mill` writes one page of it, for a trade\n"
         "- `drumrs sweep sweep.toml --out out/sweep` runs many cases\n"
         "- `drumrs quantities ratio` says what is measured under a name with that word\n"
         "- `drumrs verify` holds drumrs against formulas and its own promises\n"
@@ -54,7 +56,20 @@ app = App(
     result_action="return_value",
 )
 
-for _command in (init, run, baseline, reproduce, sweep, view, verify, validate, config, quantities, info):
+for _command in (
+    init,
+    run,
+    baseline,
+    reproduce,
+    sweep,
+    view,
+    report,
+    verify,
+    validate,
+    config,
+    quantities,
+    info,
+):
     app.command(_command, help_epilogue="")
 
 

@@ -1,15 +1,17 @@
 """Where falling discs land: a rose of the energy of landings, by angle."""
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
+from matplotlib.ticker import MaxNLocator
 
 from drumrs.figures.shared import drumrs_style, line_colors, new_figure
 
 if TYPE_CHECKING:
     import polars as pl
     from matplotlib.figure import Figure
+    from matplotlib.projections.polar import PolarAxes
 
     from drumrs.figures.shared import Array
 
@@ -43,13 +45,13 @@ def landing_rose(flights: "pl.DataFrame", masses: "Array") -> "Figure":
     Examples
     --------
     >>> import numpy as np
-    >>> import polars as pl
-    >>> from drumrs import figures
-    >>> falls = {"particle": [0, 1], "end_x": [-1.0, 0.0], "end_y": [0.0, -1.0], "speed": [2.0, 1.0]}
-    >>> flights = pl.DataFrame({**falls, "onto": ["drum", "load"], "is_fall": [True, True]})
-    >>> figure = figures.landing_rose(flights, masses=np.ones(2))
-    >>> [text.get_text() for text in figure.axes[0].get_legend().get_texts()]
-    ['on the drum, 80 %', 'on the load, 20 %']
+        >>> import polars as pl
+        >>> from drumrs import figures
+        >>> falls = {"particle": [0, 1], "end_x": [-1.0, 0.0], "end_y": [0.0, -1.0], "speed": [2.0, 1.0]}
+        >>> flights = pl.DataFrame({**falls, "onto": ["drum", "load"], "is_fall": [True, True]})
+        >>> figure = figures.landing_rose(flights, masses=np.ones(2))
+        >>> [text.get_text() for text in figure.axes[0].get_legend().get_texts()]
+        ['on the drum, 80 %', 'on the load, 20 %']
     """
     falls = flights.filter(flights["is_fall"])
     if falls.is_empty():
@@ -60,7 +62,7 @@ def landing_rose(flights: "pl.DataFrame", masses: "Array") -> "Figure":
     edges = np.linspace(0.0, 2.0 * math.pi, _SECTORS + 1)
     with drumrs_style():
         figure = new_figure(4.6, 4.2)
-        axes = figure.add_subplot(projection="polar")
+        axes = cast("PolarAxes", figure.add_subplot(projection="polar"))
         below = np.zeros(_SECTORS)
         for (onto, hatch), color in zip(_ONTO.items(), line_colors(), strict=False):
             chosen = (falls["onto"] == onto).to_numpy()
@@ -77,6 +79,7 @@ def landing_rose(flights: "pl.DataFrame", masses: "Array") -> "Figure":
             )
             below += values
         axes.set_rlabel_position(100.0)
+        axes.yaxis.set_major_locator(MaxNLocator(4, steps=[1, 2, 5, 10]))
         axes.yaxis.set_major_formatter("{x:g} %")
         axes.tick_params(axis="y", labelsize="small")
         axes.grid(color="0.88", linewidth=0.6)

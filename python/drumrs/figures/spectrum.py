@@ -1,6 +1,5 @@
 """Spectra of collision energies: how often, and which share of the power."""
 
-from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -8,6 +7,8 @@ import numpy as np
 from drumrs.figures.shared import drumrs_style, line_colors, new_figure
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     import polars as pl
     from matplotlib.figure import Figure
 

@@ -14,9 +14,7 @@ if TYPE_CHECKING:
 _MARKS = {"median": 0.5, "95 %": 0.95}
 
 
-def unbalance_histogram(
-    unbalances: ArrayLike, *, limit: float | None = None, of: str = "frames"
-) -> "Figure":
+def unbalance_histogram(unbalances: ArrayLike, *, limit: float | None = None, of: str = "frames") -> "Figure":
     """Draw how often the unbalance has which size, with its median, and what 95 % of the values stay below.
 
     Parameters
@@ -46,13 +44,17 @@ def unbalance_histogram(
     with drumrs_style():
         figure = new_figure(5.6, 3.3)
         axes = figure.subplots()
-        bins = np.linspace(0.0, 1.02 * max(float(values.max()), limit or 0.0) or 1.0, 31)
-        axes.hist(values, bins, weights=np.full(values.size, 100.0 / values.size), color=line_colors()[0])
+        reach = 1.02 * max(float(values.max()), limit or 0.0) or 1.0
+        share = np.full(values.size, 100.0 / values.size)
+        axes.hist(values, bins=30, range=(0.0, reach), weights=share, color=line_colors()[0])
         marks = {name: float(np.quantile(values, share)) for name, share in _MARKS.items()}
-        top = axes.get_ylim()[1]
+        top = 1.18 * axes.get_ylim()[1]
+        axes.set_ylim(top=top)
         for row, (name, at) in enumerate({**marks, **({} if limit is None else {"limit": limit})}.items()):
             axes.axvline(at, color=INK, linewidth=1.0, linestyle="-" if name == "limit" else "--")
-            place = {"xy": (at, top * (1.0 - 0.08 * row)), "xytext": (3.0, 0.0), "textcoords": "offset points"}
-            axes.annotate(f"{name} {at:.3g}", **place, va="top", color=INK)
+            place = (at, top * (1.0 - 0.08 * row))
+            axes.annotate(
+                f"{name} {at:.3g}", place, (3.0, 0.0), textcoords="offset points", va="top", color=INK
+            )
         axes.set(xlabel="unbalance |U| [kg m per m of depth]", ylabel=f"share of the {of} [%]")
     return figure

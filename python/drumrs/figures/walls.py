@@ -63,12 +63,12 @@ def wall_profile(profile: "pl.DataFrame", column: str, label: str) -> "Figure":
         outline, along = figure.subplots(1, 2, width_ratios=(1.0, 1.15))
         values = profile[column].to_numpy()
         norm = Normalize(0.0, float(np.quantile(values, _TYPICAL)) or float(values.max()) or 1.0)
-        lines = LineCollection(_bins(profile), array=values, cmap="viridis", norm=norm, linewidths=5.0)
+        lines = LineCollection(list(_bins(profile)), array=values, cmap="viridis", norm=norm, linewidths=5.0)
         lines.set_capstyle("butt")
         outline.add_collection(lines)
         outline.set(aspect="equal", xlabel="x in the drum’s frame [m]", ylabel="y in the drum’s frame [m]")
         outline.autoscale_view()
-        figure.colorbar(lines, ax=outline, label=label, shrink=0.8, pad=0.02, extend="max")
+        figure.colorbar(lines, ax=outline, shrink=0.8, pad=0.02, extend="max")
         _draw_parts(along, profile, column)
         along.set(ylabel=label, ylim=(0.0, None))
     return figure
@@ -87,13 +87,13 @@ def _bins(profile: "pl.DataFrame") -> Array:
 def _draw_parts(axes: "Axes", profile: "pl.DataFrame", column: str) -> None:
     kinds = dict(_kinds(profile, column))
     shown = {kind: found for kind, found in kinds.items() if kind != _RIM} or kinds
-    for (kind, (arcs, values)), color in zip(shown.items(), line_colors() * len(shown), strict=False):
+    for (kind, (edges, values)), color in zip(shown.items(), line_colors() * len(shown), strict=False):
         count = len(values)
-        axes.plot(arcs, values.mean(axis=0), color=color, label=kind if count == 1 else f"{kind}s, {count}")
+        name = kind if count == 1 else f"{kind}s, {count}"
+        axes.stairs(values.mean(axis=0), edges, color=color, label=name, baseline=None, linewidth=1.3)
         if count > 1:
-            axes.fill_between(
-                arcs, values.min(axis=0), values.max(axis=0), color=color, alpha=0.2, linewidth=0
-            )
+            band = {"baseline": values.min(axis=0), "fill": True, "alpha": 0.2, "linewidth": 0.0}
+            axes.stairs(values.max(axis=0), edges, color=color, **band)
     many = len(shown) > 1
     name, (_, values) = next(iter(shown.items()))
     axes.set_xlabel("way along the outline [m]" if many else f"way along the {name} [m]")
@@ -104,7 +104,7 @@ def _draw_parts(axes: "Axes", profile: "pl.DataFrame", column: str) -> None:
 
 
 def _kinds(profile: "pl.DataFrame", column: str) -> Iterator[tuple[str, tuple[Array, Array]]]:
-    """Give each kind of part, with the middles of its bins along the outline and a row of values for each part."""
+    """Give each kind of part, with the edges of its bins along the outline and a row of values for each part."""
     kinds: dict[tuple[str, int], list[pl.DataFrame]] = {}
     for rows in profile.partition_by("part", maintain_order=True):
         kind = re.sub(r" \d+$", "", str(rows["part"][0]))
@@ -113,5 +113,5 @@ def _kinds(profile: "pl.DataFrame", column: str) -> Iterator[tuple[str, tuple[Ar
     several = [kind for kind, _ in kinds]
     for (kind, bins), members in kinds.items():
         name = kind if several.count(kind) == 1 else f"{kind} of {bins} bins"
-        arcs = 0.5 * (members[0]["arc_start"] + members[0]["arc_end"]).to_numpy()
-        yield name, (arcs, np.array([rows[column].to_numpy() for rows in members]))
+        edges = np.append(members[0]["arc_start"].to_numpy(), members[0]["arc_end"][-1])
+        yield name, (edges, np.array([rows[column].to_numpy() for rows in members]))

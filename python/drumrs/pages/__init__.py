@@ -1,5 +1,6 @@
 """What pages of drumrs share: the style sheet, templates that escape what they are given, and how they are written."""
 
+import base64
 from importlib.resources import files
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -9,10 +10,14 @@ from drumrs.files import write_whole
 
 if TYPE_CHECKING:
     from jinja2 import Environment
+    from matplotlib.figure import Figure
 
 # Stands in the head of every page, and tells ours from others'.
 _GENERATOR = b'<meta name="generator" content="drumrs">'
 _HEAD = 1000
+# Beyond so many bytes a picture is one of many marks, which PNG holds in fewer.
+_LARGE = 200_000
+_PICTURES = {"svg": "image/svg+xml", "png": "image/png"}
 
 
 def text_of(package: str, name: str) -> str:
@@ -30,6 +35,19 @@ def environment() -> "Environment":
     from jinja2 import Environment, StrictUndefined
 
     return Environment(autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True)
+
+
+def address(picture: bytes, kind: str) -> str:
+    """Return a picture, ``"svg"`` or ``"png"``, as an address that holds the picture itself."""
+    return f"data:{_PICTURES[kind]};base64,{base64.b64encode(picture).decode('ascii')}"
+
+
+def picture_address(figure: "Figure") -> str:
+    """Return a figure as an address that holds it: as SVG, or as PNG where that would be large."""
+    from drumrs.figures import render
+
+    drawn = render(figure, "svg")
+    return address(drawn, "svg") if len(drawn) <= _LARGE else address(render(figure, "png"), "png")
 
 
 def check_page(path: str | Path, what: str = "the page") -> None:

@@ -5,9 +5,9 @@ from typing import TYPE_CHECKING
 
 from drumrs.analysis import Estimate, mean_of
 from drumrs.config import Config, baseline
+from drumrs.measures import morrell
 from drumrs.measures.frame_window import with_errors
 from drumrs.measures.toe import toe_and_shoulder
-from drumrs.validation import morrell
 from drumrs.validation.cases import BED, GRAVITY, Scale, contacts, stiffness, times, turning, with_seeds
 from drumrs.validation.check import NOTHING, Check
 from drumrs.validation.drum import PublishedDrum

@@ -1,12 +1,11 @@
 """The page of a verification: a table of the cases, and of each a plot, its formula and its numbers."""
 
-import base64
 import re
 from collections.abc import Sequence
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
-from drumrs.pages import environment, provenance, style, text_of
+from drumrs.pages import address, environment, provenance, style, text_of
 from drumrs.pictures import attempt
 from drumrs.verification import theory
 from drumrs.verification.case import Trial
@@ -58,8 +57,7 @@ def _picture(trial: Trial) -> str:
             from drumrs import figures
             from drumrs.verification.picture import agreement
 
-            drawn = figures.render(agreement(trial.evidence.panel), "svg")
-            return f"data:image/svg+xml;base64,{base64.b64encode(drawn).decode('ascii')}"
+            return address(figures.render(agreement(trial.evidence.panel), "svg"), "svg")
     return ""
 
 

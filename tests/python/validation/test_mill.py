@@ -5,9 +5,9 @@ import math
 import numpy as np
 import pytest
 
+from drumrs.measures import morrell
 from drumrs.measures.frame_window import FrameWindow
 from drumrs.measures.toe import toe_and_shoulder
-from drumrs.validation import morrell
 
 BIN = 3.0
 

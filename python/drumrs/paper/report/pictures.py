@@ -1,10 +1,10 @@
 """The study's figures, kept as PNG and SVG, in the page as whichever is smaller; and players of two runs."""
 
-import base64
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from drumrs.pages import address
 from drumrs.paper.cases import BASELINE_FILL
 from drumrs.paper.data import StudyData
 from drumrs.paper.drums import BAFFLED, BARE
@@ -13,7 +13,7 @@ from drumrs.paper.verdict import MissingError
 from drumrs.pictures import attempt
 from drumrs.viewer import Player
 
-_KINDS = {".svg": "image/svg+xml", ".png": "image/png"}
+_ENDINGS = (".svg", ".png")
 
 
 @dataclass(frozen=True)
@@ -58,7 +58,7 @@ def draw(data: StudyData, folder: Path) -> Pictures:
 
 
 def _draw(figure: PaperFigure, data: StudyData, folder: Path) -> Picture:
-    paths = [folder / f"{figure.number}{ending}" for ending in _KINDS]
+    paths = [folder / f"{figure.number}{ending}" for ending in _ENDINGS]
     with attempt(f"figure {figure.number}") as made:
         from drumrs import figures
 
@@ -89,8 +89,7 @@ def _thumbnails(data: StudyData, folder: Path) -> Iterator[tuple[str, str]]:
 def embedded(paths: Iterable[Path]) -> str:
     """Return the smallest of some picture files as an address that holds the picture itself."""
     smallest = min(paths, key=lambda path: path.stat().st_size)
-    data = base64.b64encode(smallest.read_bytes()).decode("ascii")
-    return f"data:{_KINDS[smallest.suffix]};base64,{data}"
+    return address(smallest.read_bytes(), smallest.suffix.removeprefix("."))
 
 
 def players(data: StudyData) -> list[Player]:

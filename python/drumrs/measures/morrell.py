@@ -45,7 +45,7 @@ def charge(filling: float, speed: float) -> Charge:
     Examples
     --------
     >>> import math
-    >>> from drumrs.validation import morrell
+    >>> from drumrs.measures import morrell
     >>> found = morrell.charge(filling=0.3, speed=0.72)
     >>> round(math.degrees(found.toe), 1), round(math.degrees(found.shoulder), 1), round(found.arm, 3)
     (231.9, 44.5, 0.298)

@@ -1,0 +1,92 @@
+"""Sections on the load in the drum: its shape, its fields, how it flows, flies, lands and goes round; its regime."""
+
+from dataclasses import asdict
+from typing import TYPE_CHECKING
+
+from drumrs import measures
+from drumrs.reports.content import Picture, Play, Table, measured, value
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from matplotlib.figure import Figure
+
+    from drumrs.reports.content import Block
+    from drumrs.reports.material import Material
+
+_MIRROR = "of a drum that turns counter-clockwise; one that turns the other way is shown in the mirror."
+
+
+def motion(_: "Material") -> "Iterator[Block]":
+    """Write the player."""
+    yield Play()
+
+
+def shape(of: "Material") -> "Iterator[Block]":
+    """Write where the charge lies: toe, shoulder, slope, filling."""
+    yield measured(of.charge, f"Angles are counter-clockwise from the horizontal, {_MIRROR}")
+
+
+def flow(of: "Material") -> "Iterator[Block]":
+    """Draw where the load is, and how it moves."""
+    from drumrs import figures
+
+    found = of.fields
+
+    def draw() -> "Figure":
+        return figures.flow(found, of.frames.drum_radius)
+
+    yield Picture(
+        "Where the load is, and how it moves",
+        f"Mean solid fraction and velocity over the window, coarse-grained over {found.width:.3g} m, {_MIRROR}",
+        draw,
+    )
+
+
+def layer(of: "Material") -> "Iterator[Block]":
+    """Write how thick and fast the layer is that flows down the bed."""
+    yield measured(
+        measures.flowing_layer(of.frames, of.span),
+        "On the line through the axis normal to the bed’s surface. They mean little for a load that is thrown.",
+    )
+
+
+def regime(of: "Material") -> "Iterator[Block]":
+    """Write the regime, and the numbers that decide."""
+    found = measures.regime(of.frames, of.span, gravity=of.gravity)
+    yield f"The load is {found.name}, by the first of the limits in docs/measures/regimes.md that holds."
+    numbers = [
+        (name.replace("_", " "), value(one)) for name, one in asdict(found).items() if isinstance(one, float)
+    ]
+    yield Table(("what decides", "value"), numbers)
+
+
+def flight(of: "Material") -> "Iterator[Block]":
+    """Write how much of the load flies and falls, and where it lands."""
+    from drumrs import figures
+
+    yield measured(measures.flight(of.frames, of.span, of.masses, of.gravity))
+    falls = of.flights.filter("is_fall")
+    if falls.is_empty():
+        yield "No disc falls in the window."
+        return
+
+    def draw() -> "Figure":
+        return figures.landing_rose(falls, of.masses)
+
+    yield Picture(
+        "Where falls land",
+        f"Shares of the energy of {falls.height} falls in the window, by the angle of landing, {_MIRROR}",
+        draw,
+    )
+
+
+def circulation(of: "Material") -> "Iterator[Block]":
+    """Write how often discs go round."""
+    center = measures.center_of_circulation(of.fields)
+    rounds = measures.circulation(of.frames, of.span, center)
+    yield measured(
+        {"circulation": rounds},
+        f"The center of circulation lies at x = {center[0]:.3g} m, y = {center[1]:.3g} m. Visits to a zone, such as "
+        "that of a spray, are not recorded; every round brings a disc to the surface once.",
+    )

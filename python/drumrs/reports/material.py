@@ -1,0 +1,129 @@
+"""`Material`: a finished run with what several sections of a page need of it, each measured once."""
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from drumrs import measures
+from drumrs.errors import ConfigError
+
+if TYPE_CHECKING:
+    import polars as pl
+
+    from drumrs.analysis import Mean
+    from drumrs.analysis.blocks import Array
+    from drumrs.config import Config
+    from drumrs.frames import Frames
+    from drumrs.measures import Fields
+    from drumrs.result import Result, Summary
+
+
+@dataclass(frozen=True, eq=False)
+class Material:
+    """A finished run, and what is measured of it in the window of its averages.
+
+    Attributes
+    ----------
+    result
+        The run.
+    """
+
+    result: "Result"
+
+    @property
+    def config(self) -> "Config":
+        """Its configuration."""
+        return self.result.config
+
+    @property
+    def summary(self) -> "Summary":
+        """Its averages."""
+        return self.result.summary
+
+    @property
+    def frames(self) -> "Frames":
+        """Its frames."""
+        return self.result.frames
+
+    @property
+    def window(self) -> tuple[float, float]:
+        """Start and end of the averages [s]."""
+        return self.config.run.averaging_window
+
+    @cached_property
+    def span(self) -> tuple[float, float]:
+        """Start and end of the time in which motion is measured [s].
+
+        The window; where the drum's speed changes, the longest stretch at one speed instead, if there is any, the last
+        of several: a mean over ways to and fro would be of neither.
+        """
+        if self.config.derived.angular_velocity is not None:
+            return self.window
+        knots = self.config.rotation.knots
+        last = (float(self.result.series["time"][-1]), knots[-1][1])
+        stretches = [
+            (start, min(end, last[0]))
+            for (start, speed), (end, other) in pairwise((*knots, last))
+            if speed == other and speed
+        ]
+        return max(reversed(stretches), key=lambda each: each[1] - each[0], default=self.window)
+
+    @property
+    def duration(self) -> float:
+        """Time that was run [s], over which contacts are recorded."""
+        return float(self.summary.steps * self.summary.time_step)
+
+    @cached_property
+    def turns(self) -> float:
+        """Turns of the drum in that time, to and fro both counted."""
+        angles = self.result.series["drum_angle"].to_numpy()
+        return float(np.abs(np.diff(angles)).sum() / (2.0 * math.pi))
+
+    @cached_property
+    def masses(self) -> "Array":
+        """Masses of the discs [kg/m]."""
+        return measures.disc_masses(self.config, self.frames)
+
+    @property
+    def mass(self) -> float:
+        """Mass of the load [kg/m]."""
+        return float(self.masses.sum())
+
+    @property
+    def gravity(self) -> float:
+        """Gravity in the plane [m/s²]."""
+        return math.hypot(*self.config.plane_gravity)
+
+    @cached_property
+    def flights(self) -> "pl.DataFrame":
+        """Flights within the span."""
+        return measures.flights(self.frames, self.span, self.gravity)
+
+    @cached_property
+    def charge(self) -> "dict[str, Mean]":
+        """The shape of the charge."""
+        return measures.charge(self.frames, self.span)
+
+    @cached_property
+    def fields(self) -> "Fields":
+        """Fields of density and velocity."""
+        return measures.fields(self.frames, self.span, self.masses)
+
+    def require_speed(self) -> float:
+        """Return the drum's angular velocity [rad/s] without its sign, where it is one and not zero.
+
+        Raises
+        ------
+        ConfigError
+            Where the speed changes, or the drum rests.
+        """
+        speed = self.config.derived.angular_velocity
+        if not speed:
+            raise ConfigError(
+                "rotation", "one that changes, or rest", "one speed, to compare with the C-model"
+            )
+        return abs(speed)
