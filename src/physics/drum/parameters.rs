@@ -134,7 +134,12 @@ fn validate_wall(index: usize, wall: &[[f64; 2]]) -> Result<(), Error> {
     for coordinate in wall.iter().flatten() {
         require_finite(&key, *coordinate)?;
     }
-    require(wall.len() >= 2, &key, format!("a line of {} points", wall.len()), "a line of at least 2 points")?;
+    require(
+        wall.len() >= 2,
+        &key,
+        format!("a line of {} points", wall.len()),
+        "a line of at least 2 points",
+    )?;
     let points: Vec<Vec2> = wall.iter().map(|&point| point.into()).collect();
     let segments = polygon::segments(&points, false);
     if let Some(side) = polygon::empty_segment(&segments) {

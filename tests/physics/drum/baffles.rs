@@ -268,10 +268,7 @@ fn lengths_in_millimeters_are_told() {
     assert_eq!(message, format!("drum.baffles.points is {found}, but must be {limit}; {hint}"));
     parameters = DrumParameters { walls: vec![vec![[0.0, -50.0], [100.0, -50.0]]], ..triangles() };
     let message = parameters.validate().unwrap_err().to_string();
-    assert!(
-        message.starts_with("drum.walls[0] is as far as 111.8") && message.ends_with(hint),
-        "{message}"
-    );
+    assert!(message.starts_with("drum.walls[0] is as far as 111.8") && message.ends_with(hint), "{message}");
     let tall = BaffleParameters { height: 40.0, ..baffles(BaffleShape::Triangle) };
     let message = in_rim(&tall).validate().unwrap_err().to_string();
     assert!(message.starts_with("drum.baffles.height is 40,") && message.ends_with(hint), "{message}");
