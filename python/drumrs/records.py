@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from drumrs.config import Config
 from drumrs.contact_records import COLUMNS, FLOWS, TableMaker
-from drumrs.errors import CheckpointError
+from drumrs.errors import CheckpointError, ConfigError
 from drumrs.frames import SHAPED, Frames
 
 if TYPE_CHECKING:
@@ -207,7 +207,12 @@ class Records:
         Parameters
         ----------
         with_contacts
-            Whether the list of contacts is among them; it is made of those in memory.
+            Whether the list of contacts is among them.
+
+        Raises
+        ------
+        ConfigError
+            Where that list is asked for and contacts were taken out of memory.
         """
         import polars as pl
 
@@ -216,6 +221,12 @@ class Records:
         sums, tables = self._core.contact_sums(), self._tables
         made: dict[str, Any] = {"dissipated": dict(zip(FLOWS, sums["dissipated"], strict=True))}
         if self.lists_contacts and with_contacts:
+            if self.taken_contacts:
+                problem = (
+                    f"has 'contacts', but the first {self.taken_contacts} of them are no longer in memory"
+                )
+                hint = "load the checkpoint where its run wrote it, beside its records"
+                raise ConfigError("run.record", problem=problem, hint=hint)
             ended = tables.contacts(self._core.contacts(False))
             made["contacts"] = pl.concat([ended, self.last_contacts()])
         if "wall_profile" in self._kinds:

@@ -138,7 +138,7 @@ fn check_records(state: &State, records: &Records, values: usize) -> Result<(), 
     let contacts = records.contacts.len() as u64;
     let counted = samples as u64 <= recorded.samples
         && frames as u64 <= recorded.frames
-        && contacts <= recorded.contacts;
+        && (contacts..=MOST_STEPS).contains(&recorded.contacts);
     // At most one of each in a step, and one of each at the start.
     if whole && counted && recorded.samples.max(recorded.frames) <= state.step + 1 {
         return Ok(());

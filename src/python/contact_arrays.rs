@@ -124,9 +124,9 @@ impl ContactSums {
         }
     }
 
-    /// As arrays: "dissipated", what contacts took, flow by flow; "below_floor", how many contacts that were not listed and
-    /// what they took; "split", a row for each pair of species, then for each species and part of the drum, flow by flow;
-    /// "profile", a row for each bin of the drum's outline; "discs", a row for each disc.
+    /// As arrays: `dissipated`, what contacts took, flow by flow; `below_floor`, how many contacts that were not listed and
+    /// what they took; `split`, a row for each pair of species, then for each species and part of the drum, flow by flow;
+    /// `profile`, a row for each bin of the drum's outline; `discs`, a row for each disc.
     ///
     /// # Errors
     /// What Python answers.

@@ -1,7 +1,7 @@
 //! From the events of contacts to what is recorded of them, and how that is shown.
 
 use super::Simulation;
-use super::contact_log::{ContactLog, LogInputs, row};
+use super::contact_log::{ContactLog, DiscAccount, LogInputs, row};
 use super::state::EngineState;
 use crate::engine::contacts::{ContactRecord, ContactTally, NO_BIN};
 use crate::engine::forces::{Lists, Totals};
@@ -17,7 +17,7 @@ use crate::physics::vector::{Rotation, Vec2};
 
 impl Simulation {
     /// Whether something is recorded on request.
-    pub fn records_what(&self, recording: Recording) -> bool {
+    pub fn is_recorded(&self, recording: Recording) -> bool {
         self.config.run.record.contains(&recording)
     }
 
@@ -33,15 +33,15 @@ impl Simulation {
 
     /// Sums of nothing yet, of what is recorded.
     pub(super) fn empty_log(&self) -> ContactLog {
-        let sized = |recording, count: usize| if self.records_what(recording) { count } else { 0 };
+        let sized = |recording, count: usize| if self.is_recorded(recording) { count } else { 0 };
         let inputs = self.log_inputs();
         ContactLog {
-            split: vec![Default::default(); sized(Recording::LedgerSplit, inputs.split_count())],
+            split: vec![Flows::default(); sized(Recording::LedgerSplit, inputs.split_count())],
             profile: vec![
                 Default::default();
                 self.derived.profile.as_ref().map_or(0, |bins| bins.bins.len())
             ],
-            discs: vec![Default::default(); sized(Recording::Discs, inputs.particles.len())],
+            discs: vec![DiscAccount::default(); sized(Recording::Discs, inputs.particles.len())],
             ..ContactLog::default()
         }
     }
@@ -78,7 +78,7 @@ impl Simulation {
         if count == 0 {
             return Ok(());
         }
-        let lists_contacts = self.records_what(Recording::Contacts);
+        let lists_contacts = self.is_recorded(Recording::Contacts);
         if lists_contacts {
             memory::reserve(&mut self.records.contacts, count, "recording contacts")?;
         }

@@ -51,20 +51,21 @@ pub struct DiscAccount {
 impl DiscAccount {
     fn take_off(&mut self, step: u64, height: f64) {
         (self.taken_off, self.height) = (step, height);
-        self.flights += 1;
+        self.flights = self.flights.saturating_add(1);
     }
 
     /// A contact more. Where it ends a flight, `least` says how long [steps] and how deep [m] a fall is at least.
     fn touch(&mut self, step: u64, height: f64, is_wall: bool, least: (f64, f64)) {
-        self.contacts += 1;
+        self.contacts = self.contacts.saturating_add(1);
         if self.contacts > 1 {
             return;
         }
         let steps = step.saturating_sub(self.taken_off);
-        self.flight_steps += steps;
-        self.landings[usize::from(!is_wall)] += 1;
+        self.flight_steps = self.flight_steps.saturating_add(steps);
+        let landings = &mut self.landings[usize::from(!is_wall)];
+        *landings = landings.saturating_add(1);
         if steps as f64 > least.0 && self.height - height > least.1 {
-            self.falls += 1;
+            self.falls = self.falls.saturating_add(1);
         }
     }
 
@@ -78,7 +79,7 @@ impl DiscAccount {
     /// Steps in flight so far.
     pub fn steps_in_flight(&self, now: u64) -> u64 {
         let current = if self.contacts == 0 { now.saturating_sub(self.taken_off) } else { 0 };
-        self.flight_steps + current
+        self.flight_steps.saturating_add(current)
     }
 }
 
@@ -219,7 +220,7 @@ impl ContactLog {
 
     /// Takes a contact below the floor.
     pub fn add_below_floor(&mut self, row: &ContactRow) {
-        self.below_floor.count += 1;
+        self.below_floor.count = self.below_floor.count.saturating_add(1);
         for (sum, &energy) in self.below_floor.dissipated.iter_mut().zip(&row.dissipated) {
             sum.add(energy);
         }

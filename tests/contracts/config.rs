@@ -48,6 +48,8 @@ const KEYS: &[&str] = &[
     "load.spin_locked",
     "load.start_speed",
     "rotation.knots",
+    "run.arc_bin",
+    "run.contact_floor",
     "run.frame_every",
     "run.overlap_limit",
     "run.record",

@@ -47,6 +47,7 @@ pub fn resealed(bytes: &[u8]) -> Vec<u8> {
 fn steps(simulation: &mut Simulation) {
     match simulation.run(STEPS) {
         Ok(()) => {
+            let _ = (simulation.contact_log(), simulation.open_rows(), simulation.dissipated());
             let state = simulation.state();
             assert!(state.particles.first_non_finite().is_none(), "a run that ends well ends with numbers");
             let bytes = simulation.to_checkpoint().expect("a good simulation has a checkpoint");

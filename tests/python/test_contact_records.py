@@ -181,6 +181,10 @@ def test_breaks_leave_the_same_files(tmp_path, monkeypatch):
     for steps in (500, 700):
         again.run(steps=steps)
         folder.flush(again)
+    with pytest.raises(
+        ConfigError, match=r"run\.record has 'contacts', but the first \d+ of them are no longer"
+    ):
+        again.result()
     # With all its records in memory again, it is as if it had never been on disk.
     folder.save(again)
     loaded = drumrs.Simulation.load(tmp_path / "broken" / "checkpoint.bin")
@@ -226,3 +230,24 @@ def test_bins_need_a_width():
     with pytest.raises(ConfigError, match=r"run\.arc_bin is not given, but must be given in a drum without"):
         drumrs.Simulation(config, state=state)
     assert drumrs.Simulation(config.replace({"run.arc_bin": 0.1}), state=state).step == 0
+
+
+def test_frames_hold_velocities_and_numbers_of_contacts(tmp_path):
+    """Those of the last frame are what the simulation says then; a bundle in flight is among them."""
+    config = drumrs.baseline(fill=0.3, baffles=True).softer(100.0).replace({"run.duration": 0.4})
+    simulation = drumrs.Simulation(config)
+    simulation.run(steps=10 * round(config.run.frame_every / simulation.time_step))
+    frames, contacts = simulation.frames, simulation.state.contacts
+    assert frames.times[-1] == simulation.time
+    bodies = np.concatenate(
+        [contacts["pairs"]["particle"], contacts["pairs"]["other"], contacts["walls"]["particle"]]
+    )
+    counted = np.bincount(bodies, minlength=frames.count)
+    assert counted.min() == 0
+    assert np.array_equal(frames.contacts[-1], counted)
+    assert np.array_equal(frames.velocities[-1], simulation.velocities.astype(np.float32))
+    assert np.allclose(frames.speeds[-1], np.hypot(*simulation.velocities.T), rtol=1e-6)
+    frames.save(tmp_path / "frames.parquet")
+    again = drumrs.Frames.load(tmp_path / "frames.parquet")
+    assert np.array_equal(again.velocities, frames.velocities)
+    assert np.array_equal(again.contacts, frames.contacts)

@@ -436,37 +436,11 @@ def test_what_is_thinned_once_is_thin(frames, count, most):
     assert not frames or kept[-1] == frames - 1
 
 
-def test_frames_hold_velocities_and_numbers_of_contacts(tmp_path):
-    """Those of the last frame are what the simulation says then; a bundle in flight is among them."""
-    config = drumrs.baseline(fill=0.3, baffles=True).softer(100.0).replace({"run.duration": 0.4})
-    simulation = drumrs.Simulation(config)
-    simulation.run(steps=10 * round(config.run.frame_every / simulation.time_step))
-    frames, contacts = simulation.frames, simulation.state.contacts
-    assert frames.times[-1] == simulation.time
-    bodies = np.concatenate(
-        [contacts["pairs"]["particle"], contacts["pairs"]["other"], contacts["walls"]["particle"]]
-    )
-    counted = np.bincount(bodies, minlength=frames.count)
-    assert counted.min() == 0
-    assert np.array_equal(frames.contacts[-1], counted)
-    assert np.array_equal(frames.velocities[-1], simulation.velocities.astype(np.float32))
-    assert np.allclose(frames.speeds[-1], np.hypot(*simulation.velocities.T), rtol=1e-6)
-    frames.save(tmp_path / "frames.parquet")
-    assert same_frames(drumrs.Frames.load(tmp_path / "frames.parquet"), frames)
-
-
 def test_sizes_are_those_of_what_is_recorded():
     config = drumrs.baseline(fill=0.1, baffles=True).replace({"drum.walls": [[[0.0, 0.0], [0.05, 0.0]]]})
     simulation = drumrs.Simulation(config)
     rows, frames = simulation.series, simulation.frames
-    arrays = (
-        frames.times,
-        frames.drum_angles,
-        frames.positions,
-        frames.angles,
-        frames.velocities,
-        frames.contacts,
-    )
+    arrays = [getattr(frames, name) for name in SHAPED if name != "radii"]
     assert simulation.records.sizes == {
         "run.sample_every": 8 * rows.width * rows.height,
         "run.frame_every": sum(array.nbytes for array in arrays),

@@ -8,7 +8,7 @@
 - collisions and walls: `spectra`, `walls`; torque and forces over frequency: `signals`
 - washing and drying: `laundry`
 - the regime: `regimes`
-- flight and fall: `airborne`, `orbit`
+- flight and fall: `airborne`, `orbit`; visits to a zone: `zones`
 
 Statistics are those of `drumrs.analysis`; nothing here sees a simulation.
 """
@@ -48,6 +48,7 @@ from drumrs.measures.species import by_species
 from drumrs.measures.spectra import collision_spectrum, enduring, impacts, sum_rule
 from drumrs.measures.surface import FreeSurface, free_surface
 from drumrs.measures.walls import finnie_f, wear, worn_outline
+from drumrs.measures.zones import Visits, zone_visits
 
 __all__ = [
     "COLORINGS",
@@ -61,6 +62,7 @@ __all__ = [
     "Regime",
     "RegimeLimits",
     "Suspension",
+    "Visits",
     "along_the_rim",
     "bulk_fill",
     "by_species",
@@ -110,4 +112,5 @@ __all__ = [
     "washing",
     "wear",
     "worn_outline",
+    "zone_visits",
 ]

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from drumrs.frames import Frames
 
 # Directions in which a disc looks, and frames that are plenty for a mean.
-_DIRECTIONS, _PLENTY = 72, 100
+_DIRECTIONS, _PLENTY = 72, 50
 _GRAVITY = 9.81
 
 

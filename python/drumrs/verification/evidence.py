@@ -35,7 +35,7 @@ class Check:
     @property
     def passed(self) -> bool:
         """Whether the numbers are as near as they must be; what is not finite never is."""
-        return abs(self.measured - self.expected) <= self.tolerance
+        return bool(abs(self.measured - self.expected) <= self.tolerance)
 
     @property
     def ratio(self) -> float:

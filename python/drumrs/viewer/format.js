@@ -20,6 +20,13 @@ export function powerOfTen(value) {
   return exponent === 0 ? "1" : exponent === 1 ? "10" : `10${exponent < 0 ? "⁻" : ""}${raised}`;
 }
 
+// A round number in the few characters that there is room for beside an axis.
+export function formatTick(value) {
+  const power = 10 ** Math.floor(Math.log10(Math.abs(value) || 1));
+  const written = power < 1e5 ? String(value) : `${Number((value / power).toPrecision(3))}·${powerOfTen(power)}`;
+  return written.replace("-", "−");
+}
+
 // Round numbers between two ends, some `wanted` of them, and the step between them.
 export function roundSteps(lowest, highest, wanted) {
   const rough = (highest - lowest) / wanted || 1;

@@ -6,10 +6,10 @@
 // Set `stale` when the theme or the panel's data have changed; a new size is seen at the next drawing.
 
 import { prepare } from "./canvas.js";
-import { decades, powerOfTen, roundSteps } from "./format.js";
+import { decades, formatTick, powerOfTen, roundSteps } from "./format.js";
 import { mix } from "./recording.js";
 
-const LEFT = 46;
+const LEFT = 52;
 const RIGHT = 10;
 const TOP = 8;
 const BOTTOM = 22;
@@ -120,7 +120,7 @@ export class Plot {
     for (const value of rows) {
       const y = Math.round(this.y(value)) + 0.5;
       this.rule(context, theme.grid, [LEFT, y], [width - RIGHT, y]);
-      context.fillText(panel.logarithmic ? powerOfTen(value) : String(value).replace("-", "−"), LEFT - 6, y);
+      context.fillText(panel.logarithmic ? powerOfTen(value) : formatTick(value), LEFT - 6, y);
     }
     context.textAlign = "center";
     context.textBaseline = "top";

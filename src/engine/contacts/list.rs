@@ -28,6 +28,9 @@ pub struct Block<L: ContactLaw> {
     pub history: Of<L::History, [f64; LANES]>,
 }
 
+/// What four contacts have done since they opened, where that is recorded.
+pub type BlockTally = Of<Tally, [f64; LANES]>;
+
 /// The parameters of the contacts of a list: in a load of equal bundles the same for all, which then cost neither memory
 /// nor time.
 #[derive(Debug, Clone)]
@@ -65,7 +68,7 @@ pub struct ContactList<L: ContactLaw> {
     /// What they are with.
     pub kind: ListKind,
     /// By block, what the contacts have done since they opened; empty where that is not recorded.
-    pub tallies: Vec<Of<Tally, [f64; LANES]>>,
+    pub tallies: Vec<BlockTally>,
     /// By contact, how they began; likewise.
     pub openings: Vec<Opening>,
     /// Whether that is recorded.

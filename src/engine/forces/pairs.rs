@@ -7,14 +7,15 @@ use super::accumulate::ChunkSums;
 use super::chunk::{ChunkStep, Scratch};
 use super::tallies::BlockRecords;
 use super::{Totals, block};
-use crate::engine::contacts::{Block, ContactList, Geometry, Ids, ListParameters, PairParameters};
+use crate::engine::contacts::{
+    Block, BlockTally, ContactList, Geometry, Ids, ListParameters, PairParameters,
+};
 use crate::engine::motion::{MotionView, at_offset};
 use crate::engine::pair_list::{NearBlock, Neighbors};
 use crate::engine::simd::{F64x4, LANES, Vec2x4, differences, lanes};
 use crate::physics::columns::{Columns, Of};
 use crate::physics::contact::RelativeMotion;
 use crate::physics::contact::law::ContactLaw;
-use crate::physics::contact::tally::Tally;
 use crate::physics::scalar::Scalar;
 
 /// Blocks that go through the stages together; 4 and 16 are no faster.
@@ -86,7 +87,7 @@ struct PassLists<'a, L: ContactLaw> {
     ids: &'a [Ids],
     blocks: &'a mut [Block<L>],
     other_moments: &'a mut [[f64; LANES]],
-    tallies: &'a mut [Of<Tally, [f64; LANES]>],
+    tallies: &'a mut [BlockTally],
 }
 
 /// One pass over a list. With `BOTH`, moments on bodies j are kept apart from those on bodies i; with `MIXED`, radii differ,

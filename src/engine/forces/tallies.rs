@@ -6,12 +6,12 @@
 
 use super::chunk::{ChunkStep, Scratch};
 use super::outlines::Spot;
-use crate::engine::contacts::{ContactEvent, ContactList, EventKind, ListKind, NO_BIN, Opening};
+use crate::engine::contacts::{BlockTally, ContactEvent, ContactList, EventKind, ListKind, NO_BIN, Opening};
 use crate::engine::motion::{MotionView, offset};
 use crate::engine::simd::{F64x4, LANES};
-use crate::physics::columns::{Columns, Of};
+use crate::physics::columns::Columns;
 use crate::physics::contact::law::ContactLaw;
-use crate::physics::contact::tally::{Exertion, Tally};
+use crate::physics::contact::tally::Exertion;
 use crate::physics::contact::{Flows, Kinematics, Response};
 use crate::physics::drum::RIM;
 use crate::physics::vector::{Vec2, dot, perpendicular};
@@ -24,7 +24,7 @@ pub struct BlockRecords<'a> {
     /// Whether its gross work is.
     pub gross_work: bool,
     /// What its contacts have done since they opened, where that is.
-    pub tally: Option<&'a mut Of<Tally, [f64; LANES]>>,
+    pub tally: Option<&'a mut BlockTally>,
     /// Whether they are with the drum.
     pub at_wall: bool,
 }
@@ -32,7 +32,7 @@ pub struct BlockRecords<'a> {
 /// Adds one step of a block.
 #[inline(always)]
 pub fn add<L: ContactLaw>(
-    (flows, exertion): &mut Of<Tally, [f64; LANES]>,
+    (flows, exertion): &mut BlockTally,
     contact: &Kinematics<F64x4>,
     response: &Response<F64x4>,
     at_wall: bool,
@@ -92,7 +92,8 @@ impl<V: MotionView> ChunkStep<'_, V> {
 
     /// Takes note of contacts with the drum that have come into other bins.
     pub fn note_moved<L: ContactLaw>(&mut self, list: &mut ContactList<L>) {
-        if self.inputs.profile.is_none() || !self.inputs.step.is_multiple_of(BIN_STEPS) {
+        let is_due = self.inputs.step.is_multiple_of(BIN_STEPS);
+        if list.kind != ListKind::Walls || self.inputs.profile.is_none() || !is_due {
             return;
         }
         for index in 0..list.len() {

@@ -7,14 +7,13 @@ use super::block::{self, BlockForces};
 use super::chunk::{ChunkStep, Scratch};
 use super::tallies::BlockRecords;
 use super::{StepInputs, SurfaceLoad, Totals};
-use crate::engine::contacts::{Block, ContactList, Ids, ListParameters, PairParameters};
+use crate::engine::contacts::{Block, BlockTally, ContactList, Ids, ListParameters, PairParameters};
 use crate::engine::motion::{MotionView, at_offset};
 use crate::engine::pair_list::Neighbors;
 use crate::engine::simd::{F64x4, LANES, Vec2x4, lanes, sum, vectors};
 use crate::physics::columns::{Columns, Of};
 use crate::physics::contact::RelativeMotion;
 use crate::physics::contact::law::ContactLaw;
-use crate::physics::contact::tally::Tally;
 use crate::physics::scalar::Scalar;
 use crate::physics::vector::Vec2;
 
@@ -44,11 +43,11 @@ pub fn evaluate_rim<L: ContactLaw, V: MotionView>(
     let (load, unit) = match parameters {
         ListParameters::Same(same) => {
             let own = PairParameters::<L>::map(same, F64x4::splat);
-            (rim_pass::<L, V, false>((ids, blocks, tallies), |_| own, step, &mut totals), same.1.radius)
+            (rim_pass::<L, V, false>(ids, blocks, tallies, |_| own, step, &mut totals), same.1.radius)
         }
         ListParameters::Each(each) => {
             let of = |block: usize| PairParameters::<L>::map(&each[block], F64x4::new);
-            (rim_pass::<L, V, true>((ids, blocks, tallies), of, step, &mut totals), 1.0)
+            (rim_pass::<L, V, true>(ids, blocks, tallies, of, step, &mut totals), 1.0)
         }
     };
     step.close(list, neighbors, &totals, unit);
@@ -73,7 +72,9 @@ fn find_touching_rim<V: MotionView>(neighbors: &mut Neighbors, step: &mut ChunkS
 /// One pass over the contacts with the rim.
 #[inline(always)]
 fn rim_pass<L: ContactLaw, V: MotionView, const MIXED: bool>(
-    (ids, blocks, tallies): (&[Ids], &mut [Block<L>], &mut [Of<Tally, [f64; LANES]>]),
+    ids: &[Ids],
+    blocks: &mut [Block<L>],
+    tallies: &mut [BlockTally],
     parameters: impl Fn(usize) -> Of<PairParameters<L>, F64x4>,
     step: &mut ChunkStep<V>,
     totals: &mut Totals<F64x4>,
@@ -121,7 +122,7 @@ pub fn advance<L: ContactLaw, V: MotionView, const MIXED: bool>(
     inputs: &StepInputs,
     sums: &mut ChunkSums<V>,
     totals: &mut Totals<F64x4>,
-    tally: Option<&mut Of<Tally, [f64; LANES]>>,
+    tally: Option<&mut BlockTally>,
 ) -> BlockForces {
     let velocity = vectors(|lane| view.velocity(ids.own[lane]));
     let spin = lanes(|lane| view.angular_velocity(ids.own[lane]));

@@ -3,10 +3,8 @@
 //! What a spring takes while it is loaded and gives back afterwards adds up to nothing in the net work. Park & Wassgren's
 //! ratio of powers "includes both spring and dissipative elements", so it is read as N/T = Σ ∫ |Fₙ vₙ| dt / Σ ∫ |Fₜ vₜ| dt.
 
-use super::law::{BodyPair, ContactLaw};
-use super::parameters::ContactParameters;
-use super::{Flows, Kinematics, Response, Stored};
-use crate::physics::columns::{Of, columns};
+use super::Kinematics;
+use crate::physics::columns::columns;
 use crate::physics::scalar::Scalar;
 
 columns! {
@@ -41,38 +39,5 @@ impl<S: Scalar> GrossWork<S> {
             gross_work_normal: (normal * contact.travel).abs(),
             gross_work_tangential: (mean(1) * contact.slip).abs(),
         }
-    }
-}
-
-/// The same law, of whose contacts more is recorded than the ledger needs.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct WithRecords<L>(L);
-
-impl<L: ContactLaw> ContactLaw for WithRecords<L> {
-    type Parameters = L::Parameters;
-    type History = L::History;
-    const FLOWS: Flows<bool> = L::FLOWS;
-    const ROLLS: bool = L::ROLLS;
-    const IS_RECORDED: bool = true;
-
-    fn between(parameters: &ContactParameters, bodies: BodyPair) -> Of<Self::Parameters, f64> {
-        L::between(parameters, bodies)
-    }
-
-    #[inline(always)]
-    fn respond<S: Scalar>(
-        law: &Of<Self::Parameters, S>,
-        contact: &Kinematics<S>,
-        history: &Of<Self::History, S>,
-    ) -> (Response<S>, Of<Self::History, S>) {
-        L::respond(law, contact, history)
-    }
-
-    fn stored(
-        law: &Of<Self::Parameters, f64>,
-        overlap: f64,
-        history: &Of<Self::History, f64>,
-    ) -> Stored<f64> {
-        L::stored(law, overlap, history)
     }
 }

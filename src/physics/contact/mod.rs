@@ -23,6 +23,7 @@ pub mod rolling;
 pub mod species;
 pub mod tally;
 pub mod tangential_dashpot;
+mod with_records;
 
 pub use kinematics::{Kinematics, RelativeMotion};
 

@@ -1,13 +1,13 @@
 //! The list of laws: which base law a simulation has, which terms act with it, and whether more is recorded of its contacts.
 
 use super::adhesion::Adhesion;
-use super::gross_work::WithRecords;
 use super::hertz::Hertz;
 use super::linear::Linear;
 use super::parameters::{Base, ContactParameters};
 use super::rolling::RollingResistance;
 use super::species::SpeciesTable;
 use super::tangential_dashpot::TangentialDashpot;
+use super::with_records::WithRecords;
 
 /// The terms that act with the linear law, in this order.
 pub type Terms = (RollingResistance, (TangentialDashpot, Adhesion));

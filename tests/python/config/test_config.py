@@ -96,7 +96,7 @@ VALUES = {
     "drum.liner.outlines": st.lists(st.builds(Outline, points=beside_the_axis), max_size=3).map(tuple),
     "drum.liner.rail.count": st.integers(0, 1000),
     "drum.liner.rail.height": st.floats(0.001, 0.2),
-    "drum.liner.rail.width": positive,
+    "drum.liner.rail.width": st.floats(0.001, 0.19),
     "drum.liner.rail.face_angle": st.floats(0.0, 89.0),
     "drum.liner.rail.back_angle": st.floats(0.0, 89.0),
     "drum.liner.rail.phase": real,

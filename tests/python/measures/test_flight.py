@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from drumrs import measures
+from drumrs.errors import ConfigError
 from drumrs.verification import made_up
 
 WINDOW = (0.0, 1.0)
@@ -55,3 +56,20 @@ def test_a_drum_at_rest_has_no_turns():
     assert found["falls_per_turn"] is None
     assert found["share_in_flight"].value == 0.0
     assert found["head_height"] is None
+
+
+def test_a_zone_that_no_disc_comes_back_to_has_no_visits():
+    zone = [[-1.0, -1.0], [1.0, -1.0], [1.0, 0.0], [-1.0, 0.0]]
+    once = path([0.5, 0.5, -0.5, -0.5, 0.5, 0.5], [1] * 6)
+    with pytest.raises(ConfigError, match="twice"):
+        measures.zone_visits(once, WINDOW, zone)
+
+
+def test_visits_that_the_window_cuts_do_not_count():
+    zone = [[-1.0, -1.0], [1.0, -1.0], [1.0, 0.0], [-1.0, 0.0]]
+    # In the zone from the start, then for two frames, five, and three; the next one is cut.
+    where = [1, 0, 0, 1, 1, 0, 0, 0, 1, 1, 1, 1, 1, 0, 1, 1, 1, 0, 1]
+    visits = measures.zone_visits(path(np.where(where, -0.5, 0.5), [1] * len(where)), WINDOW, zone)
+    assert visits.count == 3
+    assert visits.residence == pytest.approx(0.01 * (2 + 5 + 3) / 3)
+    assert visits.cycle == pytest.approx(0.01 * (5 + 6 + 4) / 3)

@@ -111,6 +111,10 @@ WRONG = [
     ("regimes", "regimes", "early[below[0] :].max()", "early[below[0] :].min()"),
     ("regimes", "motion", "1.0 - found.value", "found.value"),
     ("regimes", "depth", "[top] ** 2)", "[~top] ** 2)"),
+    ("zone-visits", "zones", "stays - residence / cycle * cycles", "stays"),
+    ("zone-visits", "zones", "self.variance * self.cycle / time", "self.variance / time"),
+    ("zone-visits", "zones", "np.diff(own)", "own[1:] - over[: len(own) - 1]"),
+    ("davis-simulated", "orbit", "0.5 * math.pi + 3.0 * release", "0.5 * math.pi + 2.9 * release"),
 ]
 
 

@@ -213,7 +213,7 @@ def test_the_plot_follows_and_can_be_clicked(show):
     plot = shown.page.locator("drumrs-player .panel canvas").first
     before = plot.evaluate("canvas => canvas.toDataURL()")
     box = plot.bounding_box()
-    plot.click(position={"x": 46 + (box["width"] - 56) / 2, "y": 40})
+    plot.click(position={"x": 52 + (box["width"] - 62) / 2, "y": 40})
     assert shown.time == pytest.approx(1.5, abs=0.02)
     assert plot.evaluate("canvas => canvas.toDataURL()") != before
 
@@ -319,3 +319,19 @@ def _middle_row(png: bytes) -> np.ndarray:
 
     pixels = image.imread(io.BytesIO(png))
     return 255 * pixels[len(pixels) // 2, :, :3]
+
+
+@pytest.mark.parametrize(("power", "expected"), [(7.0, "4"), (1.5e6, "1·10⁶")])
+def test_values_beside_an_axis_find_room(show, power, expected):
+    page = Player(scene(), series_of(power)).page(autoplay=False)
+    spy = """<head><script>
+      window.widths = {};
+      const fill = CanvasRenderingContext2D.prototype.fillText;
+      CanvasRenderingContext2D.prototype.fillText = function (text, ...place) {
+        if (this.textAlign === "right") window.widths[text] = this.measureText(text).width;
+        fill.call(this, text, ...place);
+      };
+    </script>"""
+    widths = show(page.replace("<head>", spy, 1)).page.evaluate("window.widths")
+    assert expected in widths
+    assert max(width for text, width in widths.items() if text != "averages") < 46.0
