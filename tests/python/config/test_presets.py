@@ -4,6 +4,11 @@ import re
 
 import pytest
 
+import drumrs
+from drumrs.config import Config
+from drumrs.config.presets import presets, presets_toml
+from drumrs.errors import ConfigError
+
 ORE = {
     "name": "ore",
     "share": 0.8,
@@ -15,12 +20,6 @@ ORE = {
 def load(*species):
     changes = {"load.species": species, "load.share_by": "mass", "run.time_step": "auto"}
     return drumrs.baseline().replace(changes)
-
-
-import drumrs
-from drumrs.config import Config
-from drumrs.config.presets import presets, presets_toml
-from drumrs.errors import ConfigError
 
 
 def test_a_preset_is_replaced_by_plain_numbers():
