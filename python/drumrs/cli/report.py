@@ -17,7 +17,7 @@ def report(run: Path, /, *, page: str = "research", out: Annotated[Path | None, 
     - `washer`: falls, knocking and rubbing, slip, unbalance, phase by phase
     - `dryer`: openness, curtain, falls
     - `mill`: power beside Morrell's C-model, toe and shoulder, collisions, wear of the liner
-    - `coater`: circulation, mixing, the flowing layer
+    - `coater`: visits to the spray, circulation, mixing, the flowing layer
     - `research`: all that is measured
 
     Collisions need `run.record = ["contacts"]`, wear `"wall_profile"`, knocking and rubbing by whom `"ledger_split"`,

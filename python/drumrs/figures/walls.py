@@ -60,7 +60,7 @@ def wall_profile(profile: "pl.DataFrame", column: str, label: str) -> "Figure":
         raise ValueError("profile is empty, but must hold at least one bin")
     with drumrs_style():
         figure = new_figure(9.0, 3.9)
-        outline, along = figure.subplots(1, 2, width_ratios=(1.0, 1.15))
+        outline, along = figure.subplots(1, 2, width_ratios=(1.0, 1.1))
         values = profile[column].to_numpy()
         norm = Normalize(0.0, float(np.quantile(values, _TYPICAL)) or float(values.max()) or 1.0)
         lines = LineCollection(list(_bins(profile)), array=values, cmap="viridis", norm=norm, linewidths=5.0)
@@ -68,9 +68,10 @@ def wall_profile(profile: "pl.DataFrame", column: str, label: str) -> "Figure":
         outline.add_collection(lines)
         outline.set(aspect="equal", xlabel="x in the drum’s frame [m]", ylabel="y in the drum’s frame [m]")
         outline.autoscale_view()
-        figure.colorbar(lines, ax=outline, shrink=0.8, pad=0.02, extend="max")
+        figure.colorbar(lines, ax=outline, shrink=0.8, pad=0.03, extend="max")
         _draw_parts(along, profile, column)
         along.set(ylabel=label, ylim=(0.0, None))
+        along.yaxis.set_label_position("right")
     return figure
 
 

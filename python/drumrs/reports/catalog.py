@@ -52,6 +52,7 @@ _LAYER = Section("layer", "The flowing layer", charge.layer)
 _REGIME = Section("regime", "Regime", charge.regime)
 _FLIGHT = Section("flight", "Flight and fall", charge.flight)
 _CIRCULATION = Section("circulation", "Circulation", charge.circulation)
+_VISITS = Section("visits", "Visits to the spray", charge.visits)
 _COLLISIONS = Section("collisions", "Collisions", contacts.collisions)
 _WEAR = Section("wear", "Wear of the drum", contacts.wear)
 _SPLIT = Section("split", "Who takes the energy", contacts.split)
@@ -98,9 +99,22 @@ PAGES = {
     "coater": Page(
         "How evenly the coater turns its bed",
         "Does every tablet come to the surface as often as the others, and how fast does the bed mix?",
-        (_CIRCULATION, _MIXING, _LAYER, _SHAPE, _FLOW, _REGIME, _HANDLING, _DISCS, _POWER, _MOTION, _LEDGER),
         (
-            "There is no spray and no film; visits to the spray’s zone are not recorded yet.",
+            _VISITS,
+            _CIRCULATION,
+            _MIXING,
+            _LAYER,
+            _SHAPE,
+            _FLOW,
+            _REGIME,
+            _HANDLING,
+            _DISCS,
+            _POWER,
+            _MOTION,
+            _LEDGER,
+        ),
+        (
+            "There is no spray and no film: visits to a zone stand for the dose, and discs in it hide each other.",
             "Tablets are round, and a bed that mixes in its plane need not mix along the axis, which is slower.",
         ),
     ),
@@ -108,7 +122,7 @@ PAGES = {
         "All that is measured of a run",
         "What does the load do, where does its energy go, and by which numbers?",
         (
-            *(_POWER, _PHASES, _REGIME, _SHAPE, _FLOW, _LAYER, _CIRCULATION, _FLIGHT, _MIXING),
+            *(_POWER, _PHASES, _REGIME, _SHAPE, _FLOW, _LAYER, _CIRCULATION, _VISITS, _FLIGHT, _MIXING),
             *(_COLLISIONS, _WEAR, _SPLIT, _DISCS, _HANDLING, _GOING, _OPENING, _BALANCE, _MOTION, _LEDGER),
         ),
     ),

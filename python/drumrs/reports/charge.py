@@ -1,9 +1,13 @@
 """Sections on the load in the drum: its shape, its fields, how it flows, flies, lands and goes round; its regime."""
 
+import math
 from dataclasses import asdict
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from drumrs import measures
+from drumrs.measures.frame_window import counter_clockwise
 from drumrs.reports.content import Picture, Play, Table, measured, value
 
 if TYPE_CHECKING:
@@ -14,6 +18,8 @@ if TYPE_CHECKING:
     from drumrs.reports.content import Block
     from drumrs.reports.material import Material
 
+# Half the width of the zone of a spray, over the drum's radius.
+_SPRAY = 0.25
 _MIRROR = "of a drum that turns counter-clockwise; one that turns the other way is shown in the mirror."
 
 
@@ -87,6 +93,33 @@ def circulation(of: "Material") -> "Iterator[Block]":
     rounds = measures.circulation(of.frames, of.span, center)
     yield measured(
         {"circulation": rounds},
-        f"The center of circulation lies at x = {center[0]:.3g} m, y = {center[1]:.3g} m. Visits to a zone, such as "
-        "that of a spray, are not recorded; every round brings a disc to the surface once.",
+        f"The center of circulation lies at x = {center[0]:.3g} m, y = {center[1]:.3g} m. Every round brings a disc to "
+        "the surface once.",
+    )
+
+
+def visits(of: "Material") -> "Iterator[Block]":
+    """Write how often and how alike discs come to the middle of the bed's surface, where a spray would be."""
+    seen = counter_clockwise(of.frames)
+    surface, diameter = measures.free_surface(seen, of.span), 2.0 * float(of.frames.radii.mean())
+    middle = np.abs(surface.along) <= _SPRAY * surface.drum_radius
+    line, up = (
+        surface.points()[middle],
+        diameter * np.array([-math.sin(surface.tilt), math.cos(surface.tilt)]),
+    )
+    found = measures.zone_visits(seen, of.span, np.concatenate([line + up, (line - 1.5 * up)[::-1]]))
+    yield Table(
+        ("", "value"),
+        [
+            ("visits of a disc in a minute", value(60.0 / found.cycle)),
+            ("time of a visit [s]", value(found.residence)),
+            ("time from visit to visit [s]", value(found.cycle)),
+            *(
+                (f"spread of the time in the zone after {name} [%]", value(100.0 * found.spread(time)))
+                for name, time in (("a minute", 60.0), ("an hour", 3600.0))
+            ),
+        ],
+        f"The zone is the middle of the bed’s surface, {2.0 * _SPRAY * surface.drum_radius:.3g} m wide, and one and a "
+        f"half diameters deep. From {found.count} visits that another one followed. Spread: standard deviation over "
+        "discs, over the mean, as the motion alone makes it; it falls as one over the root of the time.",
     )

@@ -78,9 +78,7 @@ def balance(of: "Material") -> "Iterator[Block]":
     def draw() -> "Figure":
         return figures.unbalance_histogram(lengths)
 
-    yield Picture(
-        "Unbalance", "How often the load is how far off balance, over the frames of the window.", draw
-    )
+    yield Picture("Unbalance", "How often the load is how far off balance, frame by frame.", draw)
 
 
 def mixing(of: "Material") -> "Iterator[Block]":

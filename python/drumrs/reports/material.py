@@ -123,7 +123,6 @@ class Material:
         """
         speed = self.config.derived.angular_velocity
         if not speed:
-            raise ConfigError(
-                "rotation", "one that changes, or rest", "one speed, to compare with the C-model"
-            )
+            problem = "lets the drum rest or change its speed, but the C-model is of one speed"
+            raise ConfigError("rotation", problem=problem)
         return abs(speed)

@@ -92,7 +92,7 @@ def render(result: "Result", page: str) -> str:
         window=material.window,
         span=material.span,
         duration=material.duration,
-        sections=made,
+        sections=[one for one in made if one.blocks or one.missing],
         player=player.element(start=material.window[0]),
         player_script=script(),
         config=result.config.to_toml(),

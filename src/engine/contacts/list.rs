@@ -28,8 +28,8 @@ pub struct Block<L: ContactLaw> {
     pub history: Of<L::History, [f64; LANES]>,
 }
 
-/// What four contacts have done since they opened, where that is recorded.
-pub type BlockTally = Of<Tally, [f64; LANES]>;
+/// What four contacts have done since they opened, where that is recorded: the columns of `Tally` in their order.
+pub type BlockTally = [[f64; LANES]; Tally::COUNT];
 
 /// The parameters of the contacts of a list: in a load of equal bundles the same for all, which then cost neither memory
 /// nor time.
@@ -142,10 +142,8 @@ impl<L: ContactLaw> ContactList<L> {
     /// What contact `index` has done since it opened, where that is recorded.
     pub fn tally(&self, index: usize) -> ContactTally {
         let (block, lane) = (index / LANES, index % LANES);
-        ContactTally {
-            opening: self.openings[index],
-            tally: Tally::map(&self.tallies[block], |column: [f64; LANES]| column[lane]),
-        }
+        let columns = &self.tallies[block];
+        ContactTally { opening: self.openings[index], tally: Tally::build(|column| columns[column][lane]) }
     }
 
     /// The same of all contacts, in order; none where it is not recorded.
@@ -159,9 +157,8 @@ impl<L: ContactLaw> ContactList<L> {
             return;
         }
         self.openings[index] = contact.opening;
-        for column in 0..Tally::COUNT {
-            let value = Tally::field(&contact.tally, column);
-            Tally::field_mut(&mut self.tallies[index / LANES], column)[index % LANES] = value;
+        for (column, own) in self.tallies[index / LANES].iter_mut().enumerate() {
+            own[index % LANES] = Tally::field(&contact.tally, column);
         }
     }
 
@@ -209,7 +206,7 @@ impl<L: ContactLaw> ContactList<L> {
             self.other_moments.push([0.0; LANES]);
         }
         if self.is_tallied {
-            self.tallies.push(Tally::build(|_| [0.0; LANES]));
+            self.tallies.push([[0.0; LANES]; Tally::COUNT]);
         }
         if let ListParameters::Each(blocks) = &mut self.parameters {
             blocks.push(PairParameters::<L>::map(parameters, |value| [value; LANES]));
@@ -258,9 +255,13 @@ impl<L: ContactLaw> ContactList<L> {
             self.put(index, &self.record(last), &parameters);
         }
         if self.is_tallied {
-            self.set_tally(index, &self.tally(last));
-            self.set_tally(last, &ContactTally::default());
-            self.openings.pop();
+            self.openings.swap_remove(index);
+            for column in 0..Tally::COUNT {
+                let value = std::mem::take(&mut self.tallies[last / LANES][column][last % LANES]);
+                if index < last {
+                    self.tallies[index / LANES][column][index % LANES] = value;
+                }
+            }
         }
         let parameters = self.parameters(last);
         let (particle, other) = self.vacant;

@@ -52,11 +52,13 @@ pub fn evaluate<L: ContactLaw>(
     {
         tallies::add::<L>(tally, &contact, &response, records.at_wall);
     }
-    if L::IS_RECORDED && records.gross_work {
+    if L::IS_RECORDED
+        && let Some(sums) = records.gross_work
+    {
         // The last force as the normal and the tangent of now see it.
         let (x, y) = (last.force_x, last.force_y);
         let last_force = [x * normal.x + y * normal.y, x * normal.y - y * normal.x];
-        totals.add_gross_work(&GrossWork::of_step(&contact, last_force, [push, pull]));
+        tallies::add_gross_work(sums, &GrossWork::of_step(&contact, last_force, [push, pull]));
     }
     block.state = ContactState {
         overlap: contact.overlap.to_array(),

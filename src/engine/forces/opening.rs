@@ -25,7 +25,7 @@ impl<V: MotionView> ChunkStep<'_, V> {
             }
         }
         self.scratch.ended.clear(list.blocks.len());
-        (!list.is_empty()).then(|| self.totals.open::<L>())
+        (!list.is_empty()).then(|| self.totals.open())
     }
 
     /// Keeps the sums, of which depths are in units of `unit`, and takes out contacts that have ended.
@@ -37,7 +37,7 @@ impl<V: MotionView> ChunkStep<'_, V> {
         sums: &Totals<F64x4>,
         unit: f64,
     ) {
-        self.totals.close::<L>(sums, unit);
+        self.totals.close(sums, unit);
         if L::IS_RECORDED && list.is_tallied {
             self.note_moved(list);
             self.note_ended(list);

@@ -1,7 +1,7 @@
 //! Contacts of particles with edges and vertices of outlines, four at a time.
 
 use super::chunk::{ChunkStep, Scratch};
-use super::walls::{ContactGeometry, advance};
+use super::walls::{ContactGeometry, advance, wall_records};
 use super::{StepInputs, SurfaceLoad};
 use crate::engine::contacts::ContactList;
 use crate::engine::motion::{MotionView, at_offset, offset};
@@ -42,7 +42,8 @@ pub fn evaluate<L: ContactLaw, V: MotionView>(
 ) {
     find_spots(list, neighbors, step);
     let Some(mut totals) = step.open(list, neighbors) else { return };
-    let ChunkStep { motion, inputs, sums, scratch: Scratch { spots, ended, .. }, .. } = &mut *step;
+    let ChunkStep { motion, inputs, sums, totals: kept, scratch: Scratch { spots, ended, .. }, .. } =
+        &mut *step;
     let motion = *motion;
     for (particle, feature) in (spots.len()..list.len()).map(|index| list.key(index)) {
         spots.push(Spot::of(particle, feature, motion, inputs).unwrap_or_default());
@@ -51,7 +52,7 @@ pub fn evaluate<L: ContactLaw, V: MotionView>(
     for (index, spots) in spots.chunks(LANES).enumerate() {
         let parameters = list.block_parameters(index);
         let (block, ids) = (&mut list.blocks[index], &list.ids[index]);
-        let tally = if L::IS_RECORDED { list.tallies.get_mut(index) } else { None };
+        let records = wall_records::<L>(list.tallies.get_mut(index), kept, inputs);
         let position = vectors(|lane| motion.position(ids.own[lane]));
         let spot = |lane: usize| spots.get(lane).copied().unwrap_or_default();
         let overlap = lanes(|lane| spot(lane).overlap);
@@ -69,7 +70,7 @@ pub fn evaluate<L: ContactLaw, V: MotionView>(
             inputs,
             sums,
             &mut totals,
-            tally,
+            records,
         );
         let moments = (forces.moment - position.cross(forces.force)).to_array();
         for (lane, force) in forces.force.to_array().into_iter().enumerate().take(spots.len()) {

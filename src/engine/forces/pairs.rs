@@ -99,8 +99,13 @@ fn run<L: ContactLaw, V: MotionView, const BOTH: bool, const MIXED: bool>(
     step: &mut ChunkStep<V>,
     totals: &mut Totals<F64x4>,
 ) {
-    let gross_work = step.inputs.records_gross_work;
-    let ChunkStep { sums, scratch: Scratch { group: GroupGeometry(geometries), ended, .. }, .. } = step;
+    let records_gross_work = L::IS_RECORDED && step.inputs.records_gross_work;
+    let ChunkStep {
+        sums,
+        totals: kept,
+        scratch: Scratch { group: GroupGeometry(geometries), ended, .. },
+        ..
+    } = step;
     let (motion, time) = (step.motion, step.inputs.time);
     for (group, (blocks, ids)) in blocks.chunks_mut(GROUP).zip(ids.chunks(GROUP)).enumerate() {
         let first = GROUP * group;
@@ -119,7 +124,11 @@ fn run<L: ContactLaw, V: MotionView, const BOTH: bool, const MIXED: bool>(
                 time,
                 sums,
                 totals,
-                BlockRecords { gross_work, tally, at_wall: false },
+                BlockRecords {
+                    gross_work: records_gross_work.then_some(&mut kept.gross_work),
+                    tally,
+                    at_wall: false,
+                },
             );
             ended.note(index, touching);
         }

@@ -10,6 +10,7 @@ use crate::engine::contacts::{BlockTally, ContactEvent, ContactList, EventKind, 
 use crate::engine::motion::{MotionView, offset};
 use crate::engine::simd::{F64x4, LANES};
 use crate::physics::columns::Columns;
+use crate::physics::contact::gross_work::GrossWork;
 use crate::physics::contact::law::ContactLaw;
 use crate::physics::contact::tally::Exertion;
 use crate::physics::contact::{Flows, Kinematics, Response};
@@ -17,12 +18,12 @@ use crate::physics::drum::RIM;
 use crate::physics::vector::{Vec2, dot, perpendicular};
 
 /// Steps from one look at the bins of the contacts with the drum to the next: in that time a bundle slides a small part of one.
-const BIN_STEPS: u64 = 16;
+const BIN_STEPS: u64 = 32;
 
 /// What is recorded of a block.
 pub struct BlockRecords<'a> {
-    /// Whether its gross work is.
-    pub gross_work: bool,
+    /// The sums of gross work, where that is: in memory, which costs other runs nothing but to ask.
+    pub gross_work: Option<&'a mut GrossWork<[f64; LANES]>>,
     /// What its contacts have done since they opened, where that is.
     pub tally: Option<&'a mut BlockTally>,
     /// Whether they are with the drum.
@@ -32,23 +33,35 @@ pub struct BlockRecords<'a> {
 /// Adds one step of a block.
 #[inline(always)]
 pub fn add<L: ContactLaw>(
-    (flows, exertion): &mut BlockTally,
+    tally: &mut BlockTally,
     contact: &Kinematics<F64x4>,
     response: &Response<F64x4>,
     at_wall: bool,
 ) {
-    *flows = Flows::build(|flow| {
-        let sum: [f64; LANES] = Flows::field(flows, flow);
-        let is_taken = Flows::field(&L::FLOWS, flow);
-        if is_taken { (F64x4::new(sum) + Flows::field(&response.flows, flow)).to_array() } else { sum }
-    });
-    if at_wall {
-        let before = Exertion::map(exertion, F64x4::new);
-        *exertion = Exertion::map(&before.plus(Exertion::of_wall_step(contact, response)), F64x4::to_array);
-    } else {
-        let before = F64x4::new(exertion.greatest_force);
-        exertion.greatest_force = response.normal_force.fast_max(before).to_array();
+    for (flow, sum) in tally.iter_mut().enumerate().take(Flows::COUNT) {
+        if Flows::field(&L::FLOWS, flow) {
+            *sum = (F64x4::new(*sum) + Flows::field(&response.flows, flow)).to_array();
+        }
     }
+    // The columns of `Exertion` come after those of `Flows`.
+    if at_wall {
+        let before = Exertion::build(|column| F64x4::new(tally[Flows::COUNT + column]));
+        let now = before.plus(Exertion::of_wall_step(contact, response));
+        for column in 0..Exertion::COUNT {
+            tally[Flows::COUNT + column] = Exertion::field(&now, column).to_array();
+        }
+    } else {
+        let greatest = &mut tally[Flows::COUNT];
+        *greatest = response.normal_force.fast_max(F64x4::new(*greatest)).to_array();
+    }
+}
+
+/// Adds the gross work of one step of a block.
+#[inline(always)]
+pub fn add_gross_work(sums: &mut GrossWork<[f64; LANES]>, new: &GrossWork<F64x4>) {
+    *sums = GrossWork::build(|way| {
+        (F64x4::new(GrossWork::field(sums, way)) + GrossWork::field(new, way)).to_array()
+    });
 }
 
 impl<V: MotionView> ChunkStep<'_, V> {
@@ -77,10 +90,18 @@ impl<V: MotionView> ChunkStep<'_, V> {
     }
 
     /// Takes note of the contacts that have ended.
-    #[cold]
-    pub fn note_ended<L: ContactLaw>(&mut self, list: &mut ContactList<L>) {
+    #[inline]
+    pub fn note_ended<L: ContactLaw>(&mut self, list: &ContactList<L>) {
         let Scratch { ended, .. } = &*self.scratch;
-        let blocks = ended.blocks(list.len()).to_vec();
+        let blocks = ended.blocks(list.len());
+        if !blocks.is_empty() {
+            let blocks = blocks.to_vec();
+            self.note_ended_in(&blocks, list);
+        }
+    }
+
+    #[cold]
+    fn note_ended_in<L: ContactLaw>(&mut self, blocks: &[u32], list: &ContactList<L>) {
         for index in
             blocks.iter().flat_map(|&block| (0..LANES).map(move |lane| LANES * block as usize + lane))
         {
@@ -91,11 +112,17 @@ impl<V: MotionView> ChunkStep<'_, V> {
     }
 
     /// Takes note of contacts with the drum that have come into other bins.
+    #[inline]
     pub fn note_moved<L: ContactLaw>(&mut self, list: &mut ContactList<L>) {
         let is_due = self.inputs.step.is_multiple_of(BIN_STEPS);
         if list.kind != ListKind::Walls || self.inputs.profile.is_none() || !is_due {
             return;
         }
+        self.note_moved_in(list);
+    }
+
+    #[cold]
+    fn note_moved_in<L: ContactLaw>(&mut self, list: &mut ContactList<L>) {
         for index in 0..list.len() {
             let (particle, feature) = list.key(index);
             let (bin, before) = (self.bin_of(list.kind, particle, feature), list.openings[index].bin);

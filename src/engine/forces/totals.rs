@@ -6,7 +6,6 @@ use crate::engine::simd::{F64x4, LANES, greatest, sum};
 use crate::physics::columns::{Columns, Field};
 use crate::physics::contact::Flows;
 use crate::physics::contact::gross_work::GrossWork;
-use crate::physics::contact::law::ContactLaw;
 use crate::physics::scalar::Scalar;
 
 /// Sums over contacts: kept lane by lane, added to in registers, folded to numbers. They belong to the state: a checkpoint
@@ -36,28 +35,24 @@ impl<T: Field> Totals<T> {
 }
 
 impl Totals {
-    /// To be added to by contacts of a law; depths begin anew, as they are in a unit of their own.
+    /// To be added to by contacts, but for gross work; depths begin anew, as they are in a unit of their own.
     #[inline(always)]
-    pub fn open<L: ContactLaw>(&self) -> Totals<F64x4> {
-        let recorded = |sum| if L::IS_RECORDED { F64x4::new(sum) } else { F64x4::ZERO };
+    pub fn open(&self) -> Totals<F64x4> {
         Totals {
             power: F64x4::new(self.power),
             flows: Flows::map(&self.flows, F64x4::new),
-            gross_work: GrossWork::map(&self.gross_work, recorded),
+            gross_work: GrossWork::build(|_| F64x4::ZERO),
             deepest: F64x4::ZERO,
         }
     }
 
-    /// Keeps them; depths are in units of `unit`.
+    /// Keeps them, but for gross work; depths are in units of `unit`.
     #[inline(always)]
-    pub fn close<L: ContactLaw>(&mut self, totals: &Totals<F64x4>, unit: f64) {
+    pub fn close(&mut self, totals: &Totals<F64x4>, unit: f64) {
         let ratios = totals.deepest * F64x4::splat(1.0 / unit);
         self.deepest = ratios.larger(F64x4::new(self.deepest)).to_array();
         self.power = totals.power.to_array();
         self.flows = Flows::map(&totals.flows, F64x4::to_array);
-        if L::IS_RECORDED {
-            self.gross_work = GrossWork::map(&totals.gross_work, F64x4::to_array);
-        }
     }
 
     /// The greatest overlap over the smaller radius.
@@ -95,12 +90,5 @@ impl Totals<F64x4> {
             let (sum, new) = (Flows::field(&self.flows, flow), Flows::field(flows, flow));
             if Flows::field(&set, flow) { sum + new } else { sum }
         });
-    }
-
-    /// Adds gross work.
-    #[inline(always)]
-    pub fn add_gross_work(&mut self, new: &GrossWork<F64x4>) {
-        self.gross_work =
-            GrossWork::build(|way| GrossWork::field(&self.gross_work, way) + GrossWork::field(new, way));
     }
 }

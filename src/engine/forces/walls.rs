@@ -79,7 +79,7 @@ fn rim_pass<L: ContactLaw, V: MotionView, const MIXED: bool>(
     step: &mut ChunkStep<V>,
     totals: &mut Totals<F64x4>,
 ) -> SurfaceLoad {
-    let ChunkStep { motion, inputs, sums, scratch: Scratch { ended, .. }, .. } = step;
+    let ChunkStep { motion, inputs, sums, totals: kept, scratch: Scratch { ended, .. }, .. } = step;
     let motion = *motion;
     let Some(rim) = inputs.drum.radius() else { return SurfaceLoad::default() };
     let zero = F64x4::ZERO;
@@ -98,15 +98,30 @@ fn rim_pass<L: ContactLaw, V: MotionView, const MIXED: bool>(
             // The rim moves along itself.
             surface_rates: [zero, speed * (distance + arm)],
         };
-        let tally = if L::IS_RECORDED { tallies.get_mut(index) } else { None };
+        let records = wall_records::<L>(tallies.get_mut(index), kept, inputs);
         let step =
-            advance::<L, V, MIXED>(block, ids, &geometry, &parameters, motion, inputs, sums, totals, tally);
+            advance::<L, V, MIXED>(block, ids, &geometry, &parameters, motion, inputs, sums, totals, records);
         moment += step.moment - position.cross(step.force);
         force = force.plus(step.force);
         ended.note(index, step.touching);
     }
     let total = |lanes: F64x4| sum(lanes.to_array());
     SurfaceLoad { force: Vec2::new(-total(force.x), -total(force.y)), moment: total(moment) }
+}
+
+/// What is recorded of a block of contacts with the drum.
+#[inline(always)]
+pub fn wall_records<'a, L: ContactLaw>(
+    tally: Option<&'a mut BlockTally>,
+    kept: &'a mut Totals,
+    inputs: &StepInputs,
+) -> BlockRecords<'a> {
+    let records_gross_work = L::IS_RECORDED && inputs.records_gross_work;
+    BlockRecords {
+        gross_work: records_gross_work.then_some(&mut kept.gross_work),
+        tally: tally.filter(|_| L::IS_RECORDED),
+        at_wall: true,
+    }
 }
 
 /// One step of a block: relative motion, law, work on the particles, forces. With `MIXED`, radii differ, and depths are
@@ -122,7 +137,7 @@ pub fn advance<L: ContactLaw, V: MotionView, const MIXED: bool>(
     inputs: &StepInputs,
     sums: &mut ChunkSums<V>,
     totals: &mut Totals<F64x4>,
-    tally: Option<&mut BlockTally>,
+    records: BlockRecords,
 ) -> BlockForces {
     let velocity = vectors(|lane| view.velocity(ids.own[lane]));
     let spin = lanes(|lane| view.angular_velocity(ids.own[lane]));
@@ -133,7 +148,6 @@ pub fn advance<L: ContactLaw, V: MotionView, const MIXED: bool>(
         slip_rate: sliding - normal.cross(velocity) - arm * spin,
         rolling_rate: spin - F64x4::splat(inputs.angular_velocity),
     };
-    let records = BlockRecords { gross_work: inputs.records_gross_work, tally, at_wall: true };
     let step = block::evaluate::<L>(block, law, &motion, (normal, arm), inputs.time, totals, records);
     let both = Vec2x4 { x: step.force.x + step.last.force_x, y: step.force.y + step.last.force_y };
     // What the drum does is charged to its surfaces: this is the work on the particles alone.

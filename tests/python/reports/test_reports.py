@@ -1,0 +1,265 @@
+"""Pages of a run, one for each trade: whole with and without records, one file, right numbers, readable."""
+
+import math
+import re
+from html import unescape
+from itertools import pairwise
+
+import pytest
+
+import drumrs
+from drumrs.measures import flights, morrell
+from drumrs.reports import PAGES, catalog, content
+from drumrs.reports.material import Material
+from drumrs.reports.page import render
+
+RECORDS = ("contacts", "wall_profile", "ledger_split", "discs")
+SHORT = {"run.duration": 1.2, "run.window": (0.4, 1.2), "run.frame_every": 0.02}
+TO_AND_FRO = [
+    {"name": "start", "duration": 0.2, "ramp": (0.0, 54.0)},
+    {"name": "tumble", "duration": 0.5, "rpm": 54.0},
+    {"name": "rest", "duration": 0.2, "rpm": 0.0},
+    {"name": "back", "duration": 0.3, "rpm": -54.0},
+]
+
+
+def run(**keys) -> drumrs.Result:
+    config = drumrs.baseline(fill=0.2, baffles=True).softer(100.0)
+    return drumrs.run(config.replace({**SHORT, **keys}), progress=False)
+
+
+@pytest.fixture(scope="module")
+def plain() -> drumrs.Result:
+    return run()
+
+
+@pytest.fixture(scope="module")
+def recorded() -> drumrs.Result:
+    return run(**{"run.record": RECORDS})
+
+
+@pytest.fixture(scope="module")
+def program() -> drumrs.Result:
+    return run(**{"rotation.phase": TO_AND_FRO})
+
+
+@pytest.fixture(scope="module")
+def pages(recorded) -> dict[str, str]:
+    """Return each page of the run of which all is recorded."""
+    return {name: render(recorded, name) for name in PAGES}
+
+
+def words(html: str) -> str:
+    without = re.sub(r"<(script|style|template|pre)\b.*?</\1>", "", html, flags=re.DOTALL)
+    return " ".join(unescape(re.sub(r"<[^>]+>", " ", without)).split())
+
+
+def section(html: str, anchor: str) -> str:
+    return words(re.search(rf'<section id="{anchor}">(.*?)</section>', html, re.DOTALL)[1])
+
+
+@pytest.mark.parametrize("name", PAGES)
+def test_a_page_has_its_question_its_sections_and_its_limits(name, pages):
+    html, told = pages[name], words(pages[name])
+    assert PAGES[name].question in told
+    assert re.findall(r'<section id="([\w-]+)">', html) == [
+        *(one.anchor for one in PAGES[name].sections if one.anchor != "phases"),
+        "limits",
+        "provenance",
+    ]
+    assert all(sentence in told for sentence in PAGES[name].all_limits)
+    assert html.count("<drumrs-player ") == 1
+    assert "Every joule is accounted for" in told
+
+
+@pytest.mark.parametrize("name", PAGES)
+def test_a_page_lacks_nothing_where_all_is_recorded(name, pages):
+    assert "not shown" not in pages[name]
+    assert "Not drawn" not in pages[name]
+
+
+def test_a_page_says_which_record_to_add_and_is_whole_without(plain):
+    html = render(plain, "research")
+    lacking = re.findall(r"not shown: (.*?)\.</p>", unescape(html), re.DOTALL)
+    for record in RECORDS:
+        assert any(f"add '{record}' to it and run again" in one for one in lacking)
+    assert "Every joule is accounted for" in section(html, "ledger")
+    # What the window tells does not need the record.
+    assert "knocking [W/kg]" in section(html, "handling")
+
+
+def test_research_has_every_section():
+    sections = {one for page in PAGES.values() for one in page.sections}
+    missing = sections - set(PAGES["research"].sections)
+    assert {one.anchor for one in missing} == {"c-model"}
+
+
+@pytest.mark.parametrize("name", PAGES)
+def test_a_page_is_one_file(name, pages):
+    html = pages[name]
+    assert set(re.findall(r'(?:src|href)="([^"]{5})', html)) <= {"data:"} | {
+        target[:5] for target in re.findall(r'href="(#[^"]*)', html)
+    }
+    assert "http" not in re.sub(r"data:[^\"]*|<script type=\"application/json\">[^<]*", "", html)
+    targets = set(re.findall(r'href="#([^"]+)"', html))
+    names = re.findall(r' id="([^"]+)"', html)
+    assert targets <= set(names)
+    assert len(names) == len(set(names))
+
+
+def test_power_is_that_of_the_summary(recorded, pages):
+    summary = recorded.summary
+    shown = content.value(summary.drum_specific_power, summary.drum_specific_power_error)
+    assert f"drum specific power [W/kg] {shown} power of the drum" in section(pages["washer"], "power")
+    knocking = summary.dissipated_normal_power / Material(recorded).mass
+    assert f"all {content.value(knocking)} " in section(pages["washer"], "handling")
+
+
+def test_the_c_model_is_asked_for_this_mill(recorded, pages):
+    config = recorded.config
+    radius, speed = config.drum.diameter / 2.0, config.derived.angular_velocity
+    model = morrell.charge(config.fill / 0.82, speed * math.sqrt(radius / 9.81))
+    scale = Material(recorded).mass * 9.81 * radius * speed
+    told = section(pages["mill"], "c-model")
+    assert f" {content.value(model.arm * scale)} arm" in told
+    assert f" {content.value(math.degrees(model.toe))} shoulder" in told
+    own = recorded.summary.drum_power / scale
+    assert f"arm: power over M g R Ω {content.value(own).split(' ')[0][:5]}" in told
+
+
+def test_the_c_model_needs_one_speed(program):
+    told = section(render(program, "mill"), "c-model")
+    assert (
+        "not shown: rotation lets the drum rest or change its speed, but the C-model is of one speed." in told
+    )
+
+
+def test_records_add_up(pages):
+    told = section(pages["research"], "ledger")
+    for record in ("contacts", "ledger_split", "discs"):
+        assert abs(float(re.search(rf"{record} (\S+e\S+|0\.0)", told)[1])) < 1e-12
+
+
+def test_energy_is_split_by_kind_of_part(pages):
+    told = section(pages["mill"], "split")
+    assert "bundle – baffle " in told
+    assert "baffle 1" not in told
+    shares = [float(one) for one in re.findall(r"\d+\.\d\d\b", told)]
+    assert sum(shares) == pytest.approx(100.0, abs=0.1)
+
+
+def test_motion_is_measured_at_one_speed(program, plain):
+    assert Material(plain).span == (0.4, 1.2)
+    assert Material(program).span == pytest.approx((0.2, 0.7))
+    html = render(program, "washer")
+    assert "motion is measured over its longest stretch at one speed, t = 0.2–0.7 s" in words(html)
+    falls = flights(program.frames, (0.2, 0.7)).filter("is_fall").height
+    assert f"energy of {falls} falls in the window" in html
+
+
+def test_phases_have_a_row_each(program):
+    rows = re.search(r'<section id="phases">(.*?)</section>', render(program, "washer"), re.DOTALL)[1]
+    names = re.findall(r'<th scope="row">(\w+ \d)</th>', rows)
+    assert names == ["start 1", "tumble 1", "rest 1", "back 1"]
+    back = drumrs.phases(program).row(3, named=True)
+    power = content.value(back["drum_specific_power"], back["drum_specific_power_error"])
+    assert f"<td>0.9–1.2</td><td>{power}</td>" in rows
+    # Nothing slips in a drum that rests.
+    assert "<td>–</td>" in rows.split("rest 1")[1].split("</tr>")[0]
+
+
+def test_a_drum_without_a_rim_still_has_a_page():
+    square = [[0.2, 0.2], [-0.2, 0.2], [-0.2, -0.2], [0.2, -0.2]]
+    shell = {"drum.rim": False, "drum.baffles.count": 0, "drum.liner.outlines": [{"points": square}]}
+    told = words(render(run(**shell), "research"))
+    assert "not shown: drum.rim is False, but must be true" in told
+    assert "Every joule is accounted for" in told
+
+
+def test_a_picture_that_fails_is_told(recorded, monkeypatch):
+    def broken(*_, **__):
+        raise ValueError("no font <here>")
+
+    monkeypatch.setattr("drumrs.figures.landing_rose", broken)
+    with pytest.warns(drumrs.errors.PictureWarning, match="no font"):
+        html = render(recorded, "washer")
+    assert "Not drawn: ValueError: no font &lt;here&gt;." in html
+
+
+@pytest.mark.parametrize(
+    ("number", "error", "shown"),
+    [(0.0, None, "0"), (-2.5, 0.5, "−2.50 ± 0.50"), (-3.2e-7, None, "−3.2·10⁻⁷"), (math.nan, None, "–")],
+)
+def test_numbers_are_written_as_people_write_them(number, error, shown):
+    assert content.value(number, error) == shown
+
+
+def test_report_writes_a_file_of_drumrs(recorded, tmp_path):
+    path = drumrs.report(recorded, page="dryer", folder=tmp_path)
+    assert path == tmp_path / "report.html"
+    assert drumrs.report(recorded, folder=tmp_path) == path
+    assert catalog.PAGES["research"].question in path.read_text(encoding="utf-8")
+    named = drumrs.report(recorded, page="mill", folder=tmp_path / "mill.html")
+    assert named.is_file()
+    (tmp_path / "report.html").write_text("notes", encoding="utf-8")
+    with pytest.raises(drumrs.ConfigError, match="another's, and is not overwritten"):
+        drumrs.report(recorded, folder=tmp_path)
+    with pytest.raises(drumrs.ConfigError, match="page is 'kiln', but must be one of washer, dryer, mill"):
+        drumrs.report(recorded, page="kiln", folder=tmp_path)
+
+
+def test_the_command_reads_a_folder(recorded, drum, tmp_path):
+    drumrs.save(recorded, tmp_path / "run", pictures=False)
+    status, printed, _ = drum("report", tmp_path / "run", "--page", "mill")
+    assert (status, printed) == (0, f"wrote {tmp_path / 'run' / 'report.html'}\n")
+    status, _, _ = drum("report", tmp_path / "run", "--out", tmp_path / "all.html")
+    assert status == 0
+    assert "All that is measured of a run" in (tmp_path / "all.html").read_text(encoding="utf-8")
+    for bad, told in (
+        (("--page", "kiln"), "--page is 'kiln', but must be one of"),
+        (("--out", tmp_path / "all.txt"), "must be a file whose name ends in .html"),
+    ):
+        status, _, error = drum("report", tmp_path / "run", *bad)
+        assert (status, told in error) == (2, True), error
+    status, _, error = drum("report", tmp_path)
+    assert (status, "must be the folder of a finished run" in error) == (2, True)
+
+
+@pytest.fixture
+def opened(browser, pages, tmp_path):
+    """Open the research page in a browser; at the end nothing may have been asked for or complained about."""
+    path = tmp_path / "report.html"
+    path.write_text(pages["research"], encoding="utf-8")
+    troubles = []
+    context = browser.new_context(viewport={"width": 1280, "height": 900})
+    shown = context.new_page()
+    shown.on("console", lambda message: troubles.append(message.text))
+    shown.on("pageerror", lambda error: troubles.append(str(error)))
+    shown.on(
+        "request",
+        lambda request: request.url.startswith(("data:", path.as_uri())) or troubles.append(request.url),
+    )
+    shown.goto(path.as_uri())
+    yield shown
+    context.close()
+    assert troubles == []
+
+
+def test_a_browser_shows_pictures_and_the_player(opened):
+    broken = "[...document.images].filter(image => !image.naturalWidth || !image.alt).length"
+    assert opened.evaluate(broken) == 0
+    assert opened.evaluate("document.images.length") >= 8
+    player = opened.locator("drumrs-player")
+    assert player.locator(".time").inner_text() == "0.40 s"
+    player.locator(".forward").click()
+    assert player.locator(".time").inner_text() == "0.42 s"
+    levels = opened.evaluate("[...document.querySelectorAll('h1, h2, h3')].map(one => +one.tagName[1])")
+    assert levels.count(1) == 1
+    assert all(after <= before + 1 for before, after in pairwise(levels))
+
+
+@pytest.mark.parametrize("width", [360, 800, 1280])
+def test_no_page_is_wider_than_its_window(opened, width):
+    opened.set_viewport_size({"width": width, "height": 800})
+    opened.evaluate("document.querySelectorAll('details').forEach(one => one.open = true)")
+    assert opened.evaluate("document.documentElement.scrollWidth") == width
