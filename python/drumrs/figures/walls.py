@@ -68,10 +68,9 @@ def wall_profile(profile: "pl.DataFrame", column: str, label: str) -> "Figure":
         outline.add_collection(lines)
         outline.set(aspect="equal", xlabel="x in the drum’s frame [m]", ylabel="y in the drum’s frame [m]")
         outline.autoscale_view()
-        figure.colorbar(lines, ax=outline, shrink=0.8, pad=0.03, extend="max")
+        figure.colorbar(lines, ax=outline, location="left", shrink=0.8, pad=0.03, extend="max")
         _draw_parts(along, profile, column)
         along.set(ylabel=label, ylim=(0.0, None))
-        along.yaxis.set_label_position("right")
     return figure
 
 

@@ -44,7 +44,7 @@ def flow(of: "Material") -> "Iterator[Block]":
 
     yield Picture(
         "Where the load is, and how it moves",
-        f"Mean solid fraction and velocity over the window, coarse-grained over {found.width:.3g} m, {_MIRROR}",
+        f"Mean solid fraction and velocity, coarse-grained over {found.width:.3g} m, {_MIRROR}",
         draw,
     )
 
@@ -74,7 +74,7 @@ def flight(of: "Material") -> "Iterator[Block]":
     yield measured(measures.flight(of.frames, of.span, of.masses, of.gravity))
     falls = of.flights.filter("is_fall")
     if falls.is_empty():
-        yield "No disc falls in the window."
+        yield "No disc falls."
         return
 
     def draw() -> "Figure":
@@ -82,7 +82,7 @@ def flight(of: "Material") -> "Iterator[Block]":
 
     yield Picture(
         "Where falls land",
-        f"Shares of the energy of {falls.height} falls in the window, by the angle of landing, {_MIRROR}",
+        f"Shares of the energy of {falls.height} falls, by the angle of landing, {_MIRROR}",
         draw,
     )
 

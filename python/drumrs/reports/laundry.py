@@ -107,7 +107,7 @@ def mixing(of: "Material") -> "Iterator[Block]":
         ("colored by", "rate [per turn]", "end of the fit", "index at the end"),
         rows,
         "Lacey’s index, 0 apart, 1 as mixed as chance makes it: M∞ − (M∞ − M₀) exp(−k (n − τ)) fitted to the middle of "
-        "three sizes of cells. The window’s first frame gives the colors: right half, upper half, inner half"
+        "three sizes of cells. The first frame gives the colors: right half, upper half, inner half"
         + (f", and the species {species[0]}." if len(species) > 1 else "."),
     )
 
@@ -116,7 +116,7 @@ def mixing(of: "Material") -> "Iterator[Block]":
 
     yield Picture(
         "Mixing",
-        "Index over turns since the window’s start; bands: three sizes of cells; dashed: the fit.",
+        "Index over turns since the first frame; bands: three sizes of cells; dashed: the fit.",
         draw,
     )
 

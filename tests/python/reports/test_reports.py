@@ -154,7 +154,7 @@ def test_motion_is_measured_at_one_speed(program, plain):
     html = render(program, "washer")
     assert "motion is measured over its longest stretch at one speed, t = 0.2–0.7 s" in words(html)
     falls = flights(program.frames, (0.2, 0.7)).filter("is_fall").height
-    assert f"energy of {falls} falls in the window" in html
+    assert f"energy of {falls} falls, by the angle" in html
 
 
 def test_phases_have_a_row_each(program):
