@@ -2,7 +2,6 @@
 
 import json
 import math
-import re
 from collections import Counter
 
 import numpy as np
@@ -12,7 +11,6 @@ import pytest
 import drumrs
 from drumrs.config import Config, LinearContact, laws
 from drumrs.config.laws import mixed
-from drumrs.config.presets import presets, presets_toml
 from drumrs.errors import ConfigError
 from drumrs.frames import Frames
 
@@ -435,44 +433,3 @@ def test_too_much_is_said_in_the_words_of_the_file():
         drumrs.Simulation(drumrs.baseline().replace({"load.mass": 400.0, "drum.depth": 1.0}))
     with pytest.raises(ConfigError, match=r"load.bulk_fill is 30.0 .* a fill of 30 % is 0.3"):
         drumrs.Simulation(drumrs.baseline().replace({"load.bulk_fill": 30.0}))
-
-
-def test_a_preset_is_replaced_by_plain_numbers():
-    mill = load(**{"load.species": [{"name": "balls", "preset": "steel-ball", "share": 0.2}, ORE]})
-    balls = mill.load.species[0]
-    assert (balls.density, balls.contact.friction, balls.contact.restitution) == (7850.0, 0.5, 0.3)
-    written = {**STEEL, "name": "balls", "density": 7850.0, "contact": balls.contact.given()}
-    del written["diameter"]
-    assert mill == load(**{"load.species": [written, ORE]})
-    assert "preset" not in mill.to_toml()
-    assert mill.digest == Config.from_toml(mill.to_toml()).digest
-
-
-def test_what_stands_beside_a_preset_wins():
-    given = {"name": "balls", "preset": "steel-ball", "share": 0.2, "density": 8000.0}
-    balls = load(**{"load.species": [{**given, "contact": {"friction": 0.2}}, ORE]}).load.species[0]
-    assert (balls.density, balls.contact.friction, balls.contact.restitution) == (8000.0, 0.2, 0.3)
-    one = {"load.species": [{"name": "balls", "preset": "steel-ball", "contact": {"normal_damping": 9.0}}]}
-    contact = drumrs.baseline().replace(one).load.species[0].contact
-    assert (contact.normal_damping, contact.restitution) == (9.0, None)
-
-
-@pytest.mark.parametrize("preset", ["steelball", "unobtainium", 7, ["ore"]])
-def test_a_preset_that_is_not_there_is_refused(preset):
-    with pytest.raises(
-        ConfigError, match=r"load.species\[0\].preset is .* must be one of steel-ball, .*; (did|drumrs)"
-    ):
-        drumrs.baseline().replace({"load.species": [{"name": "balls", "preset": preset}]})
-
-
-def test_every_number_of_a_preset_has_its_source():
-    lines = [line for line in presets_toml().splitlines() if " = " in line and not line.startswith("#")]
-    assert len(lines) > 20
-    for line in lines:
-        source = line.partition("#")[2]
-        assert re.search(r"\bassumed\b|\d{4}|Table \d", source), f"no source: {line}"
-    for name in presets():
-        species = {"name": "it", "preset": name, "diameter": 0.02}
-        own = drumrs.baseline().replace({"load.species": [species], "run.time_step": "auto"}).load.species[0]
-        assert own.contact is not None
-        assert {"restitution", "friction", "rolling_friction"} <= own.contact.given().keys()
