@@ -9,17 +9,17 @@ import pytest
 
 import drumrs
 from drumrs.measures import flights, morrell
-from drumrs.reports import PAGES, catalog, content
+from drumrs.reports import PAGES, catalog, content, power
 from drumrs.reports.material import Material
 from drumrs.reports.page import render
 
 RECORDS = ("contacts", "wall_profile", "ledger_split", "discs")
 SHORT = {"run.duration": 1.2, "run.window": (0.4, 1.2), "run.frame_every": 0.02}
 TO_AND_FRO = [
-    {"name": "start", "duration": 0.2, "ramp": (0.0, 54.0)},
-    {"name": "tumble", "duration": 0.5, "rpm": 54.0},
-    {"name": "rest", "duration": 0.2, "rpm": 0.0},
-    {"name": "back", "duration": 0.3, "rpm": -54.0},
+    {"name": "start", "duration": 0.45, "ramp": (20.0, 54.0)},
+    {"name": "tumble", "duration": 0.4, "rpm": 54.0},
+    {"name": "rest", "duration": 0.15, "rpm": 0.0},
+    {"name": "back", "duration": 0.2, "rpm": -54.0},
 ]
 
 
@@ -150,10 +150,10 @@ def test_energy_is_split_by_kind_of_part(pages):
 
 def test_motion_is_measured_at_one_speed(program, plain):
     assert Material(plain).span == (0.4, 1.2)
-    assert Material(program).span == pytest.approx((0.2, 0.7))
+    assert Material(program).span == pytest.approx((0.45, 0.85))
     html = render(program, "washer")
-    assert "motion is measured over its longest stretch at one speed, t = 0.2–0.7 s" in words(html)
-    falls = flights(program.frames, (0.2, 0.7)).filter("is_fall").height
+    assert "motion is measured over its longest stretch at one speed, t = 0.45–0.85 s" in words(html)
+    falls = flights(program.frames, (0.45, 0.85)).filter("is_fall").height
     assert f"energy of {falls} falls, by the angle" in html
 
 
@@ -162,10 +162,15 @@ def test_phases_have_a_row_each(program):
     names = re.findall(r'<th scope="row">(\w+ \d)</th>', rows)
     assert names == ["start 1", "tumble 1", "rest 1", "back 1"]
     back = drumrs.phases(program).row(3, named=True)
-    power = content.value(back["drum_specific_power"], back["drum_specific_power_error"])
-    assert f"<td>0.9–1.2</td><td>{power}</td>" in rows
-    # Nothing slips in a drum that rests.
-    assert "<td>–</td>" in rows.split("rest 1")[1].split("</tr>")[0]
+    shown = content.value(back["drum_specific_power"], back["drum_specific_power_error"])
+    assert f"<td>1–1.2</td><td>{shown}</td>" in rows
+
+
+def test_nothing_slips_in_a_drum_that_rests(program):
+    material = Material(program)
+    assert power._in_phase(material, (0.45, 0.85))[2] != "–"
+    # It turns at the beginning, then rests.
+    assert power._in_phase(material, (0.7, 1.0))[2] == "–"
 
 
 def test_a_drum_without_a_rim_still_has_a_page():
