@@ -89,7 +89,7 @@ class Config(Tables):
         load = self.load
         if load.species:
             return compose(load.species_to_core(), load.share_by or "number")[:2]
-        area = math.pi / 4.0 * load.diameter**2
+        area = math.pi / 4.0 * load.diameter * load.diameter
         return area, load.wet(load.density) * area
 
     @property
@@ -130,7 +130,11 @@ class Config(Tables):
     def fill_of(self, count: float) -> float:
         """Return the fill of so many bundles of the configured sizes: N d²/D² where all are equal."""
         if self.load.species:
-            return count * self._mean_bundle()[0] / (math.pi / 4.0 * self.drum.area_diameter**2)
+            return (
+                count
+                * self._mean_bundle()[0]
+                / (math.pi / 4.0 * self.drum.area_diameter * self.drum.area_diameter)
+            )
         return count * (self.load.diameter / self.drum.area_diameter) ** 2
 
     @property

@@ -32,7 +32,7 @@ def collision_spectrum(spectra: "Mapping[str, pl.DataFrame]", unit: str = "J/m")
     --------
     >>> import polars as pl
     >>> from drumrs import figures, measures
-    >>> contacts = pl.DataFrame({"dissipated_normal": [0.02, 0.3, 0.5]})
+    >>> contacts = pl.DataFrame({"particle": [0, 1, 2], "dissipated_normal": [0.02, 0.3, 0.5]})
     >>> spectrum = measures.collision_spectrum(contacts, mass=2.0, duration=1.0, kind="normal")
     >>> figure = figures.collision_spectrum({"normal": spectrum})
     >>> [axes.get_ylabel() for axes in figure.axes]

@@ -51,7 +51,7 @@ def cases(scale: str | Scale = "default") -> list[Config]:
     --------
     >>> from drumrs import paper
     >>> quick = paper.cases("quick")
-    >>> {config.run.seed for config in quick} == set(paper.SCALES["quick"].seeds)
+    >>> {config.run.seed for config in quick} >= set(paper.SCALES["quick"].seeds)
     True
     >>> len({config.digest for config in quick}) == len(quick)
     True

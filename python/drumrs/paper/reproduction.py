@@ -76,7 +76,7 @@ class Reproduction(StudyFolder):
     --------
     >>> from drumrs.paper import Reproduction
     >>> Reproduction("quick", "somewhere")
-    <Reproduction of 255 cases, 255 to be run>
+    <Reproduction of 288 cases, 288 to be run>
     """
 
     def __init__(self, scale: str | Scale, folder: str | Path, jobs: int | None = None) -> None:

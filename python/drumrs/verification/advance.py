@@ -8,8 +8,8 @@ from drumrs import Simulation
 # Set once the verification that this thread works for is broken off.
 broken_off: ContextVar[threading.Event | None] = ContextVar("broken_off", default=None)
 
-# How often a simulation under way looks whether it is [s].
-_PAUSE = 0.1
+# How often it is looked whether a verification is broken off [s].
+PAUSE = 0.1
 
 
 class Halted(Exception):  # noqa: N818 - nothing is wrong with the simulation
@@ -28,4 +28,4 @@ def advance(simulation: Simulation, steps: int) -> None:
     while simulation.step < end:
         if halt is not None and halt.is_set():
             raise Halted
-        simulation.run_to_step(end, wall_limit=_PAUSE)
+        simulation.run_to_step(end, wall_limit=PAUSE)

@@ -6,14 +6,14 @@ import threading
 import time
 import warnings
 from collections.abc import Sequence
-from concurrent.futures import ThreadPoolExecutor, as_completed
+from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from drumrs import DrumrsWarning, Task, effective_jobs
 from drumrs.pages import write_page
-from drumrs.verification.advance import broken_off
+from drumrs.verification.advance import PAUSE, broken_off
 from drumrs.verification.case import Case, Trial
 from drumrs.verification.catalog import chosen, family_of
 from drumrs.verification.page import render
@@ -171,15 +171,17 @@ def _run(cases: Sequence[Case], workers: int, *, progress: bool) -> tuple[Trial,
     task = Task(
         "verification", sum(case.cost for case in cases), detail=f"0 of {len(cases)} cases", show=progress
     )
-    with task, threads as pool, warnings.catch_warnings():
-        # Some cases stick on purpose.
+    with warnings.catch_warnings(), task, threads as pool:
+        # Some cases stick, or turn slowly, on purpose.
         warnings.simplefilter("ignore", DrumrsWarning)
-        futures = [pool.submit(case.run) for case in order]
+        waiting = {pool.submit(case.run) for case in order}
         try:
-            for future in as_completed(futures):
-                trial = future.result()
-                trials[trial.case.name] = trial
-                task.advance(trial.case.cost, f"{len(trials)} of {len(cases)} cases")
+            while waiting:
+                # A wait without an end may not hear Ctrl-C.
+                done, waiting = wait(waiting, PAUSE, FIRST_COMPLETED)
+                for trial in (future.result() for future in done):
+                    trials[trial.case.name] = trial
+                    task.advance(trial.case.cost, f"{len(trials)} of {len(cases)} cases")
         except BaseException:
             # Threads cannot be interrupted from outside; they look at this.
             halt.set()
