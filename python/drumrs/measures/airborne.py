@@ -141,9 +141,10 @@ def flight(
     -------
     dict
         By name of the registry, with standard errors:
-        ``share_in_flight``, of mass and time, see `flights`; ``falls_per_turn``, falls of a disc in a turn of the drum;
-        ``mean_drop`` of a fall [m]; ``landing_on_drum``, the share of the energy of landing falls that meets rim,
-        baffles and walls, not the load; ``head_height`` [m], above the axis, which 99 % of the flying mass stays below;
+        ``share_in_flight``, of mass and time, see `flights`; ``falls_per_turn``, falls of a disc in a turn of the drum,
+        to or fro; ``mean_drop`` of a fall [m]; ``landing_on_drum``, the share of the energy of landing falls that meets
+        rim, baffles and walls, not the load; ``head_height`` [m], above the axis, which 99 % of the flying mass stays
+        below;
         ``impact_toe_angle`` [rad], which 5 % of the energy of landing falls lies beyond, as seen from the top.
         `None` where there is no fall, or the drum rests.
 
@@ -166,7 +167,7 @@ def flight(
     weights = weights / weights.sum()
     flies, height = in_flight(seen, gravity), seen.positions[..., 1].astype(np.float64)
     interval = float(seen.times[-1] - seen.times[0]) / (len(seen) - 1)
-    turns = float(seen.drum_angles[-1] - seen.drum_angles[0]) / (2.0 * math.pi)
+    turns = float(np.abs(np.diff(seen.drum_angles)).sum()) / (2.0 * math.pi)
     falls = flights(frames, window, gravity).filter("is_fall")
     # By the frame of landing.
     frame = np.searchsorted(seen.times, falls["end"].to_numpy())

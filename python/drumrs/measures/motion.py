@@ -102,7 +102,7 @@ def along_the_rim(frames: "Frames", window: tuple[float, float]) -> Mean | None:
     True
     """
     seen = FrameWindow.of(frames, window)
-    if seen.turned == 0.0 or frames.drum_radius is None:
+    if not np.diff(seen.angles).any() or frames.drum_radius is None:
         return None
     reach = frames.drum_radius - 2.0 * _LAYER * frames.radii
     shares = [
@@ -118,7 +118,7 @@ def wall_slip(frames: "Frames", window: tuple[float, float]) -> Mean | None:
     """Return how far the layer at the wall stays behind the drum: 1 − ⟨ω⟩/Ω, with its angular velocity about the axis.
 
     The layer is what lies within one and a half diameters of the wall. The slip is 0 for a load that goes with the
-    drum, 1 for one that stays where it is.
+    drum, 1 for one that stays where it is. While the drum rests nothing is counted; to and fro count alike.
 
     Parameters
     ----------
@@ -138,15 +138,17 @@ def wall_slip(frames: "Frames", window: tuple[float, float]) -> Mean | None:
         Where the window holds fewer than two frames.
     """
     seen = FrameWindow.of(frames, window)
-    if seen.turned == 0.0 or frames.drum_radius is None:
+    if not np.diff(seen.angles).any() or frames.drum_radius is None:
         return None
     reach = frames.drum_radius - 2.0 * _LAYER * frames.radii
     layers = [(np.hypot(*before.T) >= reach) for before, _, _ in seen.pairs()]
-    turned = [
-        (_swept(before, after) / angle)[layer].sum()
-        for (before, after, angle), layer in zip(seen.pairs(), layers, strict=True)
-    ]
-    found = ratio_of_sums(np.array(turned), np.array([layer.sum() for layer in layers], dtype=np.float64))
+    turned, driven = np.transpose(
+        [
+            (np.sign(angle) * _swept(before, after)[layer].sum(), abs(angle) * layer.sum())
+            for (before, after, angle), layer in zip(seen.pairs(), layers, strict=True)
+        ]
+    )
+    found = ratio_of_sums(turned, driven)
     return None if found is None else Mean(1.0 - found.value, found.error)
 
 

@@ -1,5 +1,6 @@
 """Loads of several species: how many bundles of which, which laws act between them, what is refused in which words."""
 
+import contextlib
 import json
 import math
 from collections import Counter
@@ -426,6 +427,16 @@ def test_two_bodies_with_different_losses_need_a_word():
         'restitution, the other normal_damping; write [[contact.pair]] with between = ["steel-ball", "ore"] and '
         "restitution"
     )
+
+
+@pytest.mark.parametrize("amount", [{}, {"load.mass": 1.0, "drum.depth": 0.5}, {"load.bulk_fill": 0.3}])
+@pytest.mark.parametrize(
+    "sizes", [{"drum.diameter": 1e155}, {"drum.diameter": 1e201, "load.diameter": 1e200}]
+)
+@pytest.mark.parametrize("species", [{}, TWO])
+def test_sizes_whose_squares_overflow_are_refused_or_counted(amount, sizes, species):
+    with contextlib.suppress(ConfigError):
+        assert Config().replace({**species, **amount, **sizes}).bundle_count < 10**7
 
 
 def test_too_much_is_said_in_the_words_of_the_file():

@@ -1,5 +1,7 @@
 """Flights: what is too short, too flat or cut by the window; what is hit; and no flight at all."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -48,6 +50,14 @@ def test_what_is_hit_is_drum_or_load():
         measures.flights(path(np.linspace(0.0, y, 6), aloft), WINDOW)["onto"][0] for y in (-0.9895, -0.97)
     ]
     assert onto == ["drum", "load"]
+
+
+def test_turns_to_and_fro_both_count():
+    heights, aloft = [0.0, 0.1, 0.1, 0.1, 0.1, -0.5], [1, 0, 0, 0, 0, 1]
+    there = replace(path(heights, aloft), drum_angles=np.linspace(0.0, np.pi, 6))
+    to_and_fro = replace(there, drum_angles=np.pi * np.array([0.0, 0.5, 0.5, 0.25, 0.0, 0.0]))
+    rates = [measures.flight(frames, WINDOW)["falls_per_turn"].value for frames in (there, to_and_fro)]
+    assert rates == pytest.approx([2.0, 2.0])
 
 
 def test_a_drum_at_rest_has_no_turns():

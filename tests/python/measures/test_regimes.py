@@ -32,6 +32,15 @@ def test_clockwise_is_the_same_regime():
     assert one.wall_slip == pytest.approx(other.wall_slip, abs=1e-9)
 
 
+def test_slip_of_a_drum_that_turns_to_and_fro_and_rests():
+    angles = np.concatenate([np.linspace(0.0, 1.0, 9), np.full(4, 1.0), np.linspace(1.0, 0.0, 9)])
+    load = BED[BED[:, 1] < -0.4]
+    for follows, slip in ((1.0, 0.0), (0.25, 0.75)):
+        places = [load @ made_up.turned(follows * angle) for angle in angles]
+        frames = made_up.frames(places, 0.06, drum_angles=angles)
+        assert measures.wall_slip(frames, (0.0, 100.0)).value == pytest.approx(slip, abs=1e-9)
+
+
 def test_a_drum_at_rest_has_no_regime():
     with pytest.raises(ConfigError, match="one in which the drum turns"):
         measures.regime(riding(0.0), WINDOW)
