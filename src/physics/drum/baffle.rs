@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use serde::{Deserialize, Serialize};
 
-use super::polygon::signed_area;
+use super::polygon::{signed_area, vectors};
 use super::rounding::rounded;
 use crate::physics::vector::{Rotation, Vec2};
 
@@ -124,7 +124,7 @@ impl BaffleParameters {
             }
             BaffleShape::Outline => self.corners().to_vec(),
         };
-        let mut points: Vec<Vec2> = corners.into_iter().map(Vec2::from).collect();
+        let mut points = vectors(&corners);
         if signed_area(&points) < 0.0 {
             points.reverse();
         }
