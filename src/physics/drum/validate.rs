@@ -1,8 +1,7 @@
 //! Which baffles are possible: their numbers, their shape inside the rim, and the space between them and others.
 
-use super::baffle::{BaffleParameters, BaffleShape, half_chord};
+use super::baffle::{BaffleParameters, BaffleShape, half_chord, part_names};
 use super::outline::Bounds;
-use super::parts::part_names;
 use super::polygon::{contains, empty_segment, first_crossing, length, segments};
 use super::rounding::greatest_radius;
 use super::segment::Segment;
