@@ -11,7 +11,7 @@ All values are in SI units and per meter of drum depth, but for rpm and degrees 
 from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
 
-from drumrs import errors
+from drumrs import cores, errors  # noqa: F401  importing cores chooses one, before any module asks for it
 from drumrs.analysis import phases
 from drumrs.config import Config, baseline
 from drumrs.errors import CheckpointError, ConfigError, DrumrsError, DrumrsWarning, UnstableError

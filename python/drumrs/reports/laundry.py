@@ -70,8 +70,8 @@ def balance(of: "Material") -> "Iterator[Block]":
     note = "" if force is None else f" Bearings feel {force:.3g} N/m of it that turns with the drum."
     yield measured(
         found,
-        f"Over the drum’s radius, {of.config.drum.area_diameter / 2.0:.3g} m, and times its depth it is the mass at the "
-        f"rim, as the trade has it.{note} To judge a distribution, run many seeds: it is a matter of chance.",
+        f"Over the drum’s radius, {of.config.drum.area_diameter / 2.0:.3g} m, and times its depth it is the mass at "
+        f"the rim, as the trade has it.{note} To judge a distribution, run many seeds: it is a matter of chance.",
     )
     lengths = np.hypot(*measures.unbalance_vectors(of.frames, of.span, of.masses).T)
 
