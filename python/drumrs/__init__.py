@@ -27,7 +27,7 @@ from drumrs.state import State
 from drumrs.sweep import Case, Sweep
 
 if TYPE_CHECKING:
-    from drumrs.exports import export
+    from drumrs.exports import export, movie
     from drumrs.glossary import quantities
     from drumrs.reports import report
     from drumrs.verification import Verification, verify
@@ -58,6 +58,7 @@ __all__ = [
     "export",
     "info",
     "load",
+    "movie",
     "phases",
     "player",
     "quantities",
@@ -71,10 +72,10 @@ __all__ = [
 
 def __getattr__(name: str) -> Any:
     """Load on demand what most scripts do without: the table of quantities, exports, reports, the verification."""
-    if name == "export":
+    if name in {"export", "movie"}:
         from drumrs import exports
 
-        return exports.export
+        return getattr(exports, name)
     if name == "quantities":
         from drumrs import glossary
 

@@ -14,6 +14,7 @@ from drumrs.cli.config import config
 from drumrs.cli.export import export
 from drumrs.cli.info import info
 from drumrs.cli.init import init
+from drumrs.cli.movie import movie
 from drumrs.cli.options import cut_by_shell
 from drumrs.cli.quantities import quantities
 from drumrs.cli.report import report
@@ -47,6 +48,7 @@ app = App(
         "- `drumrs run --resume out/case` goes on after Ctrl-C or a power cut\n"
         "- `drumrs view out/case` plays the run in the browser\n"
         "- `drumrs export out/case --to vtkhdf` writes it for ParaView\n"
+        "- `drumrs movie out/case --out drum.mp4` writes it as a film\n"
         "- `drumrs report out/case --page mill` writes one page of it, for a trade\n"
         "- `drumrs sweep sweep.toml --out out/sweep` runs many cases\n"
         "- `drumrs quantities ratio` says what is measured under a name with that word\n"
@@ -66,6 +68,7 @@ for _command in (
     sweep,
     view,
     export,
+    movie,
     report,
     verify,
     validate,
