@@ -8,6 +8,8 @@ OUT    ?= out
 BIN    := $(VENV)/bin
 UV     := $(shell command -v uv 2>/dev/null)
 STAMP  := $(VENV)/.installed
+# Where the programs are that exports are for: half a gigabyte.
+PROGRAMS := target/programs/.installed
 
 # maturin builds into the environment named here, and refuses to guess between this one and conda's.
 export VIRTUAL_ENV := $(abspath $(VENV))
@@ -34,7 +36,7 @@ test: develop ## test the physics, the package and the documentation
 	cargo test --doc
 	$(BIN)/python -m pytest --numprocesses 2 --dist loadfile -m "not slow"
 
-check-long: develop ## what takes hours: random loads, kills, long runs, fuzzing, the study in small, examples in full
+check-long: develop $(PROGRAMS) ## what takes hours: random loads, kills, long runs, fuzzing, the study in small, examples in full
 	$(BIN)/python -m pytest -m slow
 	PROPTEST_CASES=30000 cargo test --release --test random_loads
 	$(BIN)/python tests/endurance/kill_and_resume.py
@@ -49,6 +51,11 @@ check-long: develop ## what takes hours: random loads, kills, long runs, fuzzing
 	for example in examples/*.py; do \
 	    PATH="$(abspath $(BIN)):$$PATH" $(BIN)/python $$example --out $(OUT)/check-long/$$(basename $$example .py) || exit 1; \
 	done
+
+$(PROGRAMS):
+	$(PYTHON) -m venv target/programs
+	target/programs/bin/python -m pip install --disable-pip-version-check --quiet 'vtk>=9.4' 'ovito>=3.12'
+	@touch $@
 
 develop: $(STAMP) ## build the core into the environment (.venv)
 	$(BIN)/maturin develop --release --skip-install --quiet

@@ -27,6 +27,7 @@ from drumrs.state import State
 from drumrs.sweep import Case, Sweep
 
 if TYPE_CHECKING:
+    from drumrs.exports import export, movie
     from drumrs.glossary import quantities
     from drumrs.reports import report
     from drumrs.verification import Verification, verify
@@ -54,8 +55,10 @@ __all__ = [
     "baseline",
     "effective_jobs",
     "errors",
+    "export",
     "info",
     "load",
+    "movie",
     "phases",
     "player",
     "quantities",
@@ -68,7 +71,11 @@ __all__ = [
 
 
 def __getattr__(name: str) -> Any:
-    """Load on demand what most scripts do without: the table of quantities, reports, and the verification."""
+    """Load on demand what most scripts do without: the table of quantities, exports, reports, the verification."""
+    if name in {"export", "movie"}:
+        from drumrs import exports
+
+        return getattr(exports, name)
     if name == "quantities":
         from drumrs import glossary
 

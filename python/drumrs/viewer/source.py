@@ -32,8 +32,7 @@ def read(path: str | Path) -> Player:
         Where there are no frames, or those of several runs, or a file is not what its name says.
     """
     path = find(Path(path))
-    frames = _read_frames(path)
-    series = _read_series(path.with_name(path.name.removesuffix(FRAMES) + _SERIES))
+    frames, series = read_frames(path, MOST_PLACES), read_series_beside(path)
     config = config_of(path)
     if config is None:
         return Player(frames, series, title=case_of(path) or path.absolute().parent.name)
@@ -54,11 +53,12 @@ def default_page(frames: Path) -> Path:
     return frames.with_name(f"{case}player.html" if found else f"{frames.stem}.player.html")
 
 
-def _read_frames(path: Path) -> Frames:
+def read_frames(path: Path, most: int | None = None) -> Frames:
+    """Read frames as `Frames.load` does; refuse what is no file of drumrs's."""
     from polars.exceptions import PanicException, PolarsError
 
     try:
-        return Frames.load(path, MOST_PLACES)
+        return Frames.load(path, most)
     except ConfigError:
         raise
     except (PolarsError, PanicException, KeyError, ValueError, TypeError, OSError):
@@ -67,9 +67,11 @@ def _read_frames(path: Path) -> Frames:
         ) from None
 
 
-def _read_series(path: Path) -> "pl.DataFrame | None":
+def read_series_beside(frames: Path) -> "pl.DataFrame | None":
+    """Read the series that lies beside a file of frames; `None` where there is none."""
     from polars.exceptions import PanicException, PolarsError
 
+    path = frames.with_name(frames.name.removesuffix(FRAMES) + _SERIES)
     if not path.is_file():
         return None
     try:
