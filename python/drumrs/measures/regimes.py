@@ -22,8 +22,9 @@ if TYPE_CHECKING:
     from drumrs.frames import Frames
 
 _GRAVITY = 9.81
-# A disc is thrown where it falls by more than this, over the drum's radius: on a bed that rolls, discs hop as well.
-_THROW = 0.5
+# A disc is thrown where it falls by more than this, over the drum's radius, and lands with that share of the energy of
+# its fall: on a bed that rolls, discs hop as well, between frames, and lose it on their way.
+_THROW, _KEPT = 0.5, 0.5
 
 
 @dataclass(frozen=True)
@@ -48,7 +49,7 @@ class RegimeLimits:
 
     centrifuging: float = 0.9
     partly_centrifuging: float = 0.05
-    cataracting: float = 0.03
+    cataracting: float = 0.025
     slipping: float = 0.5
     still: float = 0.1
     surging: float = 0.25
@@ -73,7 +74,8 @@ class Regime:
     carried_round
         How often a bundle is carried over the top in a turn, see `carried_round`.
     share_in_throws
-        Share of mass and time in flights that drop by more than half of the drum's radius, see `flights`.
+        Share of mass and time in flights that drop by more than half of the drum's radius and land with half of the
+        energy of that fall or more, see `flights`.
     wall_slip
         Slip of the layer at the wall, see `wall_slip`.
     sticking
@@ -146,7 +148,8 @@ def regime(
     weights = seen.radii**2 / (seen.radii**2).sum()
     center = weights @ seen.positions.mean(axis=0, dtype=np.float64)
     found = flights(frames, window, gravity)
-    throws = found.filter(found["drop"] > _THROW * surface.drum_radius)
+    falls_freely = found["speed"] ** 2 >= _KEPT * 2.0 * gravity * found["drop"]
+    throws = found.filter((found["drop"] > _THROW * surface.drum_radius) & falls_freely)
     aloft = (throws["end"] - throws["start"]).to_numpy()
     energy = surface_energy(frames, window)
     froude = (turned / span) ** 2 * surface.drum_radius / gravity
