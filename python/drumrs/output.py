@@ -146,9 +146,10 @@ def claim_folder(folder: Path, config: Config) -> None:
 
 def clear_folder(folder: Path) -> None:
     """Remove what a run has left in its folder: nothing of it must pass for a part of another run."""
-    for name in RUN_FILES:
-        if not (folder / name).is_dir():
-            (folder / name).unlink(missing_ok=True)
+    # Exports and films lie beside the frames, under their name.
+    for path in (*map(folder.joinpath, RUN_FILES), *folder.glob("frames[.-]*")):
+        if not path.is_dir():
+            path.unlink(missing_ok=True)
     remove_temporaries(folder)
     Parts(folder).remove()
 

@@ -2,7 +2,6 @@
 
 import html
 import json
-import math
 from collections import Counter
 from dataclasses import replace
 from pathlib import Path
@@ -132,7 +131,7 @@ class Player:
         discs
             ``result.discs``, where it was recorded.
         """
-        fill = math.fsum((2.0 * frames.radii) ** 2) / config.drum.diameter**2
+        fill = config.drum.fill_of(frames.radii)
         title = config.title_of(Counter(frames.species) or frames.count, fill)
         return cls(
             frames,

@@ -32,8 +32,7 @@ def read(path: str | Path) -> Player:
         Where there are no frames, or those of several runs, or a file is not what its name says.
     """
     path = find(Path(path))
-    frames = _read_frames(path)
-    series = _read_table(path, _SERIES)
+    frames, series = read_frames(path, MOST_PLACES), read_series_beside(path)
     config = config_of(path)
     if config is None:
         return Player(frames, series, title=case_of(path) or path.absolute().parent.name)
@@ -54,11 +53,12 @@ def default_page(frames: Path) -> Path:
     return frames.with_name(f"{case}player.html" if found else f"{frames.stem}.player.html")
 
 
-def _read_frames(path: Path) -> Frames:
+def read_frames(path: Path, most: int | None = None) -> Frames:
+    """Read frames as `Frames.load` does; refuse what is no file of drumrs's."""
     from polars.exceptions import PanicException, PolarsError
 
     try:
-        return Frames.load(path, MOST_PLACES)
+        return Frames.load(path, most)
     except ConfigError:
         raise
     except (PolarsError, PanicException, KeyError, ValueError, TypeError, OSError):
@@ -67,8 +67,13 @@ def _read_frames(path: Path) -> Frames:
         ) from None
 
 
+def read_series_beside(frames: Path) -> "pl.DataFrame | None":
+    """Read the series that lies beside a file of frames; `None` where there is none."""
+    return _read_table(frames, _SERIES)
+
+
 def _read_table(frames: Path, name: str) -> "pl.DataFrame | None":
-    """Read a table that lies beside frames, `None` where there is none."""
+    """Read a table that lies beside a file of frames; `None` where there is none."""
     import polars as pl
 
     path = frames.with_name(frames.name.removesuffix(FRAMES) + name)
