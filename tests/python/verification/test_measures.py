@@ -110,7 +110,7 @@ WRONG = [
     ("regimes", "regimes", "weights[throws[", "0.1 * weights[throws["),
     ("regimes", "regimes", "np.median(energy)", "energy.max()"),
     ("regimes", "motion", "turned - driven) <= _NEAR", "turned - driven) >= _NEAR"),
-    ("regimes", "surface", "chord = inner[-1] - inner[0]", "chord = line[-1] - line[0]"),
+    ("regimes", "surface", "inner[0]) @ np.array([-chord", "inner[0]) @ np.array([chord"),
     ("regimes", "motion", "1.0 - found.value", "found.value"),
     ("regimes", "depth", "[top] ** 2)", "[~top] ** 2)"),
     ("zone-visits", "zones", "stays - residence / cycle * cycles", "stays"),
