@@ -257,10 +257,7 @@ impl RunParameters {
         if let Some(width) = self.arc_bin {
             require_positive("run.arc_bin", width)?;
         }
-        if self.overlap_limit > 0.0 && self.overlap_limit < 1.0 {
-            Ok(())
-        } else {
-            Err(Error::config("run.overlap_limit", self.overlap_limit, "between 0 and 1"))
-        }
+        let is_possible = self.overlap_limit > 0.0 && self.overlap_limit < 1.0;
+        require(is_possible, "run.overlap_limit", self.overlap_limit, "between 0 and 1")
     }
 }
