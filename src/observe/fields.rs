@@ -30,14 +30,14 @@ pub struct FieldSums {
 
 /// Square cells about the axis, in the laboratory's frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Grid {
+pub struct FieldGrid {
     /// Side of a cell [m].
     pub side: f64,
     /// Cells from the axis to the grid's end.
     half: usize,
 }
 
-impl Grid {
+impl FieldGrid {
     /// Cells that cover a drum of some radius [m].
     ///
     /// # Errors
@@ -98,12 +98,12 @@ impl Grid {
 
 impl FieldSums {
     /// Nothing yet.
-    pub fn new(grid: &Grid) -> Self {
+    pub fn new(grid: &FieldGrid) -> Self {
         Self { moments: 0, cells: vec![[0.0; FIELD_WIDTH]; grid.len()] }
     }
 
     /// Adds the discs of a moment.
-    pub fn add_discs(&mut self, grid: &Grid, particles: &Particles) {
+    pub fn add_discs(&mut self, grid: &FieldGrid, particles: &Particles) {
         self.moments += 1;
         for (index, &position) in particles.positions.iter().enumerate() {
             let (mass, radius) = (particles.masses[index], particles.radii[index]);
@@ -119,7 +119,7 @@ impl FieldSums {
 
     /// Adds a contact: the force on the other body [N/m], and the branch from the center of the one to that of the other, or to
     /// the point at which it touches the drum [m].
-    pub fn add_contact(&mut self, grid: &Grid, center: Vec2, branch: Vec2, force: Vec2) {
+    pub fn add_contact(&mut self, grid: &FieldGrid, center: Vec2, branch: Vec2, force: Vec2) {
         let products = [force.x * branch.x, force.x * branch.y, force.y * branch.x, force.y * branch.y];
         grid.visit_line(center, branch, |cell, share| {
             for (sum, product) in self.cells[cell][CONTACT..].iter_mut().zip(products) {
@@ -135,7 +135,7 @@ mod tests {
 
     /// Shares by cell of a grid of 4 × 4 cells of side 1.
     fn shares(start: [f64; 2], line: [f64; 2]) -> Vec<(usize, f64)> {
-        let grid = Grid::new(1.0, 2.0).expect("a small grid");
+        let grid = FieldGrid::new(1.0, 2.0).expect("a small grid");
         let mut found = Vec::new();
         grid.visit_line(start.into(), line.into(), |cell, share| found.push((cell, share)));
         found.retain(|&(_, share)| share > 0.0);
@@ -167,7 +167,7 @@ mod tests {
 
     #[test]
     fn a_grid_of_too_many_cells_is_refused() {
-        let error = Grid::new(1e-6, 0.24).expect_err("a refusal");
+        let error = FieldGrid::new(1e-6, 0.24).expect_err("a refusal");
         assert!(error.key() == Some("run.cell") && error.limit().contains("4.800e-4"), "{error}");
     }
 }

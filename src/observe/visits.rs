@@ -22,7 +22,7 @@ pub struct Visits {
 
 impl Visits {
     /// A look, of this number. At the first one, who is inside has not come in sight.
-    pub fn look(&mut self, number: u64, is_inside: bool, is_first: bool) {
+    pub fn note(&mut self, number: u64, is_inside: bool, is_first: bool) {
         if is_inside {
             if !self.is_inside && !is_first {
                 self.enter(number);
@@ -57,7 +57,7 @@ mod tests {
         let mut visits = Visits::default();
         let path = "iii...ii.iiiii....iii..";
         for (number, place) in path.chars().enumerate() {
-            visits.look(number as u64, place == 'i', number == 0);
+            visits.note(number as u64, place == 'i', number == 0);
         }
         assert_eq!((visits.entries, visits.inside, visits.cycles), (3, 13, 2));
         let ((w, c), (v, d)) = ((2, 3), (5, 9));

@@ -7,7 +7,7 @@ use pyo3::types::PyDict;
 use super::arrays::table_of_rows;
 use crate::error::Error;
 use crate::observe::contact_rows::ContactRow;
-use crate::observe::fields::{FIELD_WIDTH, FieldSums, Grid};
+use crate::observe::fields::{FIELD_WIDTH, FieldGrid, FieldSums};
 use crate::observe::visits::Visits;
 use crate::physics::columns::Columns;
 use crate::physics::contact::Flows;
@@ -106,7 +106,7 @@ fn column<T: Element + Copy>(table: &Bound<'_, PyDict>, key: &str) -> Result<Vec
 pub struct RecordedSums {
     log: ContactLog,
     fields: FieldSums,
-    grid: Option<Grid>,
+    grid: Option<FieldGrid>,
     visits: Vec<Visits>,
     look_interval: f64,
     bins: Vec<ArcBin>,
@@ -125,7 +125,7 @@ impl RecordedSums {
             fields: core.state().fields.clone(),
             grid: core.grid(),
             visits: core.state().visits.clone(),
-            look_interval: core.look_interval(),
+            look_interval: core.visit_interval(),
             bins: core.profile_bins().to_vec(),
             dissipated: core.dissipated(),
             masses: particles.by_id(&particles.masses),
@@ -160,7 +160,7 @@ impl RecordedSums {
     /// The middles of the cells of a row [m], the number of moments, and the sums by cell; none of what is not recorded.
     fn fields<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let table = PyDict::new(py);
-        let middles: Vec<f64> = self.grid.iter().flat_map(Grid::middles).collect();
+        let middles: Vec<f64> = self.grid.iter().flat_map(FieldGrid::middles).collect();
         table.set_item("middles", middles.into_pyarray(py))?;
         table.set_item("moments", self.fields.moments)?;
         let sums = self.fields.cells.iter().flatten().copied().collect();

@@ -5,7 +5,7 @@ use serde::Serialize;
 use crate::engine::World;
 use crate::error::Error;
 use crate::io::config::SimulationConfig;
-use crate::observe::fields::Grid;
+use crate::observe::fields::FieldGrid;
 use crate::observe::recorder::Recording;
 use crate::physics::contact::law::BodyPair;
 use crate::physics::contact::linear;
@@ -29,7 +29,7 @@ pub(super) struct Derived {
     /// The bins of a profile along the drum's outline, where one is recorded.
     pub(super) profile: Option<ArcBins>,
     /// The cells of fields, where they are recorded.
-    pub(super) grid: Option<Grid>,
+    pub(super) grid: Option<FieldGrid>,
     /// The zones whose visits are counted.
     pub(super) zones: Vec<Zone>,
     /// The step from which fields are summed up and visits counted.
@@ -112,7 +112,7 @@ fn profile(config: &SimulationConfig, drum: &Drum) -> Result<Option<ArcBins>, Er
 ///
 /// # Errors
 /// `Error::Config` where they would be too many, or what they would cover has no end.
-fn grid(config: &SimulationConfig, drum: &Drum, particles: &Particles) -> Result<Option<Grid>, Error> {
+fn grid(config: &SimulationConfig, drum: &Drum, particles: &Particles) -> Result<Option<FieldGrid>, Error> {
     if !config.run.record.contains(&Recording::Fields) {
         return Ok(None);
     }
@@ -120,7 +120,7 @@ fn grid(config: &SimulationConfig, drum: &Drum, particles: &Particles) -> Result
         let limit = "without \"fields\" in a drum without rim and shell, which has no radius";
         return Err(Error::config("run.record", "a list with \"fields\"", limit));
     };
-    Grid::new(config.run.cell.unwrap_or_else(|| particles.mean_radius()), radius).map(Some)
+    FieldGrid::new(config.run.cell.unwrap_or_else(|| particles.mean_radius()), radius).map(Some)
 }
 
 /// The configured time step, or the shortest collision time / 50.

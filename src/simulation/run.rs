@@ -96,7 +96,7 @@ impl Simulation {
             })?;
             // Where there is no memory for them, events wait for the next sample or frame, which tells.
             let _ = self.collect();
-            self.look_at_zones();
+            self.count_visits();
         }
         self.next_event = self.event_after(self.state.step);
         if !(is_last || self.is_record_due() || self.is_sort_due()) {

@@ -2,7 +2,7 @@
 
 use super::Simulation;
 use super::run::CHECK_STEPS;
-use crate::observe::fields::{FieldSums, Grid};
+use crate::observe::fields::{FieldGrid, FieldSums};
 use crate::observe::visits::Visits;
 use crate::physics::drum::RIM;
 use crate::physics::vector::{Rotation, Vec2};
@@ -25,7 +25,7 @@ impl Simulation {
     }
 
     /// Looks who is in which zone, where that is due. The steps at which it is are fixed, so that nothing else shows in it.
-    pub(super) fn look_at_zones(&mut self) {
+    pub(super) fn count_visits(&mut self) {
         let (step, first) = (self.state.step, self.derived.first_summed.max(1));
         if self.derived.zones.is_empty() || step < first || !step.is_multiple_of(CHECK_STEPS) {
             return;
@@ -37,7 +37,7 @@ impl Simulation {
         let by_zone = self.state.visits.chunks_mut(particles.len());
         for (zone, visits) in self.derived.zones.iter().zip(by_zone) {
             for (&id, &position) in particles.ids.iter().zip(&particles.positions) {
-                visits[id as usize].look(number, zone.contains(position, drum), is_first);
+                visits[id as usize].note(number, zone.contains(position, drum), is_first);
             }
         }
     }
@@ -75,12 +75,12 @@ impl Simulation {
     }
 
     /// The cells of fields, where they are recorded.
-    pub fn grid(&self) -> Option<Grid> {
+    pub fn grid(&self) -> Option<FieldGrid> {
         self.derived.grid
     }
 
     /// Time between two looks at the zones [s].
-    pub fn look_interval(&self) -> f64 {
+    pub fn visit_interval(&self) -> f64 {
         CHECK_STEPS as f64 * self.derived.time_step
     }
 }

@@ -8,6 +8,7 @@ import polars as pl
 import pytest
 
 import drumrs
+from drumrs import measures
 from drumrs.contact_records import COLUMNS
 from drumrs.errors import ConfigError
 from drumrs.run_folder import RunFolder
@@ -263,7 +264,7 @@ def test_fields_and_visits_begin_with_the_window():
     config = recorded(0.3, **{"run.window": [0.1, 0.3], "run.zone": [spray], "run.record": ["fields"]})
     result = drumrs.run(config, progress=False)
     area = result.config.load.diameter**2 / 4.0
-    mass = drumrs.measures.disc_masses(config, result.frames).sum()
+    mass = measures.disc_masses(config, result.frames).sum()
     assert result.fields["density"].sum() * area == pytest.approx(mass, rel=1e-12)
     visits = result.zone_visits
     assert visits["id"].to_list() == list(range(config.bundle_count))
@@ -307,4 +308,4 @@ def test_zones_and_cells_that_are_too_many_are_refused():
 
 def test_a_zone_that_was_not_recorded_is_named():
     with pytest.raises(ConfigError, match="no zone named 'spray'"):
-        drumrs.measures.recorded_visits(None, "spray")
+        measures.recorded_visits(None, "spray")
