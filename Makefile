@@ -8,13 +8,15 @@ OUT    ?= out
 BIN    := $(VENV)/bin
 UV     := $(shell command -v uv 2>/dev/null)
 STAMP  := $(VENV)/.installed
+# Where the programs are that exports are for: half a gigabyte.
+PROGRAMS := target/programs/.installed
 
 # maturin builds into the environment named here, and refuses to guess between this one and conda's.
 export VIRTUAL_ENV := $(abspath $(VENV))
 unexport CONDA_PREFIX
 
 .DEFAULT_GOAL := help
-.PHONY: help run study test check-long develop lint bench clean
+.PHONY: help run study test check-long develop lint bench wheel clean
 
 help: ## list the commands
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-11s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -34,7 +36,7 @@ test: develop ## test the physics, the package and the documentation
 	cargo test --doc
 	$(BIN)/python -m pytest --numprocesses 2 --dist loadfile -m "not slow"
 
-check-long: develop ## what takes hours: random loads, kills, long runs, fuzzing, the study in small, examples in full
+check-long: develop $(PROGRAMS) ## what takes hours: random loads, kills, long runs, fuzzing, the study in small, examples in full
 	$(BIN)/python -m pytest -m slow
 	PROPTEST_CASES=30000 cargo test --release --test random_loads
 	$(BIN)/python tests/endurance/kill_and_resume.py
@@ -49,6 +51,11 @@ check-long: develop ## what takes hours: random loads, kills, long runs, fuzzing
 	for example in examples/*.py; do \
 	    PATH="$(abspath $(BIN)):$$PATH" $(BIN)/python $$example --out $(OUT)/check-long/$$(basename $$example .py) || exit 1; \
 	done
+
+$(PROGRAMS):
+	$(PYTHON) -m venv target/programs
+	target/programs/bin/python -m pip install --disable-pip-version-check --quiet 'vtk>=9.4' 'ovito>=3.12'
+	@touch $@
 
 develop: $(STAMP) ## build the core into the environment (.venv)
 	$(BIN)/maturin develop --release --skip-install --quiet
@@ -66,9 +73,12 @@ lint: develop ## check format, lints, layers, types and the stub of the core
 bench: ## measure the speed of a step
 	cargo bench
 
+wheel: ## build the wheel for this machine into dist/, check it, and try it where there is no Rust
+	$(PYTHON) packaging/wheel.py
+
 clean: ## remove everything built
 	cargo clean
-	rm -rf $(VENV) $(OUT) dist python/drumrs/_core*.so
+	rm -rf $(VENV) $(OUT) dist python/drumrs/*.so
 
 # The Python dependencies are installed once and again when they change; a Rust edit only rebuilds the core.
 $(STAMP): pyproject.toml Cargo.toml

@@ -11,7 +11,7 @@ All values are in SI units and per meter of drum depth, but for rpm and degrees 
 from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
 
-from drumrs import errors
+from drumrs import cores, errors  # noqa: F401  importing cores chooses one, before any module asks for it
 from drumrs.analysis import phases
 from drumrs.config import Config, baseline
 from drumrs.errors import CheckpointError, ConfigError, DrumrsError, DrumrsWarning, UnstableError
@@ -27,6 +27,7 @@ from drumrs.state import State
 from drumrs.sweep import Case, Sweep
 
 if TYPE_CHECKING:
+    from drumrs.exports import export, movie
     from drumrs.glossary import quantities
     from drumrs.reports import report
     from drumrs.verification import Verification, verify
@@ -54,8 +55,10 @@ __all__ = [
     "baseline",
     "effective_jobs",
     "errors",
+    "export",
     "info",
     "load",
+    "movie",
     "phases",
     "player",
     "quantities",
@@ -68,7 +71,11 @@ __all__ = [
 
 
 def __getattr__(name: str) -> Any:
-    """Load on demand what most scripts do without: the table of quantities, reports, and the verification."""
+    """Load on demand what most scripts do without: the table of quantities, exports, reports, the verification."""
+    if name in {"export", "movie"}:
+        from drumrs import exports
+
+        return getattr(exports, name)
     if name == "quantities":
         from drumrs import glossary
 

@@ -178,6 +178,12 @@ class PictureWarning(DrumrsWarning):
     """A picture, a player or a plot of a page that could not be made; names it, and why. The numbers are complete."""
 
 
+def missing_package(what: str, error: ModuleNotFoundError, extra: str) -> ConfigError:
+    """Return the error that something cannot be done without a package, with the extra of drumrs that brings it."""
+    problem = f"needs the package {error.name}, which is not installed"
+    return ConfigError(what, problem=problem, hint=f"install it with: pip install 'drumrs[{extra}]'")
+
+
 def format_value(value: object) -> str:
     """Show a value on one line, shortened where it is long, but for paths."""
     if isinstance(value, Path):

@@ -10,14 +10,17 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from drumrs.datasets import Column, dataset
 from drumrs.files import replacing
+from drumrs.outline import Outline, circle
 from drumrs.registry import metadata, quantity, require
 from drumrs.tables import ROW_GROUP_SIZE, Compression, sink_table
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Mapping
 
     import polars as pl
+    import xarray
 
 # Columns of the table, one row for each frame and bundle.
 COLUMNS = (
@@ -150,6 +153,62 @@ class Frames:
             return table
         kinds = pl.Series(self.species, dtype=pl.Enum(sorted(set(self.species))))
         return table.with_columns(species=kinds.gather(table["bundle"]))
+
+    def to_xarray(self, attributes: "Mapping[str, str] | None" = None) -> "xarray.Dataset":
+        """Return the frames as labelled arrays over frame and bundle, with units; needs xarray, of the extra `export`.
+
+        The outline of the drum comes along, in the drum's own frame: `drum_angle` turns it.
+
+        Parameters
+        ----------
+        attributes
+            Words on the whole.
+
+        Raises
+        ------
+        ConfigError
+            Where xarray is not installed.
+
+        Examples
+        --------
+        >>> import drumrs
+        >>> config = drumrs.baseline(fill=0.1).replace({"run.duration": 0.1})
+        >>> frames = drumrs.run(config, progress=False).frames
+        >>> frames.to_xarray().x.dims
+        ('frame', 'bundle')
+        """
+        both, point, outline = ("frame", "bundle"), ("outline_point",), self.outline()
+        corners = np.concatenate([np.empty((0, 2)), *(line.points for line in outline)])
+        columns: dict[str, Column] = {
+            "x": (both, self.positions[..., 0]),
+            "y": (both, self.positions[..., 1]),
+            "angle": (both, self.angles),
+            "velocity_x": (both, self.velocities[..., 0]),
+            "velocity_y": (both, self.velocities[..., 1]),
+            "contacts": (both, self.contacts),
+            "outline_x": (point, corners[:, 0], {"units": "m"}),
+            "outline_y": (point, corners[:, 1], {"units": "m"}),
+        }
+        parts = [line.part for line in outline for _ in line.points]
+        coordinates: dict[str, Column] = {
+            "frame": (("frame",), np.arange(len(self))),
+            "time": (("frame",), self.times),
+            "drum_angle": (("frame",), self.drum_angles),
+            "bundle": (("bundle",), np.arange(self.count)),
+            "radius": (("bundle",), self.radii),
+            "outline_part": (point, np.array(parts, str)),
+        }
+        if self.species:
+            coordinates["species"] = (("bundle",), np.array(self.species))
+        return dataset(columns, coordinates, attributes)
+
+    def outline(self) -> list[Outline]:
+        """Return the lines of the drum in its own frame: rim or shell, baffles, walls."""
+        closed = [] if self.drum_radius is None else [("rim", circle(self.drum_radius))]
+        closed += [] if self.shell is None else [("shell", self.shell)]
+        closed += [(f"baffle {place}", line) for place, line in enumerate(self.baffles, 1)]
+        opened = [Outline(f"wall {place}", line) for place, line in enumerate(self.walls, 1)]
+        return [*(Outline(part, np.concatenate([line, line[:1]])) for part, line in closed), *opened]
 
     def metadata(self) -> dict[str, str]:
         """Return what a file of the table has to carry beside it: units and the drum's outline, as JSON."""

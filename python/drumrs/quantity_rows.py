@@ -304,7 +304,7 @@ FACTS = (
         "froude_number",
         "1",
         "run",
-        "centrifugal acceleration of the rim over gravity, at the greatest speed of the drum",
+        "centrifugal acceleration at the rim or a shell's farthest corner over gravity, at the greatest speed",
         symbol="Fr",
         formula="Ω² R/g",
     ),

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from drumrs.config import Config
 from drumrs.contact_records import COLUMNS, read_contact_tables
+from drumrs.datasets import dataset
 from drumrs.errors import ConfigError
 from drumrs.files import read_object, read_plain, require_plain, write_whole
 from drumrs.frames import Frames
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     import polars as pl
+    import xarray
 
 # What a run leaves instead of summary.json where it ended unstable.
 UNSTABLE = "unstable.json"
@@ -192,6 +194,26 @@ class Result:
         told = {name: getattr(self, name) for name in (*COLUMNS, "dissipated")}
         return {name: value for name, value in told.items() if value is not None}
 
+    def to_xarray(self) -> "xarray.Dataset":
+        """Return frames and series as labelled arrays with units; needs xarray, of the extra `export`.
+
+        The series lies over `sample`. Its columns that frames have too begin with ``sample_``.
+
+        Raises
+        ------
+        ConfigError
+            Where xarray is not installed.
+
+        Examples
+        --------
+        >>> import drumrs
+        >>> config = drumrs.baseline(fill=0.1).replace({"run.duration": 0.1})
+        >>> run = drumrs.run(config, progress=False).to_xarray()
+        >>> run.drum_power.dims, run.drum_power.units, run.attrs["title"]
+        (('sample',), 'W/m', '40 bundles (10 % fill), no baffles, 54 rpm, seed 1')
+        """
+        return to_xarray(self.config, self.frames, self.series)
+
     def _repr_html_(self) -> str:
         """Show the summary as a table in a notebook."""
         rows = (
@@ -199,6 +221,16 @@ class Result:
             for name, value in self.summary.rows().items()
         )
         return f"<table>{''.join(rows)}</table>"
+
+
+def to_xarray(config: Config, frames: Frames, series: "pl.DataFrame") -> "xarray.Dataset":
+    """Return a run's frames and series as labelled arrays, as `Result.to_xarray` tells."""
+    made = frames.to_xarray(
+        {"title": config.title, "digest": config.digest, "configuration": config.to_toml()}
+    )
+    shared = {name: f"sample_{name}" for name in series.columns if name in made.variables}
+    columns = dataset({name: (("sample",), series[name].to_numpy()) for name in series.columns}, {})
+    return made.merge(columns.rename(shared).set_coords("sample_time"))
 
 
 def write_tables(folder: Path, config: Config, series: "pl.DataFrame") -> list[Path]:

@@ -11,8 +11,10 @@ from cyclopts import App, CycloptsError, UnknownOptionError, UnusedCliTokensErro
 import drumrs
 from drumrs.cli.baseline import baseline
 from drumrs.cli.config import config
+from drumrs.cli.export import export
 from drumrs.cli.info import info
 from drumrs.cli.init import init
+from drumrs.cli.movie import movie
 from drumrs.cli.options import cut_by_shell
 from drumrs.cli.quantities import quantities
 from drumrs.cli.report import report
@@ -45,6 +47,8 @@ app = App(
         "- `drumrs run --set 'run.window=[5, 15]' --set run.duration=15 --seed 2 --json`\n"
         "- `drumrs run --resume out/case` goes on after Ctrl-C or a power cut\n"
         "- `drumrs view out/case` plays the run in the browser\n"
+        "- `drumrs export out/case --to vtkhdf` writes it for ParaView\n"
+        "- `drumrs movie out/case --out drum.mp4` writes it as a film\n"
         "- `drumrs report out/case --page mill` writes one page of it, for a trade\n"
         "- `drumrs sweep sweep.toml --out out/sweep` runs many cases\n"
         "- `drumrs quantities ratio` says what is measured under a name with that word\n"
@@ -63,6 +67,8 @@ for _command in (
     reproduce,
     sweep,
     view,
+    export,
+    movie,
     report,
     verify,
     validate,

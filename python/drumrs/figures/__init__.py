@@ -9,6 +9,7 @@ A figure of one's own has their style where it is made with `new_figure` within 
 
 import drumrs.figures.backend  # noqa: F401 - imports matplotlib, so it comes first
 from drumrs.figures.curves import Labels, curves
+from drumrs.figures.film import Film
 from drumrs.figures.flow import flow
 from drumrs.figures.history import time_series
 from drumrs.figures.landing import landing_rose
@@ -22,6 +23,7 @@ from drumrs.figures.walls import wall_profile
 
 __all__ = [
     "INK",
+    "Film",
     "Labels",
     "View",
     "collision_spectrum",

@@ -46,7 +46,7 @@ def time_series(
     ['Energy stored [J/m]', 'Energy ledger: relative residual']
     """
     panels: tuple[Callable[[Axes, dict[str, Array]], None], ...] = (
-        _power,
+        draw_power,
         _energies,
         _ledger,
         _center_of_mass,
@@ -88,7 +88,8 @@ def _over_the_window(axes: "Axes") -> dict[str, Any]:
     return {"transform": transform, "ha": "center", "va": "top", "color": "0.45", "fontsize": "small"}
 
 
-def _power(axes: "Axes", columns: dict[str, Array]) -> None:
+def draw_power(axes: "Axes", columns: dict[str, Array]) -> None:
+    """Draw the powers of the drum and of the losses, means over an interval that the title names."""
     time = columns["time"]
     long = _averaging_time(time)
     axes.set_title(labels.POWERS.format(long))

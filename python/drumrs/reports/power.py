@@ -50,7 +50,7 @@ def power(of: "Material") -> "Iterator[Block]":
 
 def beside_the_c_model(of: "Material") -> "Iterator[Block]":
     """Write power, toe and shoulder beside those of Morrell's C-model."""
-    speed, radius, load = of.require_speed(), of.config.drum.diameter / 2.0, of.config.load
+    speed, radius, load = of.require_speed(), of.config.drum.area_diameter / 2.0, of.config.load
     if not of.gravity:
         raise ConfigError("gravity", 0.0, "more than 0, to compare with the C-model")
     filling = load.bulk_fill or of.summary.fill / (load.solid_fraction or SOLID_FRACTION)
