@@ -51,7 +51,7 @@ impl FieldGrid {
     }
 
     /// Number of cells.
-    pub fn len(&self) -> usize {
+    pub fn cell_count(&self) -> usize {
         4 * self.half * self.half
     }
 
@@ -84,7 +84,7 @@ impl FieldGrid {
                 if step[axis] == 0.0 { f64::INFINITY } else { (border - from[axis]) / step[axis] }
             });
             let axis = usize::from(leave[1] < leave[0]);
-            let is_last = !(leave[axis] < 1.0);
+            let is_last = leave[axis] >= 1.0 || leave[axis].is_nan();
             let end = if is_last { 1.0 } else { leave[axis].max(at) };
             visit(self.index(cell), end - at);
             if is_last {
@@ -99,7 +99,7 @@ impl FieldGrid {
 impl FieldSums {
     /// Nothing yet.
     pub fn new(grid: &FieldGrid) -> Self {
-        Self { moments: 0, cells: vec![[0.0; FIELD_WIDTH]; grid.len()] }
+        Self { moments: 0, cells: vec![[0.0; FIELD_WIDTH]; grid.cell_count()] }
     }
 
     /// Adds the discs of a moment.

@@ -5,6 +5,7 @@ use super::run::CHECK_STEPS;
 use crate::observe::fields::{FieldGrid, FieldSums};
 use crate::observe::visits::Visits;
 use crate::physics::drum::RIM;
+use crate::physics::drum::zone::Zone;
 use crate::physics::vector::{Rotation, Vec2};
 
 impl Simulation {
@@ -16,7 +17,7 @@ impl Simulation {
 
     /// Whether sums are those of these cells, zones and discs: of a state that was read.
     pub(super) fn has_whole_sums(&self) -> bool {
-        self.state.fields.cells.len() == self.derived.grid.map_or(0, |grid| grid.len())
+        self.state.fields.cells.len() == self.derived.grid.map_or(0, |grid| grid.cell_count())
             && self.state.visits.len() == self.visit_count()
     }
 
@@ -31,7 +32,7 @@ impl Simulation {
             return;
         }
         let (number, is_first) = (step / CHECK_STEPS, step - first < CHECK_STEPS);
-        let turns = self.derived.zones.iter().any(|zone| zone.turns());
+        let turns = self.derived.zones.iter().any(Zone::turns);
         let drum = if turns { Rotation::new(self.drum_angle()) } else { Rotation::IDENTITY };
         let particles = &self.state.particles;
         let by_zone = self.state.visits.chunks_mut(particles.len());
