@@ -24,7 +24,9 @@ pub type BareHertzLaw = Hertz;
 /// Hertz–Mindlin with the terms that do not go with the tangential stiffness.
 pub type FullHertzLaw = (Hertz, Adhesion);
 
-/// `ClippedLaw` with records; where tension is allowed, nothing is clipped.
+/// `BareLaw` with records.
+pub type RecordedBareLaw = WithRecords<BareLaw>;
+/// `ClippedLaw` with records.
 pub type RecordedClippedLaw = WithRecords<ClippedLaw>;
 /// `FullLaw` with records.
 pub type RecordedFullLaw = WithRecords<FullLaw>;
@@ -45,6 +47,8 @@ pub enum Model {
     Hertz,
     /// `FullHertzLaw`
     FullHertz,
+    /// `RecordedBareLaw`
+    RecordedBare,
     /// `RecordedClippedLaw`
     RecordedClipped,
     /// `RecordedFullLaw`
@@ -60,7 +64,8 @@ impl Model {
         match table.base() {
             Base::Hertz if is_recorded => Self::RecordedFullHertz,
             Base::Linear if is_recorded && has_terms => Self::RecordedFull,
-            Base::Linear if is_recorded => Self::RecordedClipped,
+            Base::Linear if is_recorded && table.clips() => Self::RecordedClipped,
+            Base::Linear if is_recorded => Self::RecordedBare,
             Base::Hertz if has_terms => Self::FullHertz,
             Base::Hertz => Self::Hertz,
             Base::Linear if has_terms => Self::Full,
@@ -75,7 +80,7 @@ macro_rules! with_law {
     ($model:expr, $law:ident => $work:expr) => {
         $crate::physics::contact::model::with_law!($model, $law => $work;
             Bare BareLaw, Clipped ClippedLaw, Full FullLaw, Hertz BareHertzLaw, FullHertz FullHertzLaw,
-            RecordedClipped RecordedClippedLaw, RecordedFull RecordedFullLaw,
+            RecordedBare RecordedBareLaw, RecordedClipped RecordedClippedLaw, RecordedFull RecordedFullLaw,
             RecordedFullHertz RecordedFullHertzLaw)
     };
     ($model:expr, $law:ident => $work:expr; $($value:ident $type:ident),*) => {{
