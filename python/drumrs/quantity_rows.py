@@ -208,7 +208,7 @@ MEASURES = (
         "s_shape",
         "1",
         "mean",
-        "greatest distance of the bed's surface from its chord, over the chord",
+        "greatest distance of the bed's surface, without its ends, from its chord, over the chord",
         symbol="κ",
     ),
     made("filling", "1", "mean", "area between rim and surface of the bed, over the drum's", symbol="J"),

@@ -66,8 +66,8 @@ def balance(of: "Material") -> "Iterator[Block]":
 
     found = measures.unbalance(of.frames, of.span, of.masses)
     speed = of.config.derived.angular_velocity
-    force = found["turning_unbalance"].value * speed**2 if speed else None
-    note = "" if force is None else f" Bearings feel {force:.3g} N/m of it that turns with the drum."
+    force = value(found["turning_unbalance"].value * speed**2, digits=3) if speed else ""
+    note = f" Bearings feel {force} N/m of it that turns with the drum." if force else ""
     yield measured(
         found,
         f"Over the drum’s radius, {of.config.drum.area_diameter / 2.0:.3g} m, and times its depth it is the mass at "

@@ -145,11 +145,11 @@ def ledger(of: "Material") -> "Iterator[Block]":
         for name in powers_to_show({name: series[name].to_numpy() for name in series.columns})
     ]
     yield Table(("from t = 0 to the end", "[J/m]", "share of the drum’s work [%]"), rows)
+    missed, apart = (value(one, digits=2) for one in (summary.energy_residual, summary.power_disagreement))
     yield (
-        f"Every joule is accounted for: what the ledger misses is at most {summary.energy_residual:.1e} of what passed "
-        "through it, and three independent ways to the power, by torque, by energy and by angular momentum, differ by "
-        f"at most {summary.power_disagreement:.1e}, relatively. What is missing from 100 % is stored in the load, or "
-        "came with its fall at the start."
+        f"Every joule is accounted for: what the ledger misses is at most {missed} of what passed through it, and "
+        "three independent ways to the power, by torque, by energy and by angular momentum, differ by at most "
+        f"{apart}, relatively. What is missing from 100 % is stored in the load, or came with its fall at the start."
     )
     checked = list(_sums(of))
     if checked:
@@ -170,4 +170,4 @@ def _sums(of: "Material") -> "Iterator[tuple[str, str]]":
         table = getattr(of.result, record)
         if table is not None and taken:
             parts = [float(table[name].sum()) for name in table.columns if name.startswith(start)]
-            yield record, f"{math.fsum(parts) / taken - 1.0:.1e}"
+            yield record, value(math.fsum(parts) / taken - 1.0, digits=2)

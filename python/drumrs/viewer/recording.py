@@ -87,7 +87,7 @@ def pack(  # noqa: PLR0913, PLR0917 - what a page shows of a run
         "discs": None if discs is None else _discs(discs),
         "drum_radius": frames.drum_radius,
         "shell": None if frames.shell is None else frames.shell.tolist(),
-        "baffles": [line.tolist() for line in frames.baffles],
+        "baffles": [line.tolist() for line in frames.drawn_baffles],
         "walls": [line.tolist() for line in frames.walls],
         "window": list(window) if window is not None else None,
         "panels": [_panel(panel) for panel in panels],
