@@ -8,6 +8,7 @@
 All values are in SI units and per meter of drum depth, but for rpm and degrees in configurations.
 """
 
+import logging
 from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
 
@@ -33,6 +34,9 @@ if TYPE_CHECKING:
     from drumrs.verification import Verification, verify
 
 __version__ = version("drumrs")
+
+# What a library has to say is for those who listen.
+logging.getLogger(__name__).addHandler(logging.NullHandler())
 
 __all__ = [
     "Case",

@@ -5,6 +5,7 @@ import json
 import os
 import re
 import secrets
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -12,6 +13,8 @@ from typing import Any
 
 # What a write says where there is no room: disk, quota, limit of a process.
 NO_ROOM = frozenset({errno.ENOSPC, errno.EDQUOT, errno.EFBIG})
+# How long to wait for another program to let go of a file [s].
+_PAUSES = (0.05, 0.1, 0.25, 0.6, 1.0)
 _TEMPORARY = re.compile(r"\..+\.[0-9a-f]{8}\.tmp")
 
 
@@ -66,6 +69,33 @@ def remove_temporaries(folder: Path) -> None:
             path.unlink(missing_ok=True)
 
 
+def _replace(temporary: Path, path: Path) -> None:
+    """Let a file take the place of another, which another program may hold open for a moment, or for longer.
+
+    Raises
+    ------
+    PermissionError
+        Where it is held for longer; what was written is kept beside, under a name that the message tells.
+    """
+    for pause in _PAUSES:
+        try:
+            temporary.replace(path)
+        except PermissionError:
+            time.sleep(pause)
+        else:
+            return
+    try:
+        temporary.replace(path)
+    except PermissionError as error:
+        kept = path.with_name(f"{path.stem}.{secrets.token_hex(4)}{path.suffix}")
+        temporary.rename(kept)
+        told = PermissionError(
+            f"cannot replace {str(path)!r}: another program holds it open, or it is protected ({error.strerror}); "
+            f"what was to be written is in {str(kept)!r}"
+        )
+        raise told from None
+
+
 @contextmanager
 def replacing(path: str | Path) -> Iterator[Path]:
     """Give a temporary file to write, which takes the place of `path` once it is whole and on the disk.
@@ -82,7 +112,7 @@ def replacing(path: str | Path) -> Iterator[Path]:
         yield temporary
         with temporary.open("rb+") as file:
             os.fsync(file.fileno())
-        temporary.replace(path)
+        _replace(temporary, path)
     except BaseException:
         temporary.unlink(missing_ok=True)
         raise

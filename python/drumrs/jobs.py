@@ -1,8 +1,6 @@
 """How many cases run at once."""
 
-import os
-import sys
-
+from drumrs import _core
 from drumrs.errors import ConfigError
 
 MOST_JOBS = 1024
@@ -14,7 +12,8 @@ def effective_jobs(jobs: int | None = None) -> int:
     Parameters
     ----------
     jobs
-        What was asked for; one a core that this process may use unless given.
+        What was asked for. Unless given, one a core that this process may use: of those of the machine the ones that
+        its affinity and the quota of its container (cgroup) leave it.
 
     Raises
     ------
@@ -28,7 +27,7 @@ def effective_jobs(jobs: int | None = None) -> int:
     (3, True)
     """
     if jobs is None:
-        return len(os.sched_getaffinity(0)) if sys.platform == "linux" else os.cpu_count() or 1
+        return int(_core.info()["cpu_count"])
     if isinstance(jobs, bool) or not isinstance(jobs, int) or not 1 <= jobs <= MOST_JOBS:
         raise ConfigError("jobs", jobs, f"a whole number from 1 to {MOST_JOBS}", bound=MOST_JOBS)
     return jobs

@@ -6,6 +6,8 @@ Whatever takes long opens a `Task`. Tasks that are open at the same time, nested
 import sys
 import threading
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from html import escape
 from importlib import import_module
 from itertools import chain, repeat
@@ -179,6 +181,7 @@ class ProgressDisplay:
 
     _lock: ClassVar = threading.RLock()
     _current: "ClassVar[ProgressDisplay | None]" = None
+    is_hidden: ClassVar[bool] = False
 
     def __init__(self) -> None:
         self.tasks: list[Task] = []
@@ -226,12 +229,31 @@ class ProgressDisplay:
         raise NotImplementedError
 
 
+@contextmanager
+def hidden() -> Iterator[None]:
+    """Show nothing of any task within."""
+    before, ProgressDisplay.is_hidden = ProgressDisplay.is_hidden, True
+    try:
+        yield
+    finally:
+        ProgressDisplay.is_hidden = before
+
+
 def _suitable() -> ProgressDisplay:
+    if ProgressDisplay.is_hidden:
+        return _NoDisplay()
     from rich.console import Console
 
     if Console().is_jupyter:
         return _NotebookDisplay()
     return _TerminalDisplay() if sys.stderr.isatty() else _LogDisplay()
+
+
+class _NoDisplay(ProgressDisplay):
+    """Nothing at all."""
+
+    def note(self, sentence: str) -> None:
+        """Say nothing."""
 
 
 class _LogDisplay(ProgressDisplay):

@@ -4,12 +4,23 @@ from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
+from typing import Protocol
 
 from drumrs.config import Config, require_config
 from drumrs.progress import Task, with_prefix
 from drumrs.result import Result
-from drumrs.run_folder import RunFolder
 from drumrs.simulation import Simulation
+
+
+class Keeper(Protocol):
+    """Where records and checkpoints of a run are kept: its folder, or the file of a case."""
+
+    def flush(self, simulation: Simulation) -> None:
+        """Write what was recorded since, where that is much."""
+
+    def save(self, simulation: Simulation) -> None:
+        """Write a checkpoint."""
+
 
 # From so many bundles on the packing takes seconds, and is shown.
 _LARGE_LOAD = 20_000
@@ -65,7 +76,7 @@ def packing(config: Config, *, show: bool) -> Task:
 
 
 def run_to_end(
-    simulation: Simulation, folder: RunFolder | None = None, *, label: str = "", progress: bool = True
+    simulation: Simulation, folder: Keeper | None = None, *, label: str = "", progress: bool = True
 ) -> None:
     """Run to the end of the duration as `advance_to_end` does, and show how far it is."""
     with progress_of(simulation, label, show=progress) as on_progress:
@@ -92,7 +103,7 @@ def progress_of(
 def advance_to_end(
     simulation: Simulation,
     on_progress: Callable[[int], None] | None = None,
-    folder: RunFolder | None = None,
+    folder: Keeper | None = None,
 ) -> bool:
     """Run to the end of the duration, writing records as they come, and a checkpoint at once, every so often, and last.
 
@@ -133,7 +144,7 @@ def advance_to_end(
     return going
 
 
-def _save(simulation: Simulation, folder: RunFolder | None) -> None:
+def _save(simulation: Simulation, folder: Keeper | None) -> None:
     if folder is not None:
         folder.save(simulation)
 

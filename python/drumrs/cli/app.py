@@ -1,12 +1,18 @@
 """The command `drumrs`: its list of commands, and what an error becomes."""
 
+import io
+import logging
+import os
+import platform
+import shlex
 import sys
 import warnings
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
-from typing import Any
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from typing import Annotated, Any
 
-from cyclopts import App, CycloptsError, UnknownOptionError, UnusedCliTokensError
+from cyclopts import App, CycloptsError, Group, Parameter, UnknownOptionError, UnusedCliTokensError
 
 import drumrs
 from drumrs.cli.baseline import baseline
@@ -14,12 +20,14 @@ from drumrs.cli.config import config
 from drumrs.cli.export import export
 from drumrs.cli.info import info
 from drumrs.cli.init import init
+from drumrs.cli.messages import complain, speaking, warn
 from drumrs.cli.movie import movie
-from drumrs.cli.options import cut_by_shell
+from drumrs.cli.options import PATH, cut_by_shell
 from drumrs.cli.quantities import quantities
 from drumrs.cli.report import report
 from drumrs.cli.reproduce import reproduce
 from drumrs.cli.run import run
+from drumrs.cli.signals import Asked, like_interrupts
 from drumrs.cli.sweep import sweep
 from drumrs.cli.validate import validate
 from drumrs.cli.verify import verify
@@ -31,7 +39,9 @@ from drumrs.files import NO_ROOM
 _NO_PICTURE = 3
 _BAD_INPUT = 2
 _FAILED = 1
-_INTERRUPTED = 130
+
+Flag = Annotated[bool, Parameter(negative="")]
+_LOG = logging.getLogger("drumrs.command")
 
 app = App(
     name="drumrs",
@@ -79,39 +89,104 @@ for _command in (
     app.command(_command, help_epilogue="")
 
 
+app.meta.group_parameters = Group("Options of every command", sort_key=10)
+app.register_install_completion_command(help="Make the shell complete commands and options of drumrs.")
+
+
+@app.meta.default
+def _main_command(
+    *words: Annotated[str, Parameter(show=False, allow_leading_hyphen=True)],
+    quiet: Flag = False,
+    debug: Flag = False,
+    log_file: Annotated[Path | None, PATH] = None,
+) -> int:
+    """Run a command.
+
+    Parameters
+    ----------
+    quiet
+        Say nothing on standard error but warnings and errors: no progress, no notes.
+    debug
+        Show where in the code an error comes from.
+    log_file
+        File to which lines of JSON are added: what is said, and what became of each case.
+    """
+    with speaking(quiet=quiet, debug=debug, log_file=log_file), like_interrupts() as asked:
+        line = shlex.join(["drumrs", *words])
+        log = {"version": drumrs.__version__, "host": platform.node(), "process": os.getpid()}
+        _LOG.info("%s begins", line, extra={"fields": log})
+        status = _outcome(words, asked)
+        _LOG.info("%s ends", line, extra={"fields": {"status": status}})
+    return status
+
+
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command line and leave with its exit status."""
-    sys.exit(run_command(arguments))
+    _write_utf8()
+    status = run_command(arguments)
+    with suppress(BrokenPipeError):
+        sys.stdout.flush()
+        sys.exit(status)
+    # Whoever read our output has what they want: `drumrs config | head`.
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    sys.exit(_FAILED)
 
 
 def run_command(arguments: Sequence[str] | None = None) -> int:
     """Run the command line; return its exit status.
 
-    0; 1: the run failed; 2: bad input; 3: the numbers are complete, but a picture could not be made; 130: Ctrl-C.
+    0; 1: the run failed; 2: bad input; 3: the numbers are complete, but a picture could not be made; 130: Ctrl-C, and
+    128 + n another signal that asks for the end.
     """
     words = sys.argv[1:] if arguments is None else list(arguments)
     try:
+        status = app.meta(words, exit_on_error=False, print_error=False)
+    except (CycloptsError, ConfigError) as error:
+        # Of options of every command alone; of a command's own, `_outcome` tells.
+        with speaking():
+            complain(_advice(error) if isinstance(error, CycloptsError) else str(error), error)
+        return _BAD_INPUT
+    return status if isinstance(status, int) else 0
+
+
+def _outcome(words: Sequence[str], asked: Asked) -> int:
+    """Run a command, say why it failed, and return its exit status."""
+    try:
         with _warnings_on_one_line() as raised:
-            status = app(words, exit_on_error=False, print_error=False)
+            status = app(list(words), exit_on_error=False, print_error=False)
     except (ConfigError, CheckpointError) as error:
-        return _fail(str(error), _BAD_INPUT)
+        return _fail(str(error), error, _BAD_INPUT)
     except CycloptsError as error:
-        return _fail(_advice(error) or " ".join(str(error).split()), _BAD_INPUT)
+        return _fail(_advice(error), error, _BAD_INPUT)
     except UnstableError as error:
-        return _fail(str(error), _FAILED)
+        return _fail(str(error), error, _FAILED)
+    except BrokenPipeError:
+        raise
     except (OSError, MemoryError) as error:
-        return _fail(_system_message(error), _FAILED)
+        return _fail(_system_message(error), error, _FAILED)
     except (KeyboardInterrupt, ImportError) as error:
         # Where Ctrl-C falls into the import of a module in C++, it is the cause of an ImportError.
         interrupt = error if isinstance(error, KeyboardInterrupt) else error.__cause__
         if not isinstance(interrupt, KeyboardInterrupt):
             raise
-        return _fail(str(interrupt) or "interrupted", _INTERRUPTED)
+        sender = f" by {asked.name}" if asked.name else ""
+        told = (str(interrupt) or "interrupted").replace("interrupted", f"interrupted{sender}", 1)
+        return _fail(told, error, asked.status)
     pictures_failed = any(issubclass(kind, PictureWarning) for kind in raised)
     return (status if isinstance(status, int) else 0) or (_NO_PICTURE if pictures_failed else 0)
 
 
-def _advice(error: CycloptsError) -> str | None:
+def _write_utf8() -> None:
+    """Write UTF-8 to files and pipes, whatever the system's encoding is, and to terminals what they can show."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            if stream.isatty():
+                stream.reconfigure(errors="replace")
+            else:
+                stream.reconfigure(encoding="utf-8", errors="replace")
+
+
+def _advice(error: CycloptsError) -> str:
     """Return what to write instead of a key given as an option, a list without quotes, or a word too many."""
     if isinstance(error, UnknownOptionError) and error.target in (run, baseline):
         option = error.token.keyword or error.token.value
@@ -125,7 +200,7 @@ def _advice(error: CycloptsError) -> str | None:
         return str(cut_by_shell(" ".join(words)))
     if words:
         return f"{' '.join(words)!r} is more than the command takes; drumrs COMMAND --help shows what it does"
-    return None
+    return " ".join(str(error).split())
 
 
 def _system_message(error: OSError | MemoryError) -> str:
@@ -146,8 +221,7 @@ def _warnings_on_one_line() -> Iterator[list[type[Warning]]]:
         def show(message: Warning | str, category: type[Warning], *place: Any, **more: Any) -> None:
             if issubclass(category, DrumrsWarning):
                 raised.append(category)
-                note = "" if issubclass(category, PictureWarning) else "note that "
-                sys.stderr.write(f"drumrs: {note}{message}\n")
+                warn(f"{message}" if issubclass(category, PictureWarning) else f"note that {message}")
             else:
                 shown(message, category, *place, **more)
 
@@ -155,6 +229,6 @@ def _warnings_on_one_line() -> Iterator[list[type[Warning]]]:
         yield raised
 
 
-def _fail(message: str, status: int) -> int:
-    sys.stderr.write(f"drumrs: {message}\n")
+def _fail(message: str, error: BaseException, status: int) -> int:
+    complain(message, error)
     return status

@@ -1,12 +1,12 @@
 """`drumrs baseline`: the paper's drum without and with baffles, side by side."""
 
-import sys
 from pathlib import Path
 from typing import Annotated
 
 from cyclopts import Parameter
 
 import drumrs
+from drumrs.cli.messages import note
 from drumrs.cli.options import PATH, Seed, Settings, check_folder
 from drumrs.cli.tables import print_paths, print_table
 from drumrs.config import Config, merge, nest, parse_settings
@@ -49,7 +49,7 @@ def baseline(
     for name, config in cases.items():
         require_folder(folders[name], config, force=force, option="--out")
     first = next(iter(cases.values()))
-    sys.stderr.write(f"drumrs: {first.facts}\n")
+    note(first.facts)
     results = run_side_by_side(cases)
     claim(out, "baseline", first.title, first.digest)
     written = [

@@ -10,6 +10,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
+from drumrs.cli.messages import note
 from drumrs.cli.options import PATH, check_folder
 from drumrs.cli.tables import print_paths
 from drumrs.config import Config
@@ -40,7 +41,7 @@ def init(
     if template is None:
         sys.stdout.writelines(f"{name:<13} {_title(each)}\n" for name, each in known.items())
         name = "NAME" if folder is None else folder
-        sys.stderr.write(f"drumrs: choose one: drumrs init {name} --template {next(iter(known))}\n")
+        note(f"choose one: drumrs init {name} --template {next(iter(known))}")
         return 0 if folder is None else _BAD_INPUT
     if template not in known:
         close = difflib.get_close_matches(template, known, n=1)
@@ -70,4 +71,4 @@ def _write(template: Traversable, folder: Path) -> None:
     for name, content in contents.items():
         (folder / name).write_bytes(content)
     print_paths([folder / name for name in contents])
-    sys.stderr.write(f"drumrs: {folder / 'README.md'} says how to go on\n")
+    note(f"{folder / 'README.md'} says how to go on")

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
+from drumrs.cli.messages import complain, note, tell_failures
 from drumrs.cli.options import PATH, Jobs, check_folder
 from drumrs.cli.tables import print_paths
 from drumrs.errors import ConfigError
@@ -74,16 +75,12 @@ def _infer_baffle(out: Path, jobs: int | None) -> int:
 
     jobs, plan = effective_jobs(jobs), Plan()
     spent = format_duration(plan.cost / measure_speed(jobs))
-    sys.stderr.write(
-        f"inference of the baffle: {plan.cost:.2g} particle-steps in all, about {spent} at most\n"
-    )
+    note(f"inference of the baffle: {plan.cost:.2g} particle-steps in all, about {spent} at most")
     found = infer_baffle(out, plan, jobs)
     height, base, tip = (f"{100.0 * length:.3g}" for length in found.best.lengths)
     sys.stdout.write(f"inferred baffle: height {height} cm, base {base} cm, tip {tip} cm\n")
     for failure in found.failures:
-        sys.stderr.write(
-            f"drumrs: case {failure.case.id} ({failure.case.config.title}) failed: {failure.message}\n"
-        )
+        complain(f"case {failure.case.id} ({failure.case.config.title}) failed: {failure.message}")
     print_paths([out / "baffle.parquet", out / "figures", out / "baffle.md"])
     return _FAILED if found.failures else 0
 
@@ -94,11 +91,10 @@ def _announce(reproduction: "Reproduction") -> None:
     count, waiting = len(reproduction.sweep), len(reproduction.waiting)
     done = f", {count - waiting} of them settled already" if waiting < count else ""
     cores = f"{reproduction.jobs} core{'s' if reproduction.jobs > 1 else ''}"
-    sys.stderr.write(
+    note(
         f"{reproduction.scale} study: {count} cases{done}, {reproduction.cost:.2g} particle-steps to do, "
-        f"about {format_duration(reproduction.expected_time())} on {cores}\n"
+        f"about {format_duration(reproduction.expected_time())} on {cores}"
     )
-    sys.stderr.flush()
 
 
 def _print_verdicts(done: "ReproductionResult") -> None:
@@ -119,11 +115,5 @@ def _print_verdicts(done: "ReproductionResult") -> None:
 
 def _tell_failures(done: "ReproductionResult") -> int:
     failures = done.data.failures
-    for failure in failures:
-        sys.stderr.write(
-            f"drumrs: case {failure.case.id} ({failure.case.config.title}) failed: {failure.message}\n"
-        )
-    if failures:
-        total = len(done.data.sweep)
-        sys.stderr.write(f"drumrs: {len(failures)} of {total} cases failed; --retry runs them again\n")
+    tell_failures(failures, len(done.data.sweep))
     return _FAILED if failures else 0

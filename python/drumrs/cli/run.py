@@ -8,6 +8,7 @@ from typing import Annotated
 from cyclopts import Parameter
 
 from drumrs.analysis.phases import phases_of
+from drumrs.cli.messages import note
 from drumrs.cli.options import NUMBER, PATH, Seed, Settings, Threads, check_folder, layered
 from drumrs.cli.tables import print_paths, print_phases, print_species, print_table
 from drumrs.config import Config
@@ -95,7 +96,7 @@ def run(
         with packing(config, show=True):
             simulation = Simulation(config, threads=threads, in_memory=out is None)
         folder = _open_folder(out, simulation)
-        sys.stderr.write(f"drumrs: {simulation.facts}\n")
+        note(simulation.facts)
     try:
         reached = _finish(simulation, folder, goal)
     except UnstableError as error:
@@ -112,7 +113,7 @@ def run(
             _print_species(simulation, folder, (summary.window_start, summary.window_end))
         print_paths(written)
     if reached:
-        sys.stderr.write(f"drumrs: {reached}\n")
+        note(reached)
 
 
 def _soften(config: Config, factor: float | None) -> Config:
@@ -121,7 +122,7 @@ def _soften(config: Config, factor: float | None) -> Config:
         return config
     changes = softening(config, factor, "--softer")
     changed = ", ".join(f"{key} {before:.4g} → {after:.4g}" for key, (before, after) in changes.items())
-    sys.stderr.write(f"drumrs: --softer {factor:g} changes {changed}\n")
+    note(f"--softer {factor:g} changes {changed}")
     return config.softer(factor)
 
 
@@ -163,11 +164,11 @@ def _open_folder(path: Path | None, simulation: Simulation) -> RunFolder | None:
 def _keep_unstable(simulation: Simulation, folder: RunFolder | None, error: UnstableError) -> None:
     """Save what was recorded until a run ended unstable, and say where."""
     if folder is None:
-        sys.stderr.write("drumrs: nothing is kept of this run without --out\n")
+        note("nothing is kept of this run without --out")
         return
     folder.conclude_unstable(simulation, error)
     out = folder.path
-    sys.stderr.write(f"drumrs: what was recorded is in {out}; look at its end with: drumrs view {out}\n")
+    note(f"what was recorded is in {out}; look at its end with: drumrs view {out}")
 
 
 def _print_species(simulation: Simulation, folder: RunFolder | None, window: tuple[float, float]) -> None:

@@ -8,6 +8,7 @@ from typing import Annotated, Any
 
 from cyclopts import Parameter
 
+from drumrs.cli.messages import tell_failures
 from drumrs.cli.options import PATH, WHOLE, Jobs, check_folder
 from drumrs.cli.tables import print_paths
 from drumrs.errors import ConfigError
@@ -133,10 +134,6 @@ def _show(value: Any) -> str:
 
 
 def _tell_failures(planned: Sweep, outcome: Outcome) -> None:
-    for failure in outcome.failures:
-        settings = planned.settings(failure.case)
-        named = ", ".join(f"{key} = {_show(value)}" for key, value in settings.items())
-        sys.stderr.write(f"drumrs: case {failure.case.id} ({named}) failed: {failure.message}\n")
-    if outcome.failures:
-        count = len(outcome.failures)
-        sys.stderr.write(f"drumrs: {count} of {len(planned)} cases failed; --retry runs them again\n")
+    settings = [planned.settings(failure.case) for failure in outcome.failures]
+    names = [", ".join(f"{key} = {_show(value)}" for key, value in each.items()) for each in settings]
+    tell_failures(outcome.failures, len(planned), names)

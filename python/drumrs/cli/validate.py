@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
+from drumrs.cli.messages import note, tell_failures
 from drumrs.cli.options import PATH, Jobs, check_folder
 from drumrs.cli.tables import print_paths
 
@@ -52,15 +53,11 @@ def validate(
     validation = Validation(out, [name] if name is not None else [], jobs)
     done = len(validation.sweep) - len(validation.waiting)
     settled = f", {done} of them settled already" if done else ""
-    sys.stderr.write(f"{len(validation.sweep)} cases{settled}, {validation.cost:.2g} particle-steps to do\n")
-    sys.stderr.flush()
+    note(f"{len(validation.sweep)} cases{settled}, {validation.cost:.2g} particle-steps to do")
     found = validation.run(retry=retry)
     _print(found)
     print_paths([found.table, out / "figures", found.page])
-    for failure in found.failures:
-        sys.stderr.write(
-            f"drumrs: case {failure.case.id} ({failure.case.config.title}) failed: {failure.message}\n"
-        )
+    tell_failures(found.failures, len(validation.sweep))
     return _FAILED if found.failures else 0
 
 

@@ -1,12 +1,12 @@
 """`drumrs view`: a run in the browser."""
 
-import sys
 import webbrowser
 from pathlib import Path
 from typing import Annotated
 
 from cyclopts import Parameter
 
+from drumrs.cli.messages import note
 from drumrs.cli.options import PATH
 from drumrs.cli.tables import print_paths
 from drumrs.errors import ConfigError
@@ -49,9 +49,9 @@ def view(
         raise ConfigError("the page", page, limit) from None
     print_paths([page])
     if show and out is None and not _opens(page):
-        sys.stderr.write(
-            f"drumrs: found no browser here; open {page.absolute().as_uri()} in one, or take the file to where "
-            "there is one: it needs nothing else\n"
+        note(
+            f"found no browser here; open {page.absolute().as_uri()} in one, or take the file to where "
+            "there is one: it needs nothing else"
         )
 
 

@@ -371,8 +371,10 @@ def read_layer(path: str | Path) -> dict[str, Any]:
         data = Path(path).read_bytes()
         # Some editors of Windows begin a file with a mark of its encoding, and write UTF-16.
         text = data.decode("utf-16" if data.startswith((BOM_UTF16_LE, BOM_UTF16_BE)) else "utf-8-sig")
+        if "\0" in text:
+            raise ValueError("UTF-16 without a mark")  # noqa: TRY301 - told as all else that is no UTF-8
     except (OSError, ValueError) as error:
-        reason = error.strerror if isinstance(error, OSError) else "it is not text in UTF-8"
+        reason = error.strerror if isinstance(error, OSError) else "it is not text in UTF-8: save it as such"
         problem = f"cannot be read as a file of configuration keys: {reason}"
         raise ConfigError(Path(path), problem=problem, hint=_WRITE_ONE) from None
     read = read_json if Path(path).suffix == ".json" else read_toml

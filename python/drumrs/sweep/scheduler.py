@@ -1,5 +1,6 @@
 """The scheduler: which cases are to be run, in which order, and what becomes of them."""
 
+import logging
 from collections.abc import Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
 from contextlib import contextmanager
@@ -14,6 +15,7 @@ from drumrs.sweep.executors import Workers, open_workers
 from drumrs.sweep.store import Store
 from drumrs.sweep.worker import CaseOutcome
 
+_LOG = logging.getLogger("drumrs.sweep")
 # How often progress is shown; a Ctrl-C is seen at once.
 _TICK = 0.25
 _MOST_NAMED = 10
@@ -226,6 +228,10 @@ def _outcome_of(future: "Future[CaseOutcome]", case: Case, store: Store) -> Case
 
 
 def _count(case: Case, told: CaseOutcome, tally: _Tally) -> None:
+    level = logging.WARNING if told.status == "failed" else logging.INFO
+    fields = told._asdict()
+    fields["reason"] = fields.pop("message")
+    _LOG.log(level, "case %s %s", case.id, told.status, extra={"fields": fields})
     tally.settled += 1
     tally.cost += case.cost
     if told.status == "finished":

@@ -9,6 +9,7 @@
 | `<id>.facts.json` | time taken and machine: what differs from run to run |
 | `<id>.parquet` | one row of parameters and summary, written last: its being there means that the case is finished |
 | `<id>.error.json` | why the case failed |
+| `<id>.checkpoint.bin` | how far a case is that takes long; gone when it is finished |
 | `drumrs-sweep.json` | the version of this format |
 """
 
@@ -39,7 +40,7 @@ if TYPE_CHECKING:
 MARK = marker("sweep")
 TABLE = "table.parquet"
 _ENDINGS = (
-    *("toml", "series.parquet", "frames.parquet", "facts.json", "parquet", "error.json"),
+    *("toml", "series.parquet", "frames.parquet", "facts.json", "parquet", "error.json", "checkpoint.bin"),
     *(f"{kind}.parquet" for kind in COLUMNS),
 )
 _HOUR = 3600.0
@@ -163,7 +164,12 @@ class Store:
         timings = {name: getattr(result.summary, name) for name in TIMINGS}
         self._write_json(case, "facts", {"case": case.id, **timings, **facts})
         self._write_row(case, result.summary, result.series)
-        self._path(case, "error.json").unlink(missing_ok=True)
+        for ending in ("error.json", "checkpoint.bin"):
+            self._path(case, ending).unlink(missing_ok=True)
+
+    def checkpoint(self, case: Case) -> Path:
+        """Return where a case keeps its checkpoint."""
+        return self._path(case, "checkpoint.bin")
 
     def renew(self, case: Case) -> bool:
         """Make the row of a finished case again where an older version wrote it with other columns.
@@ -186,6 +192,7 @@ class Store:
         write_whole(self._path(case, "toml"), case.config.to_toml().encode())
         told = {"case": case.id, "error": type(error).__name__, "message": str(error)}
         self._write_json(case, "error", {**told, "config": case.config.model_dump(mode="json")})
+        self.checkpoint(case).unlink(missing_ok=True)
 
     def error(self, case: Case) -> dict[str, Any] | None:
         """Return what `write_error` kept, `None` where the case has not failed."""

@@ -1,27 +1,38 @@
 """One case, run to its end and kept: what every executor is handed, on threads and on other machines alike."""
 
 import json
+import multiprocessing
+import os
 import platform
 import signal
 import threading
+import time
 from collections.abc import Callable
+from contextlib import suppress
 from multiprocessing.synchronize import Event
+from pathlib import Path
 from typing import NamedTuple
 
 from drumrs.config import Config
+from drumrs.errors import CheckpointError
 from drumrs.runs import advance_to_end
 from drumrs.simulation import Simulation, info
 from drumrs.sweep.case import Case
 from drumrs.sweep.store import Store
 
+# A case that has taken less is sooner simulated again [s].
+_WORTH = 5.0
+
 
 class CaseOutcome(NamedTuple):
-    """What became of a case: "finished", "failed" with the error's class and sentence, or "stopped"."""
+    """What became of a case: "finished", "failed" with the error's class and sentence, or "stopped"; where; seconds."""
 
     case: str
     status: str
     error: str = ""
     message: str = ""
+    host: str = ""
+    seconds: float = 0.0
 
 
 class Running:
@@ -69,14 +80,24 @@ _here = Running()
 
 
 def stop_with(halt: Event) -> None:
-    """Make this process one that works for a sweep elsewhere, and stops when told so, not by Ctrl-C."""
+    """Make this process one that works for a sweep elsewhere: it stops when told so, not by Ctrl-C.
+
+    Where the process that it works for is no more, killed for instance, it ends at once.
+    """
     signal.signal(signal.SIGINT, signal.SIG_IGN)
 
     def wait() -> None:
         halt.wait()
         _here.stop()
 
-    threading.Thread(target=wait, daemon=True).start()
+    def end_with_parent() -> None:
+        parent = multiprocessing.parent_process()
+        if parent is not None:
+            parent.join()
+            os._exit(1)
+
+    for watch in (wait, end_with_parent):
+        threading.Thread(target=watch, daemon=True).start()
 
 
 def run_case(config_json: str, folder: str, running: Running | None = None) -> CaseOutcome:
@@ -114,26 +135,56 @@ def run_case(config_json: str, folder: str, running: Running | None = None) -> C
     # Another sweep may have finished it while it stood in the queue; an older version may have left it all but its row.
     if store.fault(case) is None or store.renew(case):
         return CaseOutcome(case.id, "finished")
+    began, error = time.perf_counter(), None
     try:
-        kept = _simulate(case, store, running or _here)
+        status = "finished" if _simulate(case, store, running or _here) else "stopped"
     except OSError:
         raise
-    except Exception as error:  # noqa: BLE001 - whatever is wrong with one case, the others go on
-        store.write_error(case, error)
-        return CaseOutcome(case.id, "failed", type(error).__name__, str(error))
-    return CaseOutcome(case.id, "finished" if kept else "stopped")
+    except Exception as raised:  # noqa: BLE001 - whatever is wrong with one case, the others go on
+        store.write_error(case, raised)
+        status, error = "failed", raised
+    told = (type(error).__name__, str(error)) if error is not None else ("", "")
+    return CaseOutcome(case.id, status, *told, platform.node(), time.perf_counter() - began)
 
 
 def _simulate(case: Case, store: Store, running: Running) -> bool:
-    simulation = Simulation(case.config)
+    simulation = _begin(case, store)
     on_progress = running.begin(simulation)
     try:
-        if not advance_to_end(simulation, on_progress):
+        if not advance_to_end(simulation, on_progress, _Checkpoint(store.checkpoint(case))):
             return False
         store.write(case, simulation.result(keep=False), _facts())
     finally:
         running.end(simulation)
     return True
+
+
+def _begin(case: Case, store: Store) -> Simulation:
+    """Go on from the checkpoint of a case that was stopped, or begin."""
+    path = store.checkpoint(case)
+    if path.exists():
+        # One that is damaged, or of another version, is of no use.
+        with suppress(CheckpointError):
+            simulation = Simulation.load(path)
+            if simulation.config.digest == case.config.digest:
+                return simulation
+    return Simulation(case.config)
+
+
+class _Checkpoint:
+    """Where a case keeps how far it is, once it has taken long enough for that to be worth a file."""
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+        self._began = time.monotonic()
+
+    def flush(self, simulation: Simulation) -> None:
+        """Leave records in memory: a checkpoint holds them."""
+
+    def save(self, simulation: Simulation) -> None:
+        """Write a checkpoint."""
+        if time.monotonic() - self._began >= _WORTH and simulation.step < simulation.last_step:
+            simulation.save(self._path)
 
 
 def _facts() -> dict[str, object]:

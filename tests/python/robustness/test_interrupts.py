@@ -131,6 +131,32 @@ if __name__ == "__main__":
 """
 
 
+def test_workers_end_with_the_process_that_they_work_for(tmp_path):
+    (tmp_path / "many.py").write_text(PROCESSES)
+    words = [sys.executable, "many.py"]
+    child = subprocess.Popen(words, cwd=tmp_path, env=ENVIRONMENT, start_new_session=True)
+    end = time.monotonic() + 60.0
+    while not list(tmp_path.glob("out/*.facts.json")) and time.monotonic() < end:
+        time.sleep(0.05)
+    child.kill()
+    child.wait()
+    end = time.monotonic() + 20.0
+    while _group_is_alive(child.pid) and time.monotonic() < end:
+        time.sleep(0.05)
+    alive = _group_is_alive(child.pid)
+    if alive:
+        os.killpg(child.pid, signal.SIGKILL)
+    assert not alive
+
+
+def _group_is_alive(group: int) -> bool:
+    try:
+        os.killpg(group, 0)
+    except ProcessLookupError:
+        return False
+    return True
+
+
 @pytest.mark.parametrize(("seen", "count", "most"), [("drumrs-sweep.json", 0, 5.0), ("*.facts.json", 1, 2.0)])
 def test_ctrl_c_stops_the_processes_of_a_sweep(tmp_path, seen, count, most):
     """As from a terminal, every process of the group gets the signal: while they import, and when they run."""

@@ -124,6 +124,43 @@ def test_a_disk_in_trouble_is_no_fault_of_the_case(tmp_path, monkeypatch):
     assert not list(tmp_path.glob("*.error.json"))
 
 
+@pytest.mark.parametrize("harm", ["none", "torn"])
+def test_a_long_case_that_was_stopped_goes_on_to_the_same_bytes(harm, tmp_path, monkeypatch):
+    config = BASE.replace({"run.duration": 0.1, "run.sample_every": 0.001, "run.frame_every": 0.01})
+    drumrs.Sweep(config).run(tmp_path / "whole", progress=False)
+    monkeypatch.setattr(worker, "_WORTH", 0.0)
+    running, begun = worker.Running(), []
+
+    def stop_early(simulation):
+        begun.append(simulation.step)
+        on_progress = real(simulation)
+
+        def then_stop(step):
+            on_progress(step)
+            if len(begun) == 1 and step > 0:
+                running.stop()
+
+        return then_stop
+
+    real = running.begin
+    monkeypatch.setattr(running, "begin", stop_early)
+    told = run_case(config.model_dump_json(), str(tmp_path), running)
+    assert told.status == "stopped"
+    checkpoint = tmp_path / f"{told.case}.checkpoint.bin"
+    assert drumrs.Simulation.load(checkpoint).step > 0
+    if harm == "torn":
+        checkpoint.write_bytes(checkpoint.read_bytes()[:1000])
+    running._stopped = False
+    told = run_case(config.model_dump_json(), str(tmp_path), running)
+    assert told.status == "finished"
+    assert begun[0] == 0
+    assert (begun[1] > 0) == (harm == "none")
+    assert not checkpoint.exists()
+    for name in ("parquet", "series.parquet", "frames.parquet"):
+        file = f"{told.case}.{name}"
+        assert (tmp_path / file).read_bytes() == (tmp_path / "whole" / file).read_bytes()
+
+
 def test_failures_are_run_again_only_when_asked(tmp_path, monkeypatch):
     sweep = drumrs.Sweep(BASE, seeds=2)
 
