@@ -16,7 +16,7 @@ export VIRTUAL_ENV := $(abspath $(VENV))
 unexport CONDA_PREFIX
 
 .DEFAULT_GOAL := help
-.PHONY: help run study test check-long develop lint bench clean
+.PHONY: help run study test check-long develop lint bench docs wheel clean
 
 help: ## list the commands
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-11s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -73,9 +73,15 @@ lint: develop ## check format, lints, layers, types and the stub of the core
 bench: ## measure the speed of a step
 	cargo bench
 
+docs: develop ## build the documentation site, out/docs/index.html
+	$(BIN)/python -m sphinx --fail-on-warning --keep-going -b html docs $(OUT)/docs
+
+wheel: ## build the wheel for this machine into dist/, check it, and try it where there is no Rust
+	$(PYTHON) packaging/wheel.py
+
 clean: ## remove everything built
 	cargo clean
-	rm -rf $(VENV) $(OUT) dist python/drumrs/_core*.so
+	rm -rf $(VENV) $(OUT) dist python/drumrs/*.so
 
 # The Python dependencies are installed once and again when they change; a Rust edit only rebuilds the core.
 $(STAMP): pyproject.toml Cargo.toml

@@ -121,6 +121,7 @@ _pages = Sybil(
         ),
     ],
     patterns=["*.md"],
+    excludes=["*_generated/*"],  # copies, made for the documentation site
     setup=_page.begin,
     teardown=_page.end,
 )

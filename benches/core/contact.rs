@@ -6,7 +6,7 @@ use criterion::{Criterion, Throughput};
 use drumrs::engine::simd::{F64x4, LANES, lanes};
 use drumrs::physics::columns::Columns;
 use drumrs::physics::contact::law::ContactLaw;
-use drumrs::physics::contact::linear::{Linear, LinearHistory, LinearLaw};
+use drumrs::physics::contact::linear::{Linear, LinearLaw, SpringHistory};
 use drumrs::physics::contact::{ContactState, Kinematics, RelativeMotion};
 use drumrs::physics::scalar::Scalar;
 
@@ -19,7 +19,7 @@ fn wave(first: usize, pace: usize) -> F64x4 {
 }
 
 /// How bodies move, what they were like before, what the law remembers of them.
-type Contact = (RelativeMotion<F64x4>, ContactState<F64x4>, LinearHistory<F64x4>);
+type Contact = (RelativeMotion<F64x4>, ContactState<F64x4>, SpringHistory<F64x4>);
 
 fn contacts(count: usize) -> Vec<Contact> {
     let contact = |first: usize| {
@@ -37,7 +37,7 @@ fn contacts(count: usize) -> Vec<Contact> {
             separation_rate: wave(first, 13) * 0.03,
             ..ContactState::build(|_| F64x4::ZERO)
         };
-        (motion, last, LinearHistory { tangential_displacement: past * wave(first, 11) * 0.5 })
+        (motion, last, SpringHistory { tangential_displacement: past * wave(first, 11) * 0.5 })
     };
     (0..count).step_by(LANES).map(contact).collect()
 }

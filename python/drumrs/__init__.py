@@ -12,7 +12,7 @@ import logging
 from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
 
-from drumrs import errors
+from drumrs import cores, errors  # noqa: F401  importing cores chooses one, before any module asks for it
 from drumrs.analysis import phases
 from drumrs.config import Config, baseline
 from drumrs.errors import CheckpointError, ConfigError, DrumrsError, DrumrsWarning, UnstableError

@@ -27,6 +27,8 @@ COLUMNS = (
     *("frame", "time", "drum_angle", "bundle", "x", "y", "angle", "velocity_x", "velocity_y", "contacts"),
     *("radius", "species"),
 )
+# How near to the rim a point counts as one of it, and edges that an arc is drawn with.
+_AT_RIM, _ARC = 1e-6, 8
 # Arrays with an entry for each frame and bundle.
 SHAPED = ("positions", "angles", "velocities", "contacts")
 
@@ -102,6 +104,14 @@ class Frames:
     def reach(self) -> float | None:
         """Radius of the rim, or of the shell's farthest corner [m]; `None` for a scene without either."""
         return self.drum_radius if self.shell is None else float(np.hypot(*self.shell.T).max())
+
+    @property
+    def drawn_baffles(self) -> tuple[NDArray[np.float64], ...]:
+        """The baffles as they are drawn: an edge with no room for a bundle between it and the rim is bent along it."""
+        if self.drum_radius is None:
+            return self.baffles
+        room = 2.0 * float(self.radii.min(initial=np.inf))
+        return tuple(_along_the_rim(line, self.drum_radius, room) for line in self.baffles)
 
     def nearest(self, time: float) -> int:
         """Return the index of the frame nearest to `time` [s]."""
@@ -261,6 +271,19 @@ class Frames:
         """
         file = FramesFile.of(source)
         return file.read(None if most is None else thinned(len(file), file.count, most))
+
+
+def _along_the_rim(line: NDArray[np.float64], radius: float, room: float) -> NDArray[np.float64]:
+    """Return a closed outline with arcs for the edges that join two points of the rim and leave less room behind."""
+    at_rim = np.hypot(*line.T) >= (1.0 - _AT_RIM) * radius
+    pieces = []
+    for here, after, both in zip(line, np.roll(line, -1, axis=0), at_rim & np.roll(at_rim, -1), strict=True):
+        pieces.append(here[np.newaxis])
+        turned = math.atan2(here[0] * after[1] - here[1] * after[0], here @ after)
+        if both and radius * (1.0 - math.cos(0.5 * turned)) < room:
+            angles = math.atan2(here[1], here[0]) + turned * np.arange(1, _ARC) / _ARC
+            pieces.append(radius * np.column_stack([np.cos(angles), np.sin(angles)]))
+    return np.concatenate(pieces)
 
 
 class FramesFile:

@@ -42,8 +42,9 @@ def player(run: Result | UnstableRun) -> "Player":
     """
     from drumrs.viewer import Player
 
-    note = ended_unstable(run.time) if isinstance(run, UnstableRun) else ""
-    return Player.of(run.config, run.frames, run.series, note)
+    if isinstance(run, UnstableRun):
+        return Player.of(run.config, run.frames, run.series, ended_unstable(run.time))
+    return Player.of(run.config, run.frames, run.series, discs=run.discs)
 
 
 def save(result: Result, folder: str | Path, *, pictures: bool = True, force: bool = False) -> list[Path]:
@@ -99,7 +100,7 @@ def save(result: Result, folder: str | Path, *, pictures: bool = True, force: bo
     written.append(folder / "frames.parquet")
     written += write_contact_tables(folder, result.contact_tables())
     written.append(complete(folder, summary))
-    return [*written, *(draw(folder, config, summary, series, frames, frames) if pictures else [])]
+    return [*written, *(draw(folder, config, summary, series, frames) if pictures else [])]
 
 
 def require_folder(
@@ -180,18 +181,16 @@ def save_unstable(run: UnstableRun, folder: Path) -> list[Path]:
 
 
 def draw(
-    folder: Path, config: Config, summary: Summary, series: "pl.DataFrame", shown: Frames, pictured: Frames
+    folder: Path, config: Config, summary: Summary, series: "pl.DataFrame", pictured: Frames
 ) -> list[Path]:
     """Write snapshots.png, time_series.png and player.html.
 
     Parameters
     ----------
     folder
-        Where to write them.
+        Where to write them, beside what was recorded.
     config, summary, series
         The run.
-    shown
-        Frames of the player.
     pictured
         Frames of the snapshots: at the start and at both ends of the window, with those beside them.
 
@@ -221,14 +220,13 @@ def draw(
         figures.write(figures.snapshots([figures.View(pictured, index, fill) for index in indices]), path)
 
     def write_player(path: Path) -> None:
-        from drumrs.viewer import Player
+        from drumrs import viewer
 
-        Player.of(config, shown, series).save(path)
+        viewer.read(folder).save(path)
 
     drawings: dict[str, Callable[[Path], object]] = {"time_series.png": draw_time_series}
     if len(pictured):
         drawings["snapshots.png"] = draw_snapshots
-    if len(shown):
         drawings["player.html"] = write_player
     return _make(folder, drawings)
 

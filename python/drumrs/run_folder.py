@@ -82,7 +82,7 @@ class RunFolder:
         written.append(complete(self.path, summary))
         self._parts.remove()
         with attempt(f"pictures in {self.path}"):
-            written += draw(self.path, simulation.config, summary, series, *_pictured(file, simulation))
+            written += draw(self.path, simulation.config, summary, series, _pictured(file, simulation))
         return summary, written
 
     def conclude_unstable(self, simulation: Simulation, error: UnstableError) -> None:
@@ -115,12 +115,12 @@ def _shown(file: FramesFile) -> Frames:
     return file.read(thinned(len(file), file.count, MOST_PLACES))
 
 
-def _pictured(file: FramesFile, simulation: Simulation) -> tuple[Frames, Frames]:
-    """Read the frames that a player shows, and those of the snapshots with the ones beside them."""
+def _pictured(file: FramesFile, simulation: Simulation) -> Frames:
+    """Read the frames of the snapshots with the ones beside them."""
     start, end = simulation.config.run.averaging_window
     times = file.times()
     nearest = np.array(
         [int(np.abs(times - time).argmin()) for time in (0.0, start, end)] if len(times) else []
     )
     beside = np.unique([nearest - 1, nearest, nearest + 1]).astype(int)
-    return _shown(file), file.read(beside[(beside >= 0) & (beside < len(times))])
+    return file.read(beside[(beside >= 0) & (beside < len(times))])

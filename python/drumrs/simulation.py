@@ -359,7 +359,7 @@ class Simulation(HasRecords):
             raise ConfigError(
                 "window", (start, end), "one whose samples are in memory", hint=hint, problem=problem
             )
-        filled = math.fsum((2.0 * self.radii) ** 2) / self._config.drum.diameter**2
+        filled = self._config.drum.fill_of(self.radii)
         known = {"bundle_count": self.count, "steps": self.step, "fill": filled, "time_step": self.time_step}
         return Summary.from_mapping({**known, **self._timing(), **self._core.summary(start, end)})
 

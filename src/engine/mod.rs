@@ -219,22 +219,15 @@ impl Engine {
         self.pass.link(&mut self.list);
     }
 
-    /// Evaluates every contact; the forces must be zero.
-    pub fn evaluate(&mut self, particles: &Particles, world: World, drum: DrumMotion) {
-        let inputs = self.inputs(particles, world, drum);
-        let Self { pass, list, arrays, sums, threads, .. } = self;
-        pass.evaluate(list, arrays, &inputs, None, sums, threads);
-    }
-
-    /// Evaluates every contact, ends the step and begins the next.
-    pub fn evaluate_and_advance(&mut self, particles: &Particles, world: World, drum: DrumMotion) {
-        let inputs = self.inputs(particles, world, drum);
-        let Self { pass, list, arrays, verlet, sums, threads, .. } = self;
-        pass.evaluate(list, arrays, &inputs, Some(verlet), sums, threads);
-    }
-
-    /// First forces of particles that have not moved yet.
-    pub fn open(&mut self, particles: &mut Particles, world: World, drum: DrumMotion) {
+    /// First forces of particles that have not moved yet, in a drum that begins to turn at an angular velocity [rad/s].
+    pub fn open(
+        &mut self,
+        particles: &mut Particles,
+        world: World,
+        rotation: Rotation,
+        angular_velocity: f64,
+    ) {
+        let drum = DrumMotion { rotation, angular_velocity, step: 0, duration: 0.0 };
         self.arrays.motion(self.count).copy_from(&MotionArrays::of(particles));
         self.update_list(particles, world, drum);
         self.evaluate(particles, world, drum);

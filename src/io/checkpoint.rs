@@ -17,6 +17,7 @@ use crate::observe::contact_rows::ContactRow;
 use crate::observe::frames::Frames;
 use crate::observe::memory;
 use crate::physics::drum::Drum;
+use crate::simulation::initial_state::sorted_keys;
 use crate::simulation::state::{EngineState, State};
 use crate::simulation::{Records, Simulation};
 
@@ -80,9 +81,6 @@ impl Simulation {
     }
 
     /// The simulation that these bytes hold.
-    ///
-    /// # Errors
-    /// `Error::Checkpoint` saying why they cannot be used.
     pub fn from_checkpoint(bytes: &[u8], threads: usize) -> Result<Self, Error> {
         // What is read takes up to twice as much while its lists grow.
         memory::reserve(&mut Vec::<u8>::new(), bytes.len().saturating_mul(2), "reading a checkpoint")?;
@@ -166,8 +164,7 @@ fn check(state: &State, engine: &EngineState, config: &SimulationConfig) -> Resu
     let EngineState { contacts, .. } = engine;
     let ordered = contacts.pairs.iter().all(|contact| contact.particle < contact.other);
     let known = |contacts: &[ContactRecord], others: u32| {
-        let mut keys: Vec<_> = contacts.iter().map(ContactRecord::key).collect();
-        keys.sort_unstable();
+        let keys = sorted_keys(contacts);
         keys.iter().all(|&(particle, other)| (particle as usize) < count && other < others)
             && keys.windows(2).all(|two| two[0] != two[1])
             && contacts.iter().all(|contact| contact.overlap > 0.0)

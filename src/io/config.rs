@@ -98,9 +98,6 @@ pub const MOST_SPECIES: usize = 256;
 
 impl ContactTables {
     /// The table of laws.
-    ///
-    /// # Errors
-    /// `Error::Config` naming the key.
     pub fn table(&self) -> Result<SpeciesTable, Error> {
         let is_possible = (1..=MOST_SPECIES).contains(&self.species);
         let limit = format!("between 1 and {MOST_SPECIES}");
@@ -168,9 +165,6 @@ pub struct RunParameters {
 
 impl SimulationConfig {
     /// Reads a configuration from JSON and checks it.
-    ///
-    /// # Errors
-    /// `Error::Config` naming the key, the value and the limit.
     pub fn from_json(text: &str) -> Result<Self, Error> {
         let config: Self = serde_json::from_str(text)
             .map_err(|error| Error::config("config", format!("'{error}'"), "valid JSON with every field"))?;
@@ -205,17 +199,11 @@ pub const MOST_BUNDLES: usize = 10_000_000;
 
 impl LoadParameters {
     /// The species in their shares.
-    ///
-    /// # Errors
-    /// `Error::Config` naming the key.
     pub fn composition(&self) -> Result<Composition, Error> {
         Composition::new(&self.species, self.share_by)
     }
 
     /// The discs that the load is made of.
-    ///
-    /// # Errors
-    /// `Error::Config` naming the key.
     pub fn discs(&self, seed: u64) -> Result<Discs, Error> {
         if self.species.is_empty() {
             return Ok(Discs::equal(self.count, 0.5 * self.diameter));
@@ -238,24 +226,18 @@ impl LoadParameters {
     }
 
     fn validate(&self, drum_radius: Option<f64>) -> Result<(), Error> {
-        if self.count == 0 || self.count > MOST_BUNDLES {
-            return Err(Error::config("load.count", self.count, format!("between 1 and {MOST_BUNDLES}")));
-        }
+        let limit = format!("between 1 and {MOST_BUNDLES}");
+        require((1..=MOST_BUNDLES).contains(&self.count), "load.count", self.count, limit)?;
         require_positive("load.diameter", self.diameter)?;
         require_positive("load.density", self.density)?;
         require_non_negative("load.start_speed", self.start_speed)?;
-        match drum_radius {
-            _ if !self.species.is_empty() => {
-                let composition = self.composition()?;
-                drum_radius.map_or(Ok(()), |rim| composition.require_smaller(rim))
-            }
-            Some(radius) if self.diameter >= 2.0 * radius => Err(Error::config(
-                "load.diameter",
-                self.diameter,
-                format!("smaller than the drum's diameter {}", 2.0 * radius),
-            )),
-            _ => Ok(()),
+        if !self.species.is_empty() {
+            let composition = self.composition()?;
+            return drum_radius.map_or(Ok(()), |rim| composition.require_smaller(rim));
         }
+        let Some(rim) = drum_radius else { return Ok(()) };
+        let limit = format!("smaller than the drum's diameter {}", 2.0 * rim);
+        require(self.diameter < 2.0 * rim, "load.diameter", self.diameter, limit)
     }
 }
 
@@ -263,10 +245,8 @@ impl RunParameters {
     fn validate(&self) -> Result<(), Error> {
         if let Some(time_step) = self.time_step {
             require_positive("run.time_step", time_step)?;
-            if !time_step.is_normal() {
-                let limit = format!("at least {:e}", f64::MIN_POSITIVE);
-                return Err(Error::config("run.time_step", format!("{time_step:e}"), limit));
-            }
+            let limit = format!("at least {:e}", f64::MIN_POSITIVE);
+            require(time_step.is_normal(), "run.time_step", format!("{time_step:e}"), limit)?;
         }
         require_positive("run.sample_every", self.sample_every)?;
         require_positive("run.frame_every", self.frame_every)?;
@@ -277,10 +257,7 @@ impl RunParameters {
         if let Some(width) = self.arc_bin {
             require_positive("run.arc_bin", width)?;
         }
-        if self.overlap_limit > 0.0 && self.overlap_limit < 1.0 {
-            Ok(())
-        } else {
-            Err(Error::config("run.overlap_limit", self.overlap_limit, "between 0 and 1"))
-        }
+        let is_possible = self.overlap_limit > 0.0 && self.overlap_limit < 1.0;
+        require(is_possible, "run.overlap_limit", self.overlap_limit, "between 0 and 1")
     }
 }

@@ -26,6 +26,28 @@ pub trait Columns: Copy + Default + std::fmt::Debug + PartialEq + Send + Sync + 
     fn map<T: Field, U: Field>(record: &Self::Of<T>, mut convert: impl FnMut(T) -> U) -> Self::Of<U> {
         Self::build(|index| convert(Self::field(record, index)))
     }
+
+    /// The record that `combine` makes of two, field by field.
+    #[inline(always)]
+    fn zip<T: Field, U: Field>(
+        one: &Self::Of<T>,
+        other: &Self::Of<T>,
+        mut combine: impl FnMut(T, T) -> U,
+    ) -> Self::Of<U> {
+        Self::build(|index| combine(Self::field(one, index), Self::field(other, index)))
+    }
+
+    /// Sets one place in the arrays of a record.
+    fn set_lane<T: Field, const N: usize>(arrays: &mut Self::Of<[T; N]>, lane: usize, record: &Self::Of<T>) {
+        for index in 0..Self::COUNT {
+            Self::field_mut(arrays, index)[lane] = Self::field(record, index);
+        }
+    }
+
+    /// The fields of a record, in their order.
+    fn values<T: Field>(record: &Self::Of<T>) -> impl Iterator<Item = T> {
+        (0..Self::COUNT).map(|index| Self::field(record, index))
+    }
 }
 
 /// The record of `C` with fields of type `T`.

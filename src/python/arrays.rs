@@ -27,9 +27,6 @@ pub fn table_of_rows<T: Element>(py: Python<'_>, values: Vec<T>, width: usize) -
 }
 
 /// Frames as a dict of arrays.
-///
-/// # Errors
-/// What Python answers.
 pub fn frames(py: Python<'_>, frames: Frames, count: usize) -> PyResult<Bound<'_, PyDict>> {
     let table = PyDict::new(py);
     table.set_item("time", frames.times.into_pyarray(py))?;
@@ -74,9 +71,6 @@ fn frame_vectors(py: Python<'_>, values: Vec<f32>, count: usize) -> Bound<'_, Py
 }
 
 /// The initial state in a dict of arrays.
-///
-/// # Errors
-/// `Error::Config` naming the field that is unknown or of the wrong shape.
 pub fn initial_state(state: &Bound<'_, PyDict>) -> Result<InitialState, Error> {
     let mut initial = InitialState::default();
     for (key, value) in state.iter() {
@@ -133,9 +127,6 @@ fn rows<const N: usize>(key: &str, value: &Bound<'_, PyAny>) -> Result<Vec<[f64;
 }
 
 /// Contacts as a dict of arrays, one for each field of a record.
-///
-/// # Errors
-/// What Python answers.
 pub fn contact_table<'py>(py: Python<'py>, records: &[ContactRecord]) -> PyResult<Bound<'py, PyDict>> {
     fn grid<'py, const N: usize>(
         py: Python<'py>,

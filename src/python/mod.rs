@@ -28,7 +28,8 @@ mod _core {
     #[pymodule_export]
     const FEWEST_BLOCKS: usize = crate::observe::averages::FEWEST_BLOCKS;
 
-    /// What this build is: version, profile, physics version, target, features of the CPU it runs on.
+    /// What this build is: version, profile, physics version, target, the instructions that it is made for, and the features of
+    /// the CPU that it runs on.
     #[pyfunction]
     fn info(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
         let info = PyDict::new(py);
@@ -36,6 +37,7 @@ mod _core {
         info.set_item("build_profile", if cfg!(debug_assertions) { "debug" } else { "release" })?;
         info.set_item("physics_version", crate::PHYSICS_VERSION)?;
         info.set_item("target", format!("{}-{}", std::env::consts::ARCH, std::env::consts::OS))?;
+        info.set_item("core", super::INSTRUCTION_SET)?;
         info.set_item("cpu_features", super::cpu_features())?;
         info.set_item("cpu_count", std::thread::available_parallelism().map_or(1, usize::from))?;
         Ok(info)
@@ -84,16 +86,30 @@ mod _core {
     }
 }
 
+/// The instructions that this build is made for; `drumrs.cores` chooses by it.
+const INSTRUCTION_SET: &str = if cfg!(all(
+    target_arch = "x86_64",
+    target_feature = "avx2",
+    target_feature = "bmi2",
+    target_feature = "fma"
+)) {
+    "x86-64-v3"
+} else if cfg!(target_arch = "x86_64") {
+    "x86-64"
+} else {
+    std::env::consts::ARCH
+};
+
 /// Those features of this CPU that numeric code may care about.
 #[cfg(target_arch = "x86_64")]
 fn cpu_features() -> Vec<&'static str> {
-    let features = [
-        ("sse4.2", std::arch::is_x86_feature_detected!("sse4.2")),
-        ("avx", std::arch::is_x86_feature_detected!("avx")),
-        ("avx2", std::arch::is_x86_feature_detected!("avx2")),
-        ("fma", std::arch::is_x86_feature_detected!("fma")),
-        ("avx512f", std::arch::is_x86_feature_detected!("avx512f")),
-    ];
+    macro_rules! present {
+        ($($name:tt),*) => {
+            [$(($name, std::arch::is_x86_feature_detected!($name))),*]
+        };
+    }
+    let features =
+        present!("sse4.2", "avx", "avx2", "bmi1", "bmi2", "f16c", "fma", "lzcnt", "movbe", "avx512f");
     features.iter().filter(|(_, present)| *present).map(|(name, _)| *name).collect()
 }
 

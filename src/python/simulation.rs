@@ -295,7 +295,7 @@ impl Simulation {
 
     #[getter]
     fn warnings(&self, py: Python<'_>) -> Vec<String> {
-        self.with(py, |core| core.warnings().iter().map(ToString::to_string).collect())
+        self.with(py, |core| core.warnings())
     }
 
     #[getter]

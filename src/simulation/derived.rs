@@ -146,8 +146,8 @@ pub struct Facts {
     pub load_mass: f64,
     /// Time steps in the shortest collision.
     pub steps_per_collision: f64,
-    /// √(g/(R − r)) [rad/s], from which on a bundle stays on the rim all the way round, where there is a rim. Of several
-    /// sizes r is the greatest.
+    /// √(g/(R − r)) [rad/s], from which on a bundle stays on the rim all the way round. R is the radius of the rim, or of
+    /// the smallest circle round a shell; without either there is none. Of several sizes r is the greatest.
     pub critical_angular_velocity: Option<f64>,
     /// The greatest |Ω| over the critical one, where there is one above 0.
     pub critical_share: Option<f64>,
@@ -167,14 +167,15 @@ impl Facts {
         let fastest = config.rotation.greatest_speed();
         let largest = particles.radii.iter().copied().fold(0.0, f64::max);
         let (bundle, drum) = collision_times(table, particles);
-        let rim = config.drum.radius.filter(|_| gravity > 0.0);
-        let critical = |rim: f64| (gravity / (rim - largest)).sqrt();
+        let outer = config.drum.bounding_radius();
+        let heavy = outer.filter(|_| gravity > 0.0);
+        let critical = |radius: f64| (gravity / (radius - largest)).sqrt();
         Self {
             load_mass: particles.total_mass(),
             steps_per_collision: bundle.min(drum) / time_step,
-            critical_angular_velocity: config.drum.radius.map(critical),
-            critical_share: rim.map(|rim| fastest / critical(rim)),
-            froude_number: rim.map(|rim| fastest * fastest * rim / gravity),
+            critical_angular_velocity: outer.map(critical),
+            critical_share: heavy.map(|radius| fastest / critical(radius)),
+            froude_number: heavy.map(|radius| fastest * fastest * radius / gravity),
         }
     }
 }

@@ -39,9 +39,6 @@ pub struct InitialState {
 
 impl InitialState {
     /// The particles of this state.
-    ///
-    /// # Errors
-    /// `Error::Config` naming the field.
     pub fn particles(&self, config: &SimulationConfig, species_count: usize) -> Result<Particles, Error> {
         let count = self.positions.len();
         require(count > 0, "state.positions", "empty", "of at least one bundle")?;
@@ -89,9 +86,6 @@ impl InitialState {
 pub const START_OVERLAP_LIMIT: f64 = 0.1;
 
 /// Refuses bundles as large as the drum, and such whose centers are outside of it, in a baffle or on a wall.
-///
-/// # Errors
-/// `Error::Config` naming the first of them.
 pub fn require_inside(drum: &Drum, particles: &Particles, rotation: Rotation) -> Result<(), Error> {
     let (radii, positions) = (&particles.radii, &particles.positions);
     let rim = drum.bounding_radius().unwrap_or(f64::INFINITY);
@@ -149,7 +143,7 @@ pub fn missing(found: Lists, given: &Lists) -> Lists {
 }
 
 /// The keys of contacts, in order.
-fn sorted_keys(records: &[ContactRecord]) -> Vec<(u32, u32)> {
+pub fn sorted_keys(records: &[ContactRecord]) -> Vec<(u32, u32)> {
     let mut keys: Vec<_> = records.iter().map(ContactRecord::key).collect();
     keys.sort_unstable();
     keys

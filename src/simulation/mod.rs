@@ -20,7 +20,7 @@ use state::{EngineState, Recorded, State};
 
 use crate::engine::forces::Lists;
 use crate::engine::parallel::Threads;
-use crate::engine::{DrumMotion, Engine, memory_order, relabel};
+use crate::engine::{Engine, memory_order, relabel};
 use crate::error::Error;
 use crate::io::config::SimulationConfig;
 use crate::physics::drum::Drum;
@@ -62,9 +62,6 @@ impl Simulation {
     }
 
     /// Starts from a given state, whose particles take the place of the configured load.
-    ///
-    /// # Errors
-    /// `Error::Config` naming the field of the state or the configuration.
     #[allow(clippy::needless_pass_by_value)] // A state is made for one start.
     pub fn with_state(
         config: SimulationConfig,
@@ -131,11 +128,7 @@ impl Simulation {
     ) -> Result<Lists, Error> {
         let mut engine = Engine::new(particles, derived.world(), skin(config, particles), Threads::new(1)?);
         let angular_velocity = config.rotation.angular_velocity(0.0);
-        engine.open(
-            particles,
-            derived.world(),
-            DrumMotion { rotation, angular_velocity, step: 0, duration: 0.0 },
-        );
+        engine.open(particles, derived.world(), rotation, angular_velocity);
         Ok(engine.pass().contacts())
     }
 
@@ -173,14 +166,10 @@ impl Simulation {
 
     /// First forces, opened accounts.
     fn open(&mut self, given: &EngineState) {
-        let drum = DrumMotion {
-            rotation: Rotation::new(self.state.initial_angle),
-            angular_velocity: self.config.rotation.angular_velocity(0.0),
-            step: 0,
-            duration: 0.0,
-        };
+        let rotation = Rotation::new(self.state.initial_angle);
+        let angular_velocity = self.config.rotation.angular_velocity(0.0);
         let surfaces = if given.contacts == Lists::default() {
-            self.engine.open(&mut self.state.particles, self.derived.world(), drum);
+            self.engine.open(&mut self.state.particles, self.derived.world(), rotation, angular_velocity);
             self.engine.pass().surfaces().to_vec()
         } else {
             initial_state::add_forces(&given.contacts, &mut self.state.particles, &self.derived.drum)

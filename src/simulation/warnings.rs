@@ -1,7 +1,5 @@
 //! What a user should know of a configuration before it runs, though nothing is wrong with it.
 
-use std::fmt;
-
 use super::Simulation;
 use crate::physics::contact::law::BodyPair;
 use crate::physics::contact::linear::{collision_time, damping_ratio, undamped_collision_time};
@@ -13,107 +11,41 @@ const MUCH_SHORTER: f64 = 10.0;
 /// Steps in the shortest collision where the time step is "auto".
 const STEPS_IN_A_COLLISION: f64 = 50.0;
 
-/// What a user should know.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Warning {
-    /// Bodies that stick together once they touch: the dashpot may pull, and does so for ever.
-    Overdamped {
-        /// The two bodies.
-        bodies: String,
-        /// The table that damps them, such as `contact.bundle`.
-        key: String,
-        /// Its normal damping [N s/m].
-        damping: f64,
-        /// Damping over the critical one.
-        ratio: f64,
-    },
-    /// Damping so strong that it makes the time step much shorter.
-    ShortStep {
-        /// The table that damps, such as `contact.bundle`.
-        key: String,
-        /// What it says.
-        parameters: ContactParameters,
-        /// Damping over the critical one.
-        ratio: f64,
-        /// The time step [s].
-        time_step: f64,
-        /// What it would be without damping [s].
-        undamped: f64,
-    },
-}
-
-impl fmt::Display for Warning {
-    fn fmt(&self, formatter: &mut fmt::Formatter) -> fmt::Result {
-        match self {
-            Self::Overdamped { bodies, key, damping, ratio } => write!(
-                formatter,
-                "{bodies} will stick together where they touch: {key}.normal_damping = {damping} is {ratio:.3} times the critical damping of their masses, and {key}.tension = \"allowed\" lets it pull; give {key}.restitution instead of normal_damping, or set {key}.tension = \"clipped\""
-            ),
-            Self::ShortStep { key, parameters, ratio, time_step, undamped } => {
-                let (cause, way_out) = match (parameters.restitution, parameters.normal_damping) {
-                    (Some(restitution), _) => {
-                        (format!("{key}.restitution = {restitution:e} with tension = \"clipped\""), "raise")
-                    }
-                    (None, damping) => {
-                        (format!("{key}.normal_damping = {:e}", damping.unwrap_or_default()), "lower")
-                    }
-                };
-                write!(
-                    formatter,
-                    "run.time_step = \"auto\" is {time_step:.3e} s, {:.0} times shorter than {undamped:.3e} s without damping, since {cause} is {ratio:.3} times the critical damping; {way_out} it, or set run.time_step to at most {:.3e} s",
-                    undamped / time_step,
-                    0.1 * STEPS_IN_A_COLLISION * time_step
-                )
-            }
-        }
-    }
-}
-
-/// A contact that there may be: its bodies, and the table that is theirs.
+/// A contact that there may be.
 struct Encounter<'a> {
+    /// The two bodies.
     bodies: String,
+    /// The table that is theirs, such as `contact.bundle`.
     key: String,
     parameters: &'a ContactParameters,
     effective_mass: f64,
 }
 
 impl Encounter<'_> {
+    /// Damping over the critical one.
     fn ratio(&self) -> f64 {
         damping_ratio(self.parameters, self.effective_mass)
+    }
+
+    /// How long a collision lasts [s].
+    fn time(&self) -> f64 {
+        collision_time(self.parameters, self.effective_mass)
     }
 }
 
 impl Simulation {
     /// What a user should know before this simulation runs.
-    pub fn warnings(&self) -> Vec<Warning> {
-        let encounters = self.lightest_encounters();
+    pub fn warnings(&self) -> Vec<String> {
         if self.derived.table.base() == Base::Hertz {
             // Its damping follows from a restitution, and has no critical value that the overlap does not change.
             return Vec::new();
         }
-        let (pairs, walls) = &encounters;
-        let overdamped = [pairs, walls].into_iter().filter_map(|encounters| overdamped(encounters));
-        let all = || pairs.iter().chain(walls);
-        let short = if self.config.run.time_step.is_none() { self.short_step(all()) } else { None };
-        overdamped.chain(short).collect()
-    }
-
-    fn short_step<'a>(&self, encounters: impl Iterator<Item = &'a Encounter<'a>> + Clone) -> Option<Warning> {
-        let undamped = encounters
-            .clone()
-            .map(|encounter| undamped_collision_time(encounter.parameters, encounter.effective_mass))
-            .fold(f64::INFINITY, f64::min)
-            / STEPS_IN_A_COLLISION;
-        let time = |encounter: &Encounter| collision_time(encounter.parameters, encounter.effective_mass);
-        let shortest = encounters.min_by(|a, b| time(a).total_cmp(&time(b)))?;
-        let time_step = self.time_step();
-        (undamped > MUCH_SHORTER * time_step).then(|| Warning::ShortStep {
-            key: shortest.key.clone(),
-            parameters: shortest.parameters.clone(),
-            ratio: shortest.ratio(),
-            time_step,
-            undamped,
-        })
+        let (pairs, walls) = self.lightest_encounters();
+        let stuck = [overdamped(&pairs), overdamped(&walls)];
+        let all: Vec<_> = pairs.into_iter().chain(walls).collect();
+        let is_auto = self.config.run.time_step.is_none();
+        let short = is_auto.then(|| short_step(&all, self.time_step())).flatten();
+        stuck.into_iter().chain([short]).flatten().collect()
     }
 
     /// Between any two species, and between each and the drum, the contact of the lightest bodies: none is damped more.
@@ -149,16 +81,37 @@ impl Simulation {
     }
 }
 
-/// The most overdamped of contacts whose dashpot may pull.
-fn overdamped(encounters: &[Encounter]) -> Option<Warning> {
+/// That bodies stick together once they touch, as the dashpot may pull and does so for ever: of the most overdamped.
+fn overdamped(encounters: &[Encounter]) -> Option<String> {
     let pulling = encounters.iter().filter(|encounter| encounter.parameters.tension == Tension::Allowed);
     let worst = pulling.max_by(|a, b| a.ratio().total_cmp(&b.ratio()))?;
-    let ratio = worst.ratio();
-    (ratio >= 1.0).then(|| Warning::Overdamped {
-        bodies: worst.bodies.clone(),
-        key: worst.key.clone(),
-        damping: worst.parameters.normal_damping.unwrap_or_default(),
-        ratio,
+    let (Encounter { bodies, key, parameters, .. }, ratio) = (worst, worst.ratio());
+    let damping = parameters.normal_damping.unwrap_or_default();
+    (ratio >= 1.0).then(|| {
+        format!(
+            "{bodies} will stick together where they touch: {key}.normal_damping = {damping} is {ratio:.3} times the critical damping of their masses, and {key}.tension = \"allowed\" lets it pull; give {key}.restitution instead of normal_damping, or set {key}.tension = \"clipped\""
+        )
+    })
+}
+
+/// That damping is so strong that it makes the time step [s] much shorter.
+fn short_step(encounters: &[Encounter], time_step: f64) -> Option<String> {
+    let time =
+        |encounter: &Encounter| undamped_collision_time(encounter.parameters, encounter.effective_mass);
+    let undamped = encounters.iter().map(time).fold(f64::INFINITY, f64::min) / STEPS_IN_A_COLLISION;
+    let shortest = encounters.iter().min_by(|a, b| a.time().total_cmp(&b.time()))?;
+    let (Encounter { key, parameters, .. }, ratio) = (shortest, shortest.ratio());
+    let (cause, way_out) = match (parameters.restitution, parameters.normal_damping) {
+        (Some(restitution), _) => {
+            (format!("{key}.restitution = {restitution:e} with tension = \"clipped\""), "raise")
+        }
+        (None, damping) => (format!("{key}.normal_damping = {:e}", damping.unwrap_or_default()), "lower"),
+    };
+    let (times, greatest) = (undamped / time_step, 0.1 * STEPS_IN_A_COLLISION * time_step);
+    (undamped > MUCH_SHORTER * time_step).then(|| {
+        format!(
+            "run.time_step = \"auto\" is {time_step:.3e} s, {times:.0} times shorter than {undamped:.3e} s without damping, since {cause} is {ratio:.3} times the critical damping; {way_out} it, or set run.time_step to at most {greatest:.3e} s"
+        )
     })
 }
 

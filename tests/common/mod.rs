@@ -5,7 +5,7 @@
 use drumrs::io::config::{ContactTables, LoadParameters, RunParameters, SimulationConfig};
 use drumrs::observe::summary::summarize;
 use drumrs::physics::contact::law::{BodyPair, ContactLaw};
-use drumrs::physics::contact::linear::{Linear, LinearHistory, LinearLaw};
+use drumrs::physics::contact::linear::{Linear, LinearLaw, SpringHistory};
 use drumrs::physics::contact::parameters::{Base, ContactParameters, Tension};
 use drumrs::physics::contact::{ContactState, Kinematics, RelativeMotion, Response};
 use drumrs::physics::drum::DrumParameters;
@@ -61,13 +61,13 @@ pub fn respond(
     overlap: f64,
     [approach, slip]: [f64; 2],
     [last_overlap, stretch]: [f64; 2],
-) -> (Response<f64>, LinearHistory<f64>) {
+) -> (Response<f64>, SpringHistory<f64>) {
     let [separation_rate, slip_rate] = [-approach, slip].map(|way| way / EXACT_STEP);
     let motion = RelativeMotion { overlap, separation_rate, slip_rate, rolling_rate: 0.0 };
     let last =
         ContactState { overlap: last_overlap, separation_rate, force_x: 0.0, force_y: 0.0, moment: 0.0 };
     let contact = Kinematics::new(&motion, &last, [EXACT_STEP, 1.0 / EXACT_STEP]);
-    Linear::<true>::respond(law, &contact, &LinearHistory { tangential_displacement: stretch })
+    Linear::<true>::respond(law, &contact, &SpringHistory { tangential_displacement: stretch })
 }
 
 pub fn baffles(count: usize) -> BaffleParameters {

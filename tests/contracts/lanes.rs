@@ -4,7 +4,8 @@ use crate::common::*;
 use drumrs::engine::simd::{F64x4, LANES, Vec2x4, lanes, vectors};
 use drumrs::physics::columns::{Columns, Of};
 use drumrs::physics::contact::law::{BodyPair, ContactLaw};
-use drumrs::physics::contact::model::{BareLaw, ClippedLaw, FullLaw};
+use drumrs::physics::contact::linear::Linear;
+use drumrs::physics::contact::model::Terms;
 use drumrs::physics::contact::parameters::{ContactParameters, Tension};
 use drumrs::physics::contact::{ContactState, Flows, Kinematics, RelativeMotion, Response, Stored};
 use drumrs::physics::scalar::Scalar;
@@ -84,11 +85,11 @@ proptest! {
     fn lanes_and_numbers_give_the_same_bits(told in prop::array::uniform4(told()), clips in any::<bool>()) {
         let mut parameters = law(9.25e7);
         parameters.tension = if clips { Tension::Clipped } else { Tension::Allowed };
-        compare::<BareLaw>(&parameters, &told)?;
-        compare::<ClippedLaw>(&parameters, &told)?;
-        compare::<FullLaw>(&parameters, &told)?;
+        compare::<Linear<false>>(&parameters, &told)?;
+        compare::<Linear<true>>(&parameters, &told)?;
+        compare::<(Linear<true>, Terms)>(&parameters, &told)?;
         (parameters.rolling_friction, parameters.tangential_damping_ratio, parameters.adhesion) = (0.1, 0.3, 2.0);
-        compare::<FullLaw>(&parameters, &told)?;
+        compare::<(Linear<true>, Terms)>(&parameters, &told)?;
     }
 }
 

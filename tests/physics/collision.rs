@@ -4,7 +4,7 @@
 
 use crate::common::{self, *};
 use drumrs::physics::contact::law::ContactLaw;
-use drumrs::physics::contact::linear::{Linear, LinearHistory};
+use drumrs::physics::contact::linear::{Linear, SpringHistory};
 use drumrs::physics::contact::parameters::{ContactParameters, Tension};
 use drumrs::physics::vector::cross;
 use drumrs::simulation::Simulation;
@@ -117,7 +117,7 @@ fn friction_accounts_for_its_own_work() {
     for (stretch, slip) in
         [(0.0, 3e-7), (4e-7, 3e-7), (4.9e-7, 5e-8), (5e-7, -2e-7), (-5e-7, -4e-7), (2e-7, 1e-8)]
     {
-        let before = LinearHistory { tangential_displacement: stretch };
+        let before = SpringHistory { tangential_displacement: stretch };
         let (response, after) = respond(&law, 1e-6, [0.0, slip], [1e-6, stretch]);
         let work = 0.5 * (law.tangential_stiffness * stretch + response.tangential_force) * slip;
         let [held, holds] = [before, after].map(|history| Linear::<true>::stored(&law, 1e-6, &history));

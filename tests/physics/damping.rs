@@ -2,7 +2,7 @@
 
 use drumrs::physics::columns::Columns;
 use drumrs::physics::contact::law::{BodyPair, ContactLaw};
-use drumrs::physics::contact::linear::{Linear, LinearHistory, collision_time, damping, damping_ratio};
+use drumrs::physics::contact::linear::{Linear, SpringHistory, collision_time, damping, damping_ratio};
 use drumrs::physics::contact::parameters::{ContactParameters, Tension};
 use drumrs::physics::contact::{ContactState, Kinematics, RelativeMotion};
 
@@ -58,7 +58,7 @@ fn losses_are_never_negative() {
                 rolling_rate: 0.0,
             };
             let contact = Kinematics::new(&motion, &last, [3.7e-6, 1.0 / 3.7e-6]);
-            let history = LinearHistory { tangential_displacement: stretch };
+            let history = SpringHistory { tangential_displacement: stretch };
             let (response, _) = Linear::<true>::respond(&law, &contact, &history);
             assert!(response.flows.dissipated_normal >= 0.0, "{k}");
             assert!(response.flows.dissipated_sliding >= 0.0, "{k}");

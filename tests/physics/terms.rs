@@ -10,7 +10,7 @@ use drumrs::io::config::{PairLaw, SimulationConfig, WallLaw};
 use drumrs::observe::recorder::contact_energies;
 use drumrs::physics::contact::adhesion::Adhesion;
 use drumrs::physics::contact::law::{BodyPair, ContactLaw};
-use drumrs::physics::contact::linear::{Linear, LinearHistory};
+use drumrs::physics::contact::linear::{Linear, SpringHistory};
 use drumrs::physics::contact::model::Model;
 use drumrs::physics::contact::parameters::{ContactParameters, Tension};
 use drumrs::physics::contact::{ContactState, Kinematics, RelativeMotion};
@@ -235,7 +235,7 @@ fn where_tension_is_clipped_the_pull_stays() {
         let motion = RelativeMotion { overlap, separation_rate, slip_rate: 1.0, rolling_rate: 0.0 };
         let last = ContactState { overlap: 1e-7, separation_rate, force_x: 0.0, force_y: 0.0, moment: 0.0 };
         let contact = Kinematics::new(&motion, &last, [EXACT_STEP, 1.0 / EXACT_STEP]);
-        let history = (LinearHistory { tangential_displacement: 0.0 }, ());
+        let history = (SpringHistory { tangential_displacement: 0.0 }, ());
         <(Linear<true>, Adhesion)>::respond(&law, &contact, &history).0
     };
     let parting = respond(1e-8);

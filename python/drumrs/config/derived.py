@@ -48,9 +48,10 @@ class Facts:
     steps_per_collision
         Time steps in the shortest collision.
     critical_angular_velocity
-        √(g/(R − r)) [rad/s], from which on a bundle stays on the rim all the way round; `None` without a rim.
+        √(g/(R − r)) [rad/s], from which on a bundle stays on the rim all the way round. R is the radius of the rim, or
+        of the smallest circle round a shell, about the axis; `None` without either.
     critical_share
-        The drum's greatest speed over the critical one; `None` without a rim or gravity.
+        The drum's greatest speed over the critical one; `None` without rim and shell, or without gravity.
     froude_number
         Ω² R / g at the drum's greatest speed; `None` likewise.
     """

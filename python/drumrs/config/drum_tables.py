@@ -1,6 +1,7 @@
 """The tables of the drum: rim, baffles, liner, walls."""
 
 import math
+from collections.abc import Iterable
 from itertools import pairwise
 from typing import Annotated, Literal, Self
 
@@ -219,6 +220,10 @@ class Drum(ConfigTable):
             abs(math.fsum(x0 * y1 - x1 * y0 for (x0, y0), (x1, y1) in pairwise((*points, points[0])))) / 2.0
         )
         return math.sqrt(4.0 * area / math.pi)
+
+    def fill_of(self, radii: Iterable[float]) -> float:
+        """Return the fill of discs of these radii [m]: their area over that of the bare drum."""
+        return math.fsum((2.0 * radius) ** 2 for radius in radii) / self.area_diameter**2
 
     @property
     def fittings(self) -> str:

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
 # After Mellmann, from slow to fast, each with a mark of its own.
 REGIMES = {
     "slipping": "v",
+    "surging": "<",
     "slumping": "D",
     "rolling": "o",
     "cascading": "s",

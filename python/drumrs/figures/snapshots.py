@@ -156,7 +156,7 @@ def _reach(frames: Frames, index: int) -> float:
 def _draw_drum(axes: "Axes", frames: Frames, index: int) -> None:
     turn = _rotation(float(frames.drum_angles[index]))
     axes.add_collection(
-        PolyCollection([line @ turn.T for line in frames.baffles], facecolors=STEEL, edgecolors=STEEL)
+        PolyCollection([line @ turn.T for line in frames.drawn_baffles], facecolors=STEEL, edgecolors=STEEL)
     )
     axes.add_collection(LineCollection([line @ turn.T for line in frames.walls], colors=STEEL, linewidths=2))
     if frames.shell is not None:

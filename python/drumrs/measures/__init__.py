@@ -29,7 +29,7 @@ from drumrs.measures.colors import COLORINGS, cell_side, coloring
 from drumrs.measures.depth import depth_profile
 from drumrs.measures.laundry import curtain, knocking_and_rubbing, openness, shape_factor, washing
 from drumrs.measures.masses import disc_masses
-from drumrs.measures.motion import along_the_rim, carried_round, circulation, wall_slip
+from drumrs.measures.motion import along_the_rim, carried_round, circulation, sticking, wall_slip
 from drumrs.measures.neighbors import mixed_in_a_turn, mixing
 from drumrs.measures.orbit import Orbit, davis
 from drumrs.measures.profile import flowing_layer
@@ -103,6 +103,7 @@ __all__ = [
     "regime",
     "relative_deviation",
     "shape_factor",
+    "sticking",
     "sum_rule",
     "turning_force",
     "unbalance",

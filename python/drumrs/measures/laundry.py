@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 
 # Directions in which a disc looks, and frames that are plenty for a mean.
 _DIRECTIONS, _PLENTY = 72, 50
+# Two that touch see each other in directions that are known to round-off.
+_ROUND_OFF = 1e-9
 _GRAVITY = 9.81
 
 
@@ -140,19 +142,26 @@ def openness(points: ArrayLike, radii: ArrayLike, reach: float) -> float:
     from scipy.spatial import KDTree
 
     places, sizes = np.asarray(points, dtype=np.float64), np.asarray(radii, dtype=np.float64)
-    angles = 2.0 * math.pi * np.arange(_DIRECTIONS) / _DIRECTIONS
-    blocked = np.zeros((len(places), _DIRECTIONS), dtype=bool)
     pairs = KDTree(places).query_pairs(reach + 2.0 * float(sizes.max()), output_type="ndarray")
     disc, other = np.concatenate([pairs, pairs[:, ::-1]]).T
-    apart = places[other] - places[disc]
-    # Along a line in each direction: how far the foot of the other's center is, and how far beside the line it lies.
-    along = apart @ np.array([np.cos(angles), np.sin(angles)])
-    beside = apart @ np.array([np.sin(angles), -np.cos(angles)])
-    half_chord = np.sqrt(np.maximum(sizes[other, np.newaxis] ** 2 - beside**2, 0.0))
-    meets = (np.abs(beside) <= sizes[other, np.newaxis]) & (along > 0.0)
-    meets &= along - half_chord <= sizes[disc, np.newaxis] + reach
-    np.logical_or.at(blocked, disc, meets)
-    return 1.0 - float(blocked.mean())
+    x, y = (places[other] - places[disc]).T
+    distance, size, length = np.hypot(x, y), sizes[other], sizes[disc] + reach
+    # A disc hides an angle: that of its tangents where they are within the line's length, else that at which the line
+    # just ends on it.
+    to_tangent = np.arcsin(np.minimum(size / distance, 1.0))
+    to_end = np.arccos(np.clip((distance**2 + length**2 - size**2) / (2.0 * distance * length), -1.0, 1.0))
+    half = np.where(distance**2 - size**2 <= length**2, to_tangent, to_end)
+    step, middle = 2.0 * math.pi / _DIRECTIONS, np.arctan2(y, x)
+    first = np.ceil((middle - half) / step - _ROUND_OFF).astype(int)
+    count = np.floor((middle + half) / step + _ROUND_OFF).astype(int) + 1 - first
+    seen = (distance - size <= length) & (count > 0)
+    disc, first, count = disc[seen], first[seen] % _DIRECTIONS, count[seen]
+    # Up by one where what is hidden begins, down where it ends; an angle goes round at most once.
+    changes = np.zeros((len(places), 2 * _DIRECTIONS + 1), dtype=int)
+    np.add.at(changes, (disc, first), 1)
+    np.subtract.at(changes, (disc, first + count), 1)
+    hidden = changes.cumsum(axis=1)[:, :-1].reshape(-1, 2, _DIRECTIONS).any(axis=1)
+    return 1.0 - float(hidden.mean())
 
 
 def curtain(points: ArrayLike, radii: ArrayLike, reach: float) -> float:

@@ -137,19 +137,46 @@ def wall_slip(frames: "Frames", window: tuple[float, float]) -> Mean | None:
     ConfigError
         Where the window holds fewer than two frames.
     """
-    seen = FrameWindow.of(frames, window)
-    if not np.diff(seen.angles).any() or frames.drum_radius is None:
-        return None
-    reach = frames.drum_radius - 2.0 * _LAYER * frames.radii
-    layers = [(np.hypot(*before.T) >= reach) for before, _, _ in seen.pairs()]
-    turned, driven = np.transpose(
-        [
-            (np.sign(angle) * _swept(before, after)[layer].sum(), abs(angle) * layer.sum())
-            for (before, after, angle), layer in zip(seen.pairs(), layers, strict=True)
-        ]
-    )
-    found = ratio_of_sums(turned, driven)
+    found = ratio_of_sums(*_layer_at_the_wall(frames, window))
     return None if found is None else Mean(1.0 - found.value, found.error)
+
+
+def sticking(frames: "Frames", window: tuple[float, float]) -> Mean | None:
+    """Return the share of the time in which the layer at the wall goes with the drum, to 20 % of its angular velocity.
+
+    The layer is that of `wall_slip`, taken as a whole. A load that surges goes with the drum and slides back in turn.
+
+    Parameters
+    ----------
+    frames
+        Frames of a run, no further apart than a quarter of a turn.
+    window
+        Start and end [s].
+
+    Returns
+    -------
+    Mean or None
+        `None` where the drum does not turn, or has no rim, or nothing is at the wall.
+
+    Raises
+    ------
+    ConfigError
+        Where the window holds fewer than two frames.
+    """
+    turned, driven = _layer_at_the_wall(frames, window)
+    goes = (np.abs(turned - driven) <= _NEAR * driven) & (driven > 0.0)
+    return ratio_of_sums(goes, driven > 0.0)
+
+
+def _layer_at_the_wall(frames: "Frames", window: tuple[float, float]) -> Array:
+    """Return the angles by which its discs went the drum's way, and those of the drum, as sums from frame to frame."""
+    seen = FrameWindow.of(frames, window)
+    reach = (frames.drum_radius or np.inf) - 2.0 * _LAYER * frames.radii
+    sums = []
+    for before, after, angle in seen.pairs():
+        layer = np.hypot(*before.T) >= reach
+        sums.append((np.sign(angle) * _swept(before, after)[layer].sum(), abs(angle) * layer.sum()))
+    return np.transpose(sums)
 
 
 def _goes_with_the_drum(before: Array, after: Array, angle: float) -> NDArray[np.bool_]:

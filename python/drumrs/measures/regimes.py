@@ -1,4 +1,4 @@
-"""In which regime a load moves, by numbers: slipping, slumping, rolling, cascading, cataracting, centrifuging.
+"""In which regime a load moves, by numbers: slipping, surging, slumping, rolling, cascading, cataracting, centrifuging.
 
 The names are Mellmann's (Powder Technol. 118 (2001) 251); the numbers that decide are our own, with limits that can be
 set, for everybody draws the borders elsewhere. So the numbers come with the name.
@@ -10,19 +10,21 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from drumrs.analysis.blocks import Array
 from drumrs.errors import ConfigError
 from drumrs.measures.airborne import flights
 from drumrs.measures.depth import surface_energy
 from drumrs.measures.frame_window import counter_clockwise, within
-from drumrs.measures.motion import carried_round, circulation, wall_slip
-from drumrs.measures.surface import free_surface
+from drumrs.measures.motion import carried_round, circulation, sticking, wall_slip
+from drumrs.measures.surface import FreeSurface, free_surface
 
 if TYPE_CHECKING:
     from drumrs.analysis import Mean
     from drumrs.frames import Frames
 
 _GRAVITY = 9.81
+# A disc is thrown where it falls by more than this, over the drum's radius, and lands with that share of the energy of
+# its fall: on a bed that rolls, discs hop as well, between frames, and lose it on their way.
+_THROW, _KEPT = 0.5, 0.5
 
 
 @dataclass(frozen=True)
@@ -34,24 +36,25 @@ class RegimeLimits:
     centrifuging, partly_centrifuging
         Least ``carried_round``.
     cataracting
-        Least share of mass and time in falls.
+        Least share of mass and time in throws.
     slipping, still
         Least slip of the layer at the wall, and greatest circulation, of a load that slips.
-    slumping, recurring
-        Least standard deviation of the energy of the surface over its mean, and least correlation with itself after
-        its period, of a load that slumps.
+    surging
+        Least share of the time in which the layer at the wall of a load that slips goes with the drum all the same.
+    slumping
+        Greatest steadiness of a load that slumps.
     cascading
         Least S-shape.
     """
 
     centrifuging: float = 0.9
     partly_centrifuging: float = 0.05
-    cataracting: float = 0.05
+    cataracting: float = 0.025
     slipping: float = 0.5
     still: float = 0.1
+    surging: float = 0.25
     slumping: float = 0.5
-    recurring: float = 0.3
-    cascading: float = 0.05
+    cascading: float = 0.03
 
 
 @dataclass(frozen=True)
@@ -61,8 +64,8 @@ class Regime:
     Attributes
     ----------
     name
-        "centrifuging", "partly centrifuging", "cataracting", "slipping", "slumping", "cascading" or "rolling": the
-        first of them that holds.
+        "centrifuging", "partly centrifuging", "cataracting", "surging", "slipping", "slumping", "cascading" or
+        "rolling": the first of them that holds.
     froude_number
         Ω² R/g, at the mean speed of the window.
     inner_froude_number
@@ -70,28 +73,31 @@ class Regime:
         whole load may centrifuge.
     carried_round
         How often a bundle is carried over the top in a turn, see `carried_round`.
-    share_in_falls
-        Share of mass and time in falls, see `flights`.
+    share_in_throws
+        Share of mass and time in flights that drop by more than half of the drum's radius and land with half of the
+        energy of that fall or more, see `flights`.
     wall_slip
         Slip of the layer at the wall, see `wall_slip`.
+    sticking
+        Share of the time in which that layer goes with the drum, see `sticking`.
     circulation
         How often a disc goes round the mean center of mass in a turn.
-    unsteadiness, recurrence
-        Standard deviation over mean of the energy of the surface layer relative to the drum; greatest correlation of
-        that with itself at a later time.
+    steadiness
+        Median over mean of the energy of the surface layer relative to the drum: about 1 where it flows all the time,
+        small where it rests between avalanches.
     s_shape
-        Greatest distance of the surface from its chord, over the chord.
+        Greatest distance of the surface, without its ends, from its chord, over the chord.
     """
 
     name: str
     froude_number: float
     inner_froude_number: float
     carried_round: float
-    share_in_falls: float
+    share_in_throws: float
     wall_slip: float
+    sticking: float
     circulation: float
-    unsteadiness: float
-    recurrence: float
+    steadiness: float
     s_shape: float
 
 
@@ -100,6 +106,7 @@ def regime(
     window: tuple[float, float],
     limits: RegimeLimits | None = None,
     gravity: float = _GRAVITY,
+    surface: FreeSurface | None = None,
 ) -> Regime:
     """Return the regime in which a load moves.
 
@@ -113,6 +120,8 @@ def regime(
         Where regimes end; those of `RegimeLimits` unless given.
     gravity
         Acceleration of gravity [m/s²].
+    surface
+        `free_surface` of the same frames and window, where it is known already.
 
     Raises
     ------
@@ -134,22 +143,24 @@ def regime(
     turned = float(seen.drum_angles[-1] - seen.drum_angles[0])
     if turned == 0.0:
         raise ConfigError("window", window, "one in which the drum turns: at rest there is no regime")
-    surface = free_surface(frames, window)
+    surface = surface or free_surface(frames, window)
     shape = surface.shape()
     weights = seen.radii**2 / (seen.radii**2).sum()
     center = weights @ seen.positions.mean(axis=0, dtype=np.float64)
-    falls = flights(frames, window, gravity).filter("is_fall")
-    aloft = (falls["end"] - falls["start"]).to_numpy()
+    found = flights(frames, window, gravity)
+    falls_freely = found["speed"] ** 2 >= _KEPT * 2.0 * gravity * found["drop"]
+    throws = found.filter((found["drop"] > _THROW * surface.drum_radius) & falls_freely)
+    aloft = (throws["end"] - throws["start"]).to_numpy()
     energy = surface_energy(frames, window)
     froude = (turned / span) ** 2 * surface.drum_radius / gravity
     filling = 0.0 if math.isnan(shape["filling"]) else shape["filling"]
     numbers = {
         "carried_round": _value(carried_round(frames, window)),
-        "share_in_falls": float(weights[falls["particle"].to_numpy()] @ aloft) / span,
+        "share_in_throws": float(weights[throws["particle"].to_numpy()] @ aloft) / span,
         "wall_slip": _value(wall_slip(frames, window)),
+        "sticking": _value(sticking(frames, window)),
         "circulation": _value(circulation(frames, window, center)),
-        "unsteadiness": float(energy.std() / energy.mean()) if energy.any() else 0.0,
-        "recurrence": _recurrence(energy),
+        "steadiness": float(np.median(energy) / energy.mean()) if energy.any() else 1.0,
         "s_shape": shape["s_shape"],
     }
     return Regime(
@@ -163,13 +174,13 @@ def regime(
 def _name(numbers: dict[str, float], limits: RegimeLimits) -> str:
     """Return the name of the first regime that holds; a number that is none decides nothing."""
     slips = numbers["wall_slip"] > limits.slipping and abs(numbers["circulation"]) < limits.still
-    slumps = numbers["unsteadiness"] > limits.slumping and numbers["recurrence"] > limits.recurring
     holds = {
         "centrifuging": numbers["carried_round"] > limits.centrifuging,
         "partly centrifuging": numbers["carried_round"] > limits.partly_centrifuging,
-        "cataracting": numbers["share_in_falls"] > limits.cataracting,
+        "cataracting": numbers["share_in_throws"] > limits.cataracting,
+        "surging": slips and numbers["sticking"] > limits.surging,
         "slipping": slips,
-        "slumping": slumps,
+        "slumping": numbers["steadiness"] < limits.slumping,
         "cascading": numbers["s_shape"] > limits.cascading,
         "rolling": True,
     }
@@ -178,15 +189,3 @@ def _name(numbers: dict[str, float], limits: RegimeLimits) -> str:
 
 def _value(mean: "Mean | None") -> float:
     return math.nan if mean is None else mean.value
-
-
-def _recurrence(values: Array) -> float:
-    """Return the greatest correlation of a signal with itself after it has gone through 0, within half its length."""
-    apart = values - values.mean()
-    if not apart.any():
-        return 0.0
-    count = len(apart)
-    lags = np.correlate(apart, apart, "full")[count - 1 :] / np.arange(count, 0, -1)
-    early = lags[: count // 2 + 1] / lags[0]
-    below = np.flatnonzero(early < 0.0)
-    return float(early[below[0] :].max()) if len(below) else 0.0

@@ -15,7 +15,7 @@ from drumrs.analysis.blocks import Array, Mean, mean_with_error, ratio_of_sums
 from drumrs.errors import ConfigError
 from drumrs.measures.frame_window import FrameWindow, counter_clockwise, turn_back, with_errors, within
 from drumrs.measures.room import from_solids
-from drumrs.measures.surface import free_surface
+from drumrs.measures.surface import FreeSurface, free_surface
 from drumrs.measures.toe import toe_and_shoulder
 
 if TYPE_CHECKING:
@@ -23,6 +23,8 @@ if TYPE_CHECKING:
 
 # Places in a bin of the occupancy, along the shell and across a layer.
 _ALONG, _ACROSS = 2, 8
+# The share of its way that a drum may turn back and still be said to turn one way.
+_BACK = 0.02
 
 
 @dataclass(frozen=True, eq=False)
@@ -107,7 +109,9 @@ def occupancy(
     return Occupancy(2.0 * math.pi * (np.arange(bins) + 0.5) / bins, edges, *found)
 
 
-def charge(frames: "Frames", window: tuple[float, float]) -> dict[str, Mean]:
+def charge(
+    frames: "Frames", window: tuple[float, float], surface: FreeSurface | None = None
+) -> dict[str, Mean]:
     """Return the shape of the charge in a window.
 
     Parameters
@@ -115,7 +119,9 @@ def charge(frames: "Frames", window: tuple[float, float]) -> dict[str, Mean]:
     frames
         Frames of a run in a drum with a rim, of bundles of the same density.
     window
-        Start and end [s].
+        Start and end [s], between which the drum turns one way: a mean over to and fro is of neither.
+    surface
+        `free_surface` of the same frames and window, where it is known already.
 
     Returns
     -------
@@ -130,7 +136,7 @@ def charge(frames: "Frames", window: tuple[float, float]) -> dict[str, Mean]:
     Raises
     ------
     ConfigError
-        Where the window holds fewer than two frames, or the drum has no rim.
+        Where the window holds fewer than two frames, the drum has no rim, or turns to and fro.
 
     Notes
     -----
@@ -149,6 +155,12 @@ def charge(frames: "Frames", window: tuple[float, float]) -> dict[str, Mean]:
     seen = counter_clockwise(within(frames, window))
     drum_radius, diameter = _rim(frames), 2.0 * float(frames.radii.mean())
     every = FrameWindow.of(seen, window)
+    ways = np.diff(seen.drum_angles)
+    if -ways.clip(max=0.0).sum() > _BACK * abs(ways).sum():
+        limit = (
+            "one in which the drum turns one way: the charge lies on the other side after it has turned round"
+        )
+        raise ConfigError("window", window, limit)
     weights = seen.radii**2 / (seen.radii**2).sum()
     centers = np.einsum("fnk,n->fk", every.positions, weights)
 
@@ -157,7 +169,7 @@ def charge(frames: "Frames", window: tuple[float, float]) -> dict[str, Mean]:
         x, y = centers[chosen].mean(axis=0)
         return {"toe_angle": ends.toe, "shoulder_angle": ends.shoulder, "center_slope": math.atan2(x, -y)}
 
-    surface = free_surface(frames, window)
+    surface = surface or free_surface(frames, window)
     arm = mean_with_error(centers[:, 0] / drum_radius, every.interval)
     return {**with_errors(of_frames, every.times), **with_errors(surface.shape, surface.times), "arm": arm}
 

@@ -25,8 +25,8 @@ _COLUMNS = 81
 _PER_DIAMETER = 4.0
 # Frames that are plenty for a mean.
 _PLENTY = 200
-# The part of the surface that gives its slope: the middle half of its chord.
-_MIDDLE = 0.5
+# The parts of the surface, about the middle of its chord, that give its slope and its S-shape: its ends are rounded.
+_MIDDLE, _WITHOUT_ENDS = 0.5, 0.8
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,19 +67,23 @@ class FreeSurface:
         -------
         dict
             ``surface_slope`` [rad], of the straight line with the least squared distances from the middle half of the
-            surface; ``s_shape``, the greatest distance of the surface from its chord, over the chord's length;
+            surface; ``s_shape``, the greatest distance of the middle four fifths of the surface from their chord, over
+            the chord's length;
             ``filling``, the area between rim and surface over the drum's. Not a number where there is no bed.
         """
         height = self.heights[chosen].mean(axis=0)
         depth = height + np.sqrt((self.drum_radius - self.bundle_radius) ** 2 - self.along**2)
         bed = _longest_run(depth > self.bundle_radius)
         line = np.column_stack([self.along, height])[bed]
-        middle = line[np.abs(line[:, 0] - line[:, 0].mean()) <= 0.5 * _MIDDLE * np.ptp(line[:, 0])]
+        middle, inner = (
+            line[np.abs(line[:, 0] - line[:, 0].mean()) <= 0.5 * share * np.ptp(line[:, 0])]
+            for share in (_MIDDLE, _WITHOUT_ENDS)
+        )
         if len(middle) <= 1:
             return {"surface_slope": math.nan, "s_shape": math.nan, "filling": math.nan}
         ahead = np.linalg.svd(middle - middle.mean(axis=0))[2][0]
-        chord = line[-1] - line[0]
-        off = np.abs((line - line[0]) @ np.array([-chord[1], chord[0]])).max()
+        chord = inner[-1] - inner[0]
+        off = np.abs((inner - inner[0]) @ np.array([-chord[1], chord[0]])).max()
         return {
             "surface_slope": self.tilt + math.atan(ahead[1] / ahead[0]),
             "s_shape": float(off / (chord @ chord)),

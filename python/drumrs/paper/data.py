@@ -59,6 +59,14 @@ class StudyData:
         """Configuration of every case by its name."""
         return {case.id: case.config for case in self.sweep.cases}
 
+    @cached_property
+    def seeds(self) -> list[list[Config]]:
+        """Configurations that differ by their seeds alone, together."""
+        found: dict[str, list[Config]] = {}
+        for config in self.configs.values():
+            found.setdefault(config.replace({"run.seed": 1}).digest, []).append(config)
+        return list(found.values())
+
     def cases(self, fill: float, drum: Drum = BARE) -> list[Case]:
         """Return the finished cases of a fill in a drum, all else as in Table 1, by seed.
 
@@ -75,4 +83,4 @@ class StudyData:
 
 
 def _same_drum(config: Config, like: Config) -> bool:
-    return config.replace({"run": like.run.model_dump()}) == like
+    return all(getattr(config, part) == getattr(like, part) for part in Config.model_fields if part != "run")

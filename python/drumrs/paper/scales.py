@@ -98,8 +98,8 @@ _DEFAULT = Scale(
 # three, at a time step that is cheaper and as good (docs/accuracy.md).
 _QUICK = Scale(
     seeds=(1, 2, 3),
-    duration=10.0,
-    window=(4.0, 10.0),
+    duration=7.0,
+    window=(4.0, 7.0),
     # What N/T needs. At 25 and 30 % fill it is about 1 in the bare drum.
     fills=(0.10, 0.25, 0.30, 0.40, 0.50, 0.60, 0.75),
     fills_with_baffles=(0.15, 0.25, 0.40, 0.50, 0.60, 0.75),

@@ -31,6 +31,12 @@ def motion(_: "Material") -> "Iterator[Block]":
 def shape(of: "Material") -> "Iterator[Block]":
     """Write where the charge lies: toe, shoulder, slope, filling."""
     yield measured(of.charge, f"Angles are counter-clockwise from the horizontal, {_MIRROR}")
+    if of.other_way is not None:
+        start, end = of.other_way
+        yield measured(
+            measures.charge(of.frames, of.other_way),
+            f"The same while the drum turns the other way, t = {start:.3g} to {end:.3g} s.",
+        )
 
 
 def flow(of: "Material") -> "Iterator[Block]":
@@ -59,7 +65,7 @@ def layer(of: "Material") -> "Iterator[Block]":
 
 def regime(of: "Material") -> "Iterator[Block]":
     """Write the regime, and the numbers that decide."""
-    found = measures.regime(of.frames, of.span, gravity=of.gravity)
+    found = measures.regime(of.frames, of.span, gravity=of.gravity, surface=of.surface)
     yield f"The load is {found.name}, by the first of the limits in docs/measures/regimes.md that holds."
     numbers = [
         (name.replace("_", " "), value(one)) for name, one in asdict(found).items() if isinstance(one, float)
@@ -101,7 +107,7 @@ def circulation(of: "Material") -> "Iterator[Block]":
 def visits(of: "Material") -> "Iterator[Block]":
     """Write how often and how alike discs come to the middle of the bed's surface, where a spray would be."""
     seen = counter_clockwise(of.frames)
-    surface, diameter = measures.free_surface(seen, of.span), 2.0 * float(of.frames.radii.mean())
+    surface, diameter = of.surface, 2.0 * float(of.frames.radii.mean())
     middle = np.abs(surface.along) <= _SPRAY * surface.drum_radius
     line, up = (
         surface.points()[middle],

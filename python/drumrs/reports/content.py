@@ -5,6 +5,8 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from drumrs.errors import ConfigError
 from drumrs.registry import quantity
 from drumrs.result import with_error
@@ -89,20 +91,27 @@ def _row(name: str, mean: "Mean | None") -> Sequence[str]:
     return label, value(factor * mean.value, mean.error and factor * mean.error), own.meaning
 
 
-def value(number: float | None, error: float | None = None) -> str:
-    """Show a number with its standard error, to the error's second digit, or to four digits; a dash for none.
+def value(number: float | None, error: float | None = None, digits: int = 4) -> str:
+    """Show a number with its standard error, to the error's second digit, or to some digits; a dash for none.
 
     Examples
     --------
     >>> from drumrs.reports.content import value
-    >>> value(12.345, 0.21), value(3.2e-7), value(0.5, 0.0), value(123456.0, 3200.0)
-    ('12.35 ± 0.21', '3.2·10⁻⁷', '0.5', '(1.235 ± 0.032)·10⁵')
+    >>> value(12.345, 0.21), value(3.2e-7), value(0.5, 0.0), value(123456.0, 3200.0), value(52374.0)
+    ('12.35 ± 0.21', '3.2·10⁻⁷', '0.5', '(1.235 ± 0.032)·10⁵', '52370')
     """
     if number is None or not math.isfinite(number):
         return "–"
-    size = abs(number)
+    size = abs(float(f"{number:.{digits}g}"))
     if size == 0.0 or _PLAIN[0] <= size < _PLAIN[1]:
-        return with_error(number, error).replace("-", "−")
+        return _plain(number, error, digits).replace("-", "−")
     power = math.floor(math.log10(size))
-    mantissa = with_error(number / 10.0**power, error and error / 10.0**power)
+    mantissa = _plain(number / 10.0**power, error and error / 10.0**power, digits)
     return f"{f'({mantissa})' if error else mantissa}·10{str(power).translate(_RAISED)}".replace("-", "−")
+
+
+def _plain(number: float, error: float | None, digits: int) -> str:
+    """Show a number without a power of ten."""
+    if error:
+        return with_error(number, error)
+    return np.format_float_positional(float(f"{number:.{digits}g}"), trim="-")

@@ -38,7 +38,7 @@ def going_along(of: "Material") -> "Iterator[Block]":
 def opening(of: "Material") -> "Iterator[Block]":
     """Write how far the load opens to the air."""
     seen = within(of.frames, of.span)
-    radii, reach = seen.radii, seen.reach or of.config.drum.diameter / 2.0
+    radii, reach = seen.radii, seen.reach or of.config.drum.area_diameter / 2.0
     few = seen.picked(_every(len(seen), _SNAPSHOTS))
     interval = float(np.diff(few.times).mean())
     flies = in_flight(seen, of.gravity)
@@ -66,12 +66,12 @@ def balance(of: "Material") -> "Iterator[Block]":
 
     found = measures.unbalance(of.frames, of.span, of.masses)
     speed = of.config.derived.angular_velocity
-    force = found["turning_unbalance"].value * speed**2 if speed else None
-    note = "" if force is None else f" Bearings feel {force:.3g} N/m of it that turns with the drum."
+    force = value(found["turning_unbalance"].value * speed**2, digits=3) if speed else ""
+    note = f" Bearings feel {force} N/m of it that turns with the drum." if force else ""
     yield measured(
         found,
-        f"Over the drum’s radius, {of.config.drum.diameter / 2.0:.3g} m, and times its depth it is the mass at the "
-        f"rim, as the trade has it.{note} To judge a distribution, run many seeds: it is a matter of chance.",
+        f"Over the drum’s radius, {of.config.drum.area_diameter / 2.0:.3g} m, and times its depth it is the mass at "
+        f"the rim, as the trade has it.{note} To judge a distribution, run many seeds: it is a matter of chance.",
     )
     lengths = np.hypot(*measures.unbalance_vectors(of.frames, of.span, of.masses).T)
 

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from drumrs.analysis.blocks import Array
     from drumrs.config import Config
     from drumrs.frames import Frames
-    from drumrs.measures import Fields
+    from drumrs.measures import Fields, FreeSurface
     from drumrs.result import Result, Summary
 
 
@@ -63,14 +63,29 @@ class Material:
         """
         if self.config.derived.angular_velocity is not None:
             return self.window
+        return max(reversed(self._stretches), key=lambda each: each[1] - each[0], default=self.window)
+
+    @property
+    def other_way(self) -> tuple[float, float] | None:
+        """Start and end [s] of the longest stretch in which the drum turns the other way; `None` where it does not."""
+        turned = self._turned(self.span)
+        ways = [each for each in self._stretches if self._turned(each) * turned < 0.0]
+        return max(reversed(ways), key=lambda each: each[1] - each[0], default=None)
+
+    def _turned(self, span: tuple[float, float]) -> float:
+        times, angles = (self.result.series[name].to_numpy() for name in ("time", "drum_angle"))
+        return float(np.diff(np.interp(span, times, angles))[0])
+
+    @cached_property
+    def _stretches(self) -> list[tuple[float, float]]:
+        """Start and end of the stretches at one speed [s]."""
         knots = self.config.rotation.knots
         last = (float(self.result.series["time"][-1]), knots[-1][1])
-        stretches = [
+        return [
             (start, min(end, last[0]))
             for (start, speed), (end, other) in pairwise((*knots, last))
             if speed == other and speed
         ]
-        return max(reversed(stretches), key=lambda each: each[1] - each[0], default=self.window)
 
     @property
     def duration(self) -> float:
@@ -106,7 +121,12 @@ class Material:
     @cached_property
     def charge(self) -> "dict[str, Mean]":
         """The shape of the charge."""
-        return measures.charge(self.frames, self.span)
+        return measures.charge(self.frames, self.span, self.surface)
+
+    @cached_property
+    def surface(self) -> "FreeSurface":
+        """The free surface of the load."""
+        return measures.free_surface(self.frames, self.span)
 
     @cached_property
     def fields(self) -> "Fields":

@@ -81,7 +81,7 @@ def require_page(page: str, option: str = "page") -> None:
 def render(result: "Result", page: str) -> str:
     """Return the page of a run as text."""
     material, chosen = Material(result), PAGES[page]
-    player = Player.of(result.config, result.frames, result.series)
+    player = Player.of(result.config, result.frames, result.series, discs=result.discs)
     made = [_make(section, material) for section in chosen.sections]
     return _template().render(
         style=style(),

@@ -50,7 +50,7 @@ def power(of: "Material") -> "Iterator[Block]":
 
 def beside_the_c_model(of: "Material") -> "Iterator[Block]":
     """Write power, toe and shoulder beside those of Morrell's C-model."""
-    speed, radius, load = of.require_speed(), of.config.drum.diameter / 2.0, of.config.load
+    speed, radius, load = of.require_speed(), of.config.drum.area_diameter / 2.0, of.config.load
     if not of.gravity:
         raise ConfigError("gravity", 0.0, "more than 0, to compare with the C-model")
     filling = load.bulk_fill or of.summary.fill / (load.solid_fraction or SOLID_FRACTION)
@@ -145,11 +145,11 @@ def ledger(of: "Material") -> "Iterator[Block]":
         for name in powers_to_show({name: series[name].to_numpy() for name in series.columns})
     ]
     yield Table(("from t = 0 to the end", "[J/m]", "share of the drum’s work [%]"), rows)
+    missed, apart = (value(one, digits=2) for one in (summary.energy_residual, summary.power_disagreement))
     yield (
-        f"Every joule is accounted for: what the ledger misses is at most {summary.energy_residual:.1e} of what passed "
-        "through it, and three independent ways to the power, by torque, by energy and by angular momentum, differ by "
-        f"at most {summary.power_disagreement:.1e}, relatively. What is missing from 100 % is stored in the load, or "
-        "came with its fall at the start."
+        f"Every joule is accounted for: what the ledger misses is at most {missed} of what passed through it, and "
+        "three independent ways to the power, by torque, by energy and by angular momentum, differ by at most "
+        f"{apart}, relatively. What is missing from 100 % is stored in the load, or came with its fall at the start."
     )
     checked = list(_sums(of))
     if checked:
@@ -170,4 +170,4 @@ def _sums(of: "Material") -> "Iterator[tuple[str, str]]":
         table = getattr(of.result, record)
         if table is not None and taken:
             parts = [float(table[name].sum()) for name in table.columns if name.startswith(start)]
-            yield record, f"{math.fsum(parts) / taken - 1.0:.1e}"
+            yield record, value(math.fsum(parts) / taken - 1.0, digits=2)

@@ -33,7 +33,8 @@ function shade(value, [lowest, highest]) {
 
 // Each mode gives every bundle a number, shown times `factor` in a unit. The ends of the scale are the least and the
 // greatest number unless the mode has a range. A mode with `marked` shows where bundles were at a time of the reader's
-// choice, so that mixing shows; in one with names, a number is the place of a name.
+// choice, so that mixing shows; `name` writes a number that is no plain quantity; `lacks` says what a recording lacks for
+// the mode, or is false.
 export const MODES = {
   speed: {
     label: "Speed",
@@ -62,19 +63,35 @@ export const MODES = {
     factor: 1000,
     value: (recording, k) => 2 * recording.radii[k],
   },
+  received: {
+    label: "Energy received in the run",
+    unit: "J/m",
+    factor: 1,
+    lacks: (recording) => !recording.discs && 'add "discs" to run.record and run again',
+    value: (recording, k) => recording.discs.received[k],
+  },
+  landings: {
+    label: "Landings in the run",
+    unit: "",
+    factor: 1,
+    lacks: (recording) => !recording.discs && 'add "discs" to run.record and run again',
+    value: (recording, k) => recording.discs.landings[k],
+    name: (recording, value) => String(value),
+  },
   species: {
     label: "Species",
     unit: "",
     factor: 1,
+    lacks: (recording) => !recording.species && "the load has no species",
     range: (recording) => [0, recording.species.names.length - 1],
     value: (recording, k) => recording.species.of[k],
     name: (recording, value) => recording.species.names[value],
   },
 };
 
-// The modes of a recording: of species only where it has some.
+// The modes of a recording: those that it lacks nothing for.
 export function modesOf(recording) {
-  return Object.keys(MODES).filter((name) => name !== "species" || recording.species);
+  return Object.keys(MODES).filter((name) => !MODES[name].lacks?.(recording));
 }
 
 // How a recording is colored: by a mode, with the frame `mark` for the modes that have a marked time.

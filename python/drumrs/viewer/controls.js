@@ -2,7 +2,7 @@
 //
 // The markup is player.html; its parts are found by their classes, so nothing needs an id.
 
-import { GRADIENT, MODES, modesOf } from "./color.js";
+import { GRADIENT, MODES } from "./color.js";
 import { formatNumber } from "./format.js";
 
 const KEYS = {
@@ -16,7 +16,10 @@ const KEYS = {
   "-": (player, event, controls) => controls.changeRate(-1),
   c: (player) => player.nextMode(),
   m: (player) => player.markTime(),
+  f: (player) => player.recording.forceScale && player.show({ forces: !player.stage.forces }),
+  o: (player) => player.show({ occupied: !player.stage.occupied }),
   n: (player) => player.select(((player.selected ?? -1) + 1) % player.recording.count),
+  N: (player) => player.select(((player.selected ?? -1) + 1) % player.recording.count, true),
   Escape: (player) => player.select(null),
 };
 
@@ -35,10 +38,25 @@ export class Controls {
     on("mark", "click", () => player.markTime());
     on("marks", "change", ({ target }) => player.show({ marks: target.checked }));
     on("corotating", "change", ({ target }) => player.show({ corotating: target.checked }));
+    on("forces", "change", ({ target }) => player.show({ forces: target.checked }));
+    on("occupied", "change", ({ target }) => player.show({ occupied: target.checked }));
+    on("path", "change", ({ target }) => player.show({ path: Number(target.value) }));
     root.addEventListener("keydown", (event) => this.press(event), { signal });
     this.part("bar").style.background = GRADIENT;
-    for (const name of modesOf(player.recording)) this.part("mode").add(new Option(MODES[name].label, name));
+    for (const [name, mode] of Object.entries(MODES)) this.part("mode").add(this.option(name, mode));
+    if (!player.recording.forceScale) {
+      this.part("forces").disabled = true;
+      this.part("forces").parentElement.title = "Forces follow from the run's configuration, which was not beside its frames";
+    }
     this.describe();
+  }
+
+  // A choice of a color mode; what a recording lacks for it is said in place of an offer.
+  option(name, { label, lacks }) {
+    const lacking = lacks?.(this.player.recording);
+    const option = new Option(label, name);
+    if (lacking) Object.assign(option, { disabled: true, title: `${label}: ${lacking}` });
+    return option;
   }
 
   // Write what depends on the recording and not on the time.
@@ -81,8 +99,25 @@ export class Controls {
     this.part("player").classList.toggle("playing", playing);
     this.part("play").setAttribute("aria-label", playing ? "Pause" : "Play");
     this.part("mode").value = coloring.name;
+    for (const name of ["marks", "forces", "occupied", "corotating"]) this.part(name).checked = this.player.stage[name];
     this.writeLegend();
+    this.writeLayers();
     this.writeSelected();
+  }
+
+  // Say what the layers that are shown mean.
+  writeLayers() {
+    const { recording, stage } = this.player;
+    const words = [];
+    if (stage.forces) {
+      const [least, end] = [recording.forceScale.least, recording.forceScale.end].map(formatNumber);
+      words.push(`Lines: normal force of the contacts' springs at the nearest frame, from its overlaps, without damping and friction; from ${least}\u00a0N/m, full width from ${end}\u00a0N/m.`);
+    }
+    if (stage.occupied) {
+      const { from, to } = stage.occupancy.map;
+      words.push(`Blue: how often bundles cover a place${stage.corotating ? " of the turning drum" : ""}, from never to always, in ${from.toFixed(2)} to ${to.toFixed(2)}\u00a0s.`);
+    }
+    this.part("layers").textContent = words.join(" ");
   }
 
   writeLegend() {
@@ -99,7 +134,7 @@ export class Controls {
 
   writeSelected() {
     const { selected, scene, recording } = this.player;
-    let words = "Click a bundle to follow its path.";
+    let words = "Click a bundle to follow its path; more of them with shift.";
     if (selected !== null) {
       const { x, y, speed } = scene.bundles[selected];
       const distance = formatNumber(1000 * Math.hypot(x, y));

@@ -2,7 +2,6 @@
 
 import html
 import json
-import math
 from collections import Counter
 from dataclasses import replace
 from pathlib import Path
@@ -56,6 +55,10 @@ class Player:
         Interval of the averages [s], shaded in the curves.
     facts
         Written below the title.
+    config
+        The run's configuration, whose contact laws give the forces at contacts; they are not shown without it.
+    discs
+        ``result.discs``, for colors by energy received and by landings.
 
     Raises
     ------
@@ -81,7 +84,7 @@ class Player:
     <Player of 40 bundles, 3 frames>
     """
 
-    def __init__(
+    def __init__(  # noqa: PLR0913 - what a page shows of a run
         self,
         frames: Frames,
         series: "pl.DataFrame | None" = None,
@@ -89,6 +92,8 @@ class Player:
         title: str = "",
         window: tuple[float, float] | None = None,
         facts: str = "",
+        config: Config | None = None,
+        discs: "pl.DataFrame | None" = None,
     ) -> None:
         if not len(frames) or not frames.count:
             problem = (
@@ -97,12 +102,21 @@ class Player:
             raise ConfigError("the run", problem=problem)
         self._frames = frames
         self._series = series
+        self._config = config
+        self._discs = discs
         self.title = title
         self.window = window
         self.facts = facts
 
     @classmethod
-    def of(cls, config: Config, frames: Frames, series: "pl.DataFrame | None" = None, note: str = "") -> Self:
+    def of(
+        cls,
+        config: Config,
+        frames: Frames,
+        series: "pl.DataFrame | None" = None,
+        note: str = "",
+        discs: "pl.DataFrame | None" = None,
+    ) -> Self:
         """Return the player of a run, with a title that says what was simulated.
 
         Parameters
@@ -114,8 +128,10 @@ class Player:
             the configuration.
         note
             Added to the title.
+        discs
+            ``result.discs``, where it was recorded.
         """
-        fill = math.fsum((2.0 * frames.radii) ** 2) / config.drum.diameter**2
+        fill = config.drum.fill_of(frames.radii)
         title = config.title_of(Counter(frames.species) or frames.count, fill)
         return cls(
             frames,
@@ -123,6 +139,8 @@ class Player:
             title=f"{title}: {note}" if note else title,
             window=config.run.averaging_window,
             facts=_facts(config, fill),
+            config=config,
+            discs=discs,
         )
 
     def __repr__(self) -> str:
@@ -131,7 +149,9 @@ class Player:
 
     def recording(self) -> dict[str, Any]:
         """Return what a page reads, ready for JSON: `unpack` of recording.js makes a recording of it."""
-        return pack(self._frames, self._series, self.title, self.window, self.facts)
+        return pack(
+            self._frames, self._series, self.title, self.window, self.facts, self._config, self._discs
+        )
 
     def element(self, *, autoplay: bool = False, start: float | None = None) -> str:
         """Return the player as an HTML element; the page needs `script` once, anywhere.

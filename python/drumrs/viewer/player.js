@@ -6,7 +6,7 @@
 //   player.recording.extend({ frames });     // while a run goes on; a player at the end stays at the end
 //   player.destroy();
 //
-// To read: time [s], playing, selected (number of a bundle, or null), recording. To call: play, pause, toggle, seek,
+// To read: time [s], playing, selected (number of the bundle chosen last, or null), recording. To call: play, pause, toggle, seek,
 // seekFrame, step, select, setMode, markTime, show, destroy. Events: "time", "select", "play", "pause".
 // Markup, style and listeners stay in a shadow tree of the player's own: a page may hold any number of them, of one
 // recording or of several.
@@ -50,7 +50,7 @@ export class Player extends EventTarget {
     this.controls = new Controls(root, this, signal);
     this.panels = recording.panels.map((panel) => new Panel(root.querySelector(".panels"), panel, recording, theme, { onSeek, signal }));
     root.querySelector(".player").classList.toggle("charted", this.panels.length > 0);
-    const select = (event) => this.select(this.stage.bundleAt(event.offsetX, event.offsetY, this.scene));
+    const select = (event) => this.select(this.stage.bundleAt(event.offsetX, event.offsetY, this.scene), event.shiftKey);
     canvas.addEventListener("click", select, { signal });
   }
 
@@ -71,7 +71,7 @@ export class Player extends EventTarget {
   }
 
   get selected() {
-    return this.stage.selected;
+    return this.stage.chosen.at(-1) ?? null;
   }
 
   // Show what was added to the recording.
@@ -163,14 +163,16 @@ export class Player extends EventTarget {
     this.setMode(this.coloring.mode.marked ? this.coloring.name : "height");
   }
 
-  // Change how the drum is shown: { marks, corotating }, as stage.js has them.
+  // Change how the drum is shown: { marks, forces, occupied, corotating, path }, as stage.js has them.
   show(changes) {
     Object.assign(this.stage, changes);
     this.draw();
   }
 
-  select(bundle) {
-    this.stage.selected = bundle;
+  // Choose a bundle, or none by null; with `more`, beside those chosen before.
+  select(bundle, more = false) {
+    const before = more ? this.stage.chosen.filter((other) => other !== bundle) : [];
+    this.stage.chosen = bundle === null ? before : [...before, bundle];
     this.draw();
     this.dispatchEvent(new Event("select"));
   }

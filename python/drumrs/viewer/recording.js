@@ -1,17 +1,21 @@
 // A recording: frames in the order of their times, and the scene at any time between them.
 //
 // A frame is { time, drumAngle, positions, angles, speeds }: seconds, radians, and arrays with an entry for each bundle
-// (two for positions: x and y [m]; angles [rad]; speeds [m/s]). A panel is what plot.js draws: { title, unit, range,
-// logarithmic, times, lines: [{ name, color, values }] }.
+// (two for positions: x and y [m]; angles [rad]; speeds [m/s]). It may have `forces`: { one, other, shares }, arrays with
+// an entry for each contact: the numbers of its bundles and its force as a share of the recording's `forceScale.end`.
+// From `count` on, `other` is a direction to the drum instead: (other − count) of DIRECTIONS in a turn.
+// A panel is what plot.js draws: { title, unit, range, logarithmic, times, lines: [{ name, color, values }] }.
 
 export class Recording extends EventTarget {
   // `facts` is a line below the title; `reach` is half the width [m] of a square about the axis that holds everything;
   // `shell` is the outline of a drum that is not round, or null; `window` is the interval of the averages [s] or null;
   // `speedScale` is the speed [m/s] at the end of the color scale; there is at least one frame;
-  // `species` is null or { names, of }, of[k] being the place of bundle k's name.
-  constructor({ title = "", facts = "", radii, drumRadius, shell = null, reach, baffles = [], walls = [], window = null, speedScale = 1, panels = [], species = null, frames }) {
+  // `species` is null or { names, of }, of[k] being the place of bundle k's name; `forceScale` is null where frames have
+  // no forces, else { end, least } [N/m]: the end of the scale, and what is left out below; `discs` is null or
+  // { received, landings }: the energy that each bundle received in the run [J/m], and how often it landed.
+  constructor({ title = "", facts = "", radii, drumRadius, shell = null, reach, baffles = [], walls = [], window = null, speedScale = 1, panels = [], species = null, forceScale = null, discs = null, frames }) {
     super();
-    Object.assign(this, { title, facts, radii, drumRadius, shell, reach, baffles, walls, window, speedScale, panels, species, frames });
+    Object.assign(this, { title, facts, radii, drumRadius, shell, reach, baffles, walls, window, speedScale, panels, species, forceScale, discs, frames });
   }
 
   get count() {
@@ -95,6 +99,9 @@ export class Recording extends EventTarget {
   }
 }
 
+// How many directions the drum may lie in from a bundle that touches it.
+export const DIRECTIONS = 256;
+
 const FULL = 65535;
 const TURN = 65536;
 
@@ -114,14 +121,29 @@ export function unpack(data) {
     angles: angles.subarray(k * count, (k + 1) * count),
     speeds: speeds.subarray(k * count, (k + 1) * count),
   }));
+  if (data.forces) giveForces(frames, data.forces);
   const panels = data.panels.map((panel) => ({
     ...panel,
     times: decode(panel.times, Float32Array),
     lines: panel.lines.map((line) => ({ ...line, values: decode(line.values, Float32Array) })),
   }));
   const species = data.species && { ...data.species, of: decode(data.species.of, Uint16Array) };
+  const discs = data.discs && { received: decode(data.discs.received, Float32Array), landings: decode(data.discs.landings, Float32Array) };
+  const forceScale = data.forces && { end: data.forces.scale, least: data.forces.least };
   const { title, facts, shell, reach, baffles, walls, window, drum_radius: drumRadius, speed_scale: speedScale } = data;
-  return new Recording({ title, facts, radii, drumRadius, shell, reach, baffles, walls, window, speedScale, panels, species, frames });
+  return new Recording({ title, facts, radii, drumRadius, shell, reach, baffles, walls, window, speedScale, panels, species, forceScale, discs, frames });
+}
+
+function giveForces(frames, forces) {
+  const Numbers = forces.wide ? Uint32Array : Uint16Array;
+  const [one, other] = [decode(forces.one, Numbers), decode(forces.other, Numbers)];
+  const shares = Float32Array.from(decode(forces.shares, Uint8Array), (share) => share / 255);
+  let first = 0;
+  for (const [k, count] of decode(forces.counts, Uint32Array).entries()) {
+    const [from, to] = [first, first + count];
+    frames[k].forces = { one: one.subarray(from, to), other: other.subarray(from, to), shares: shares.subarray(from, to) };
+    first = to;
+  }
 }
 
 // Typed arrays follow the machine's byte order, which is little-endian wherever a browser runs.

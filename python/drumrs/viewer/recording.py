@@ -10,9 +10,12 @@ from numpy.typing import NDArray
 
 from drumrs.frames import Frames, thinned
 from drumrs.viewer.curves import Panel, panels_of_frames, panels_of_series
+from drumrs.viewer.forces import ContactForces, contact_forces, greatest_stiffness, resolution
 
 if TYPE_CHECKING:
     import polars as pl
+
+    from drumrs.config import Config
 
 _FULL = 65535
 _TURN = 65536
@@ -20,14 +23,26 @@ _TURN = 65536
 MOST_PLACES = 2_000_000
 # Speeds beyond this share of all are shown in the last color, so that the first fall does not use up the scale.
 _TYPICAL = 0.998
+# Likewise forces, among which those of impacts are rare and large.
+_TYPICAL_FORCE = 0.98
+# Contacts whose forces one page holds, at 5 bytes each before base64, or 9 for large loads: the strongest.
+MOST_FORCES = 500_000
+# Forces below this share of the typical greatest are not drawn.
+_FAINT = 0.03
+# Discs of frames whose contacts are looked for at once.
+_AT_ONCE = 20_000
+# Directions that a touch at the drum is told by.
+_DIRECTIONS = 256
 
 
-def pack(
+def pack(  # noqa: PLR0913, PLR0917 - what a page shows of a run
     frames: Frames,
     series: "pl.DataFrame | None",
     title: str,
     window: tuple[float, float] | None,
     facts: str = "",
+    config: "Config | None" = None,
+    discs: "pl.DataFrame | None" = None,
 ) -> dict[str, Any]:
     """Return what a page holds of one run, ready for JSON.
 
@@ -46,6 +61,10 @@ def pack(
         Interval of the averages [s], shaded.
     facts
         A line below the title.
+    config
+        The configuration, whose contact laws give forces; without it there are none.
+    discs
+        What the discs received and how often they landed, ``result.discs``, for colors.
     """
     frames = _thinned(frames)
     reach = _reach(frames)
@@ -63,10 +82,12 @@ def pack(
         "speeds": _base64(np.rint(frames.speeds / fastest * _FULL), "<u2"),
         "reach": reach,
         "fastest": fastest,
-        "speed_scale": _speed_scale(frames.speeds),
+        "speed_scale": _end_of_scale(frames.speeds),
+        "forces": None if config is None else _forces(config, frames),
+        "discs": None if discs is None else _discs(discs),
         "drum_radius": frames.drum_radius,
         "shell": None if frames.shell is None else frames.shell.tolist(),
-        "baffles": [line.tolist() for line in frames.baffles],
+        "baffles": [line.tolist() for line in frames.drawn_baffles],
         "walls": [line.tolist() for line in frames.walls],
         "window": list(window) if window is not None else None,
         "panels": [_panel(panel) for panel in panels],
@@ -115,11 +136,55 @@ def _reach(frames: Frames) -> float:
     return max([farthest + float(frames.radii.max(initial=0.0)), *outlines]) or 1.0
 
 
-def _speed_scale(speeds: NDArray[np.float32]) -> float:
-    """Return the speed at the end of the scale [m/s], to two digits upwards."""
-    typical = float(np.quantile(speeds, _TYPICAL)) if speeds.size else 0.0
+def _end_of_scale(values: NDArray[Any], share: float = _TYPICAL) -> float:
+    """Return what a share of the values stays below, to two digits upwards."""
+    typical = float(np.quantile(values, share)) if values.size else 0.0
     if typical <= 0.0:
         return 1.0
     unit = 10.0 ** (math.floor(math.log10(typical)) - 1)
-    # A round speed is not to be raised by its last bit.
+    # A round number is not to be raised by its last bit.
     return math.ceil(typical / unit - 1e-4) * unit
+
+
+def _discs(discs: "pl.DataFrame") -> dict[str, str]:
+    """Return the energy that each disc received in the whole run, and how often it landed."""
+    received = discs.select("received_normal", "received_tangential", "received_rolling").sum_horizontal()
+    landings = discs.select("drum_landings", "load_landings").sum_horizontal()
+    return {"received": _base64(received.to_numpy(), "<f4"), "landings": _base64(landings.to_numpy(), "<f4")}
+
+
+def _forces(config: "Config", frames: Frames) -> dict[str, Any]:
+    """Return the forces at the contacts of all frames, as shares of the end of their scale.
+
+    A contact is two numbers and its force; the second one, from the number of discs on, is a direction to the drum.
+    """
+    every = max(1, _AT_ONCE // frames.count)
+    chunks = [
+        _one_list(contact_forces(config, frames.picked(slice(first, first + every))), first, frames.count)
+        for first in range(0, len(frames), every)
+    ]
+    frame, one, other, force = (np.concatenate(parts) for parts in zip(*chunks, strict=True))
+    scale = _end_of_scale(force, _TYPICAL_FORCE)
+    least = max(_FAINT * scale, greatest_stiffness(config) * resolution(frames))
+    if len(force) > MOST_FORCES:
+        least = max(least, float(np.quantile(force, 1.0 - MOST_FORCES / len(force))))
+    kept = force >= least
+    kind = "<u2" if frames.count + _DIRECTIONS <= _TURN else "<u4"
+    return {
+        "scale": scale,
+        "least": least,
+        "wide": kind == "<u4",
+        "counts": _base64(np.bincount(frame[kept], minlength=len(frames)), "<u4"),
+        "one": _base64(one[kept], kind),
+        "other": _base64(other[kept], kind),
+        "shares": _base64(np.rint(255.0 * np.minimum(force[kept] / scale, 1.0)), "<u1"),
+    }
+
+
+def _one_list(found: ContactForces, first: int, count: int) -> tuple[NDArray[Any], ...]:
+    """Return frame, two numbers and force of contacts, those at the drum among them, frame by frame."""
+    ways = count + np.rint(found.directions / math.tau * _DIRECTIONS).astype(int) % _DIRECTIONS
+    frame = np.concatenate([found.frame, found.drum_frame])
+    order = np.argsort(frame, kind="stable")
+    one, other = np.concatenate([found.discs, np.column_stack([found.at_drum, ways])])[order].T
+    return first + frame[order], one, other, np.concatenate([found.forces, found.drum_forces])[order]

@@ -1,4 +1,4 @@
-"""Reads a run for the player: its frames, and the series and configuration that lie beside them."""
+"""Reads a run for the player: its frames, and what lies beside them: series, configuration, discs."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -14,11 +14,11 @@ from drumrs.viewer.recording import MOST_PLACES
 if TYPE_CHECKING:
     import polars as pl
 
-_SERIES = "series.parquet"
+_SERIES, _DISCS = "series.parquet", "discs.parquet"
 
 
 def read(path: str | Path) -> Player:
-    """Read a run for the player, with the series and configuration that lie beside its frames.
+    """Read a run for the player, with what lies beside its frames: series, configuration, discs.
 
     Parameters
     ----------
@@ -36,7 +36,7 @@ def read(path: str | Path) -> Player:
     config = config_of(path)
     if config is None:
         return Player(frames, series, title=case_of(path) or path.absolute().parent.name)
-    return Player.of(config, frames, series, _how_it_ended(path))
+    return Player.of(config, frames, series, _how_it_ended(path), _read_table(path, _DISCS))
 
 
 def default_page(frames: Path) -> Path:
@@ -69,16 +69,21 @@ def read_frames(path: Path, most: int | None = None) -> Frames:
 
 def read_series_beside(frames: Path) -> "pl.DataFrame | None":
     """Read the series that lies beside a file of frames; `None` where there is none."""
-    from polars.exceptions import PanicException, PolarsError
+    return _read_table(frames, _SERIES)
 
-    path = frames.with_name(frames.name.removesuffix(FRAMES) + _SERIES)
+
+def _read_table(frames: Path, name: str) -> "pl.DataFrame | None":
+    """Read a table that lies beside a file of frames; `None` where there is none."""
+    import polars as pl
+
+    path = frames.with_name(frames.name.removesuffix(FRAMES) + name)
     if not path.is_file():
         return None
     try:
-        return read_series(path)
-    except (PolarsError, PanicException, OSError):
+        return read_series(path) if name == _SERIES else pl.read_parquet(path)
+    except (pl.exceptions.PanicException, pl.exceptions.PolarsError, OSError):
         raise ConfigError(
-            Path(path), problem="is damaged, but must be the series that drumrs wrote"
+            path, problem=f"is damaged, but must be the {name.removesuffix('.parquet')} that drumrs wrote"
         ) from None
 
 

@@ -3,17 +3,23 @@
 //   const stage = new Stage(canvas, recording, readTheme(element));
 //   stage.draw(recording.scene(time), coloring.shades(scene));
 //
-// Set `marks` (a radius on each bundle), `corotating` (seen from the drum, which stands still) and `selected` (number of
-// a bundle, or null) at will; the next drawing follows them.
+// Set `marks` (a radius on each bundle), `forces` (lines at contacts), `occupied` (where bundles are how often, behind
+// them), `corotating` (seen from the drum, which stands still), `chosen` (numbers of bundles) and `path` (how long their
+// paths are [s]) at will; the next drawing follows them.
 
 import { prepare } from "./canvas.js";
 import { roundSteps } from "./format.js";
+import { occupancy, picture } from "./occupancy.js";
+import { DIRECTIONS } from "./recording.js";
 
 // Half the picture's width over the drum's radius: there is room for the arrow outside of the rim.
 const MARGIN = 1.13;
 const ARROW = 1.075;
 const TICKS = 24;
-const TRAIL = 1; // seconds
+// Width of the line of a force at the end of the scale, over the greatest radius.
+const THICKEST = 0.55;
+// How much of a bundle's color stays where forces or occupancy are to be seen.
+const FADED = 0.35;
 
 export class Stage {
   constructor(canvas, recording, theme) {
@@ -21,8 +27,11 @@ export class Stage {
     this.recording = recording;
     this.theme = theme;
     this.marks = true;
+    this.forces = false;
+    this.occupied = false;
     this.corotating = false;
-    this.selected = null;
+    this.chosen = [];
+    this.path = 1;
   }
 
   // From meters to pixels: y points up, and a picture seen from the drum is turned back by its angle.
@@ -34,6 +43,7 @@ export class Stage {
 
   draw(scene, shades) {
     const { context, width, height } = prepare(this.canvas);
+    const { theme } = this;
     [this.width, this.height] = [width, height];
     const { unit, x, y, turn } = this.frame(scene);
     this.context = context;
@@ -44,17 +54,18 @@ export class Stage {
     context.rotate(turn);
     this.drawDrum(scene);
     this.drawBundles(scene, shades);
-    if (this.marks) this.drawMarks(scene, shades);
-    if (this.selected !== null) this.drawSelected(scene);
+    if (this.marks && !this.faded) this.drawMarks(scene, shades);
+    if (this.forces) this.drawForces(scene);
+    this.chosen.forEach((bundle, place) => this.drawChosen(scene, bundle, [theme.accent, ...theme.lines][place % 5]));
     context.restore();
     this.drawArrow(scene);
     this.drawScale(unit);
   }
 
-  drawDrum({ drumAngle }) {
+  drawDrum(scene) {
     const { context, recording, pixel, theme } = this;
     context.save();
-    context.rotate(drumAngle);
+    context.rotate(scene.drumAngle);
     context.lineWidth = 2 * pixel;
     context.strokeStyle = context.fillStyle = theme.steel;
     if (recording.drumRadius) {
@@ -74,6 +85,7 @@ export class Stage {
       context.stroke();
       context.fillStyle = theme.steel;
     }
+    if (this.occupied) this.drawOccupancy(scene);
     for (const line of recording.baffles) {
       this.trace(line);
       context.closePath();
@@ -105,8 +117,36 @@ export class Stage {
     points.forEach(([x, y], k) => (k ? this.context.lineTo(x, y) : this.context.moveTo(x, y)));
   }
 
+  get faded() {
+    return this.forces || this.occupied;
+  }
+
+  // The map and its picture, made anew when the recording has grown, or it is seen or colored in another way.
+  get occupancy() {
+    const { recording, corotating } = this;
+    const [length, color] = [recording.frames.length, this.theme.lines[0]];
+    const known = this.known;
+    if (known?.length !== length || known.corotating !== corotating || known.color !== color) {
+      const map = occupancy(recording, corotating);
+      this.known = { length, corotating, color, map, image: picture(map, color) };
+    }
+    return this.known;
+  }
+
+  // Within the turned drum; the map of the laboratory does not turn.
+  drawOccupancy({ drumAngle }) {
+    const { context, recording, corotating } = this;
+    const { reach } = recording;
+    context.save();
+    if (!corotating) context.rotate(-drumAngle);
+    context.drawImage(this.occupancy.image, -reach, -reach, 2 * reach, 2 * reach);
+    context.restore();
+  }
+
   drawBundles({ bundles }, shades) {
     const { context, recording, pixel, theme } = this;
+    context.save();
+    if (this.faded) context.globalAlpha = FADED;
     context.lineWidth = 0.75 * pixel;
     context.strokeStyle = theme.outline;
     bundles.forEach(({ x, y }, k) => {
@@ -116,6 +156,31 @@ export class Stage {
       context.fill();
       context.stroke();
     });
+    context.restore();
+  }
+
+  // Forces of the nearest frame: from center to center, or to the drum, as wide as they are strong.
+  drawForces({ time, bundles }) {
+    const { context, recording, pixel, theme } = this;
+    const { forces } = recording.frames[recording.nearest(time)];
+    if (!forces) return;
+    const widest = THICKEST * recording.greatestRadius;
+    context.lineCap = "round";
+    for (const [color, more] of [[theme.inside, 1.5 * pixel], [theme.ink, 0]]) {
+      context.strokeStyle = color;
+      forces.one.forEach((one, k) => {
+        const { x, y } = bundles[one];
+        context.beginPath();
+        context.moveTo(x, y);
+        const other = forces.other[k];
+        const toDrum = (2 * Math.PI * (other - recording.count)) / DIRECTIONS;
+        if (other < recording.count) context.lineTo(bundles[other].x, bundles[other].y);
+        else context.lineTo(x + recording.radii[one] * Math.cos(toDrum), y + recording.radii[one] * Math.sin(toDrum));
+        context.lineWidth = Math.max(widest * forces.shares[k], 0.5 * pixel) + more;
+        context.stroke();
+      });
+    }
+    context.lineCap = "butt";
   }
 
   // A radius on each bundle shows how it spins: black on light colors, white on dark ones.
@@ -135,28 +200,28 @@ export class Stage {
     }
   }
 
-  // The chosen bundle's ring, and its path over the last second in the frame that is shown.
-  drawSelected(scene) {
-    const { context, recording, pixel, theme, selected } = this;
-    const here = scene.bundles[selected];
+  // A chosen bundle's ring, and its path up to now, as it is seen.
+  drawChosen(scene, bundle, color) {
+    const { context, recording, pixel, theme } = this;
+    const here = scene.bundles[bundle];
     context.beginPath();
     context.moveTo(here.x, here.y);
     for (let frame = recording.frameAt(scene.time); frame >= 0; frame--) {
       const { time, drumAngle } = recording.frames[frame];
-      if (time < scene.time - TRAIL) break;
-      const point = recording.position(frame, selected);
+      if (time < scene.time - this.path) break;
+      const point = recording.position(frame, bundle);
       const back = this.corotating ? scene.drumAngle - drumAngle : 0;
       const [sine, cosine] = [Math.sin(back), Math.cos(back)];
       context.lineTo(cosine * point[0] - sine * point[1], sine * point[0] + cosine * point[1]);
     }
     context.lineJoin = "round";
-    for (const [color, width] of [[theme.inside, 5], [theme.accent, 2.5]]) {
-      context.strokeStyle = color;
+    for (const [paint, width] of [[theme.inside, 5], [color, 2.5]]) {
+      context.strokeStyle = paint;
       context.lineWidth = width * pixel;
       context.stroke();
     }
     context.beginPath();
-    context.arc(here.x, here.y, recording.radii[selected] + pixel, 0, 2 * Math.PI);
+    context.arc(here.x, here.y, recording.radii[bundle] + pixel, 0, 2 * Math.PI);
     context.lineWidth = 3 * pixel;
     context.stroke();
   }

@@ -120,8 +120,8 @@ impl<L: ContactLaw> ContactList<L> {
         let state = ContactState::map(&self.blocks[block].state, |column| column[lane]);
         let moment = self.other_moments.get(block).map_or(state.moment, |moments| moments[lane]);
         let mut history = [0.0; ContactRecord::MOST_COLUMNS];
-        for (column, value) in history.iter_mut().enumerate().take(L::History::COUNT) {
-            *value = L::History::field(&self.blocks[block].history, column)[lane];
+        for (value, column) in history.iter_mut().zip(L::History::values(&self.blocks[block].history)) {
+            *value = column[lane];
         }
         ContactRecord {
             particle,
@@ -217,21 +217,13 @@ impl<L: ContactLaw> ContactList<L> {
         let (block, lane) = (index / LANES, index % LANES);
         self.put_key(index, record.key());
         let own = &mut self.blocks[block];
-        let state = record.state();
-        for column in 0..ContactState::COUNT {
-            ContactState::field_mut(&mut own.state, column)[lane] = ContactState::field(&state, column);
-        }
-        for column in 0..L::History::COUNT {
-            L::History::field_mut(&mut own.history, column)[lane] = record.history[column];
-        }
+        ContactState::set_lane(&mut own.state, lane, &record.state());
+        L::History::set_lane(&mut own.history, lane, &record.history_of::<L>());
         if let Some(moments) = self.other_moments.get_mut(block) {
             moments[lane] = record.moments[1];
         }
         if let ListParameters::Each(blocks) = &mut self.parameters {
-            for column in 0..PairParameters::<L>::COUNT {
-                let value = PairParameters::<L>::field(parameters, column);
-                PairParameters::<L>::field_mut(&mut blocks[block], column)[lane] = value;
-            }
+            PairParameters::<L>::set_lane(&mut blocks[block], lane, parameters);
         }
     }
 

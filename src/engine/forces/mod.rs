@@ -1,18 +1,21 @@
 //! The pass over contacts: which bodies touch now, geometry, law, history; then each particle's sum of forces in a fixed order.
+//!
+//! In the order in which to read: `pass`, from the engine to one chunk; `pairs`, its contacts between particles; `walls` and
+//! `outlines`, those with the drum; `opening`, how contacts begin and end; `reactions` between chunks; `totals`, `tallies` and
+//! `store`, what is kept of all that.
 
-mod accumulate;
-mod block;
-mod chunk;
 mod opening;
 mod outlines;
 mod pairs;
 mod pass;
 mod reactions;
+mod store;
 mod tallies;
 mod totals;
 mod walls;
 
-pub use pass::{ForcePass, Lists, new_pass};
+pub use pass::{ForcePass, new_pass};
+pub use store::Lists;
 pub use totals::Totals;
 
 use crate::engine::contacts::{Geometry, ListKind, PairParameters};

@@ -1,12 +1,60 @@
 //! Contacts that open and end, in an order that neither lists nor threads show in.
 
-use super::chunk::{ChunkStep, Ended, Scratch};
+use super::pass::{ChunkStep, Scratch};
 use super::{Bodies, Totals};
 use crate::engine::contacts::{ContactList, ContactRecord, ContactTally, NOT_LISTED};
 use crate::engine::motion::MotionView;
 use crate::engine::pair_list::{Neighbors, Opened};
-use crate::engine::simd::{F64x4, LANES};
+use crate::engine::simd::{ALL_LANES, F64x4, LANES};
 use crate::physics::contact::law::ContactLaw;
+
+/// The blocks of a list with contacts that have ended.
+///
+/// There is room for all before a pass begins: where a list could grow in a loop, the sums would have to be in memory in every
+/// turn, in case that fails.
+#[derive(Debug, Clone, Default)]
+pub struct Ended {
+    blocks: Vec<u32>,
+    count: usize,
+    /// Which lanes of the last of them touch.
+    touching: u32,
+}
+
+impl Ended {
+    /// None yet, of a list of so many blocks.
+    pub fn clear(&mut self, blocks: usize) {
+        if self.blocks.len() < blocks {
+            self.blocks.resize(blocks, 0);
+        }
+        self.count = 0;
+    }
+
+    /// Takes note of a block of which these lanes touch.
+    #[inline(always)]
+    pub fn note(&mut self, block: usize, touching: u32) {
+        if touching != ALL_LANES
+            && let Some(next) = self.blocks.get_mut(self.count)
+        {
+            *next = block as u32;
+            self.count += 1;
+            self.touching = touching;
+        }
+    }
+
+    /// The blocks of a list of so many contacts, ascending.
+    pub fn blocks(&self, contacts: usize) -> &[u32] {
+        let blocks = &self.blocks[..self.count];
+        match blocks.split_last() {
+            // Lanes behind the last contact never touch.
+            Some((&last, others))
+                if last as usize == contacts / LANES && self.touching == (1 << (contacts % LANES)) - 1 =>
+            {
+                others
+            }
+            _ => blocks,
+        }
+    }
+}
 
 impl<V: MotionView> ChunkStep<'_, V> {
     /// Makes contacts of neighbors that have begun to touch. Returns the sums to add to, none where the list is empty.

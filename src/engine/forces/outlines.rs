@@ -1,6 +1,6 @@
 //! Contacts of particles with edges and vertices of outlines, four at a time.
 
-use super::chunk::{ChunkStep, Scratch};
+use super::pass::{ChunkStep, Scratch};
 use super::walls::{ContactGeometry, advance, wall_records};
 use super::{StepInputs, SurfaceLoad};
 use crate::engine::contacts::ContactList;

@@ -4,8 +4,8 @@
 //! contact; whoever goes through them does so step by step, in the order of the chunks, so that neither threads nor the time of
 //! going through them shows.
 
-use super::chunk::{ChunkStep, Scratch};
 use super::outlines::Spot;
+use super::pass::{ChunkStep, Scratch};
 use crate::engine::contacts::{BlockTally, ContactEvent, ContactList, EventKind, ListKind, NO_BIN, Opening};
 use crate::engine::motion::{MotionView, offset};
 use crate::engine::simd::{F64x4, LANES};

@@ -1,5 +1,7 @@
 //! What the ledger is told of a chunk's contacts: sums by lane over all steps since they were last folded.
 
+use std::ops::Add;
+
 use serde::{Deserialize, Serialize};
 
 use crate::engine::simd::{F64x4, LANES, greatest, sum};
@@ -73,10 +75,8 @@ impl Totals<f64> {
     pub fn plus(self, other: Self) -> Self {
         Self {
             power: self.power + other.power,
-            flows: Flows::build(|flow| Flows::field(&self.flows, flow) + Flows::field(&other.flows, flow)),
-            gross_work: GrossWork::build(|way| {
-                GrossWork::field(&self.gross_work, way) + GrossWork::field(&other.gross_work, way)
-            }),
+            flows: Flows::zip(&self.flows, &other.flows, f64::add),
+            gross_work: GrossWork::zip(&self.gross_work, &other.gross_work, f64::add),
             deepest: self.deepest.max(other.deepest),
         }
     }

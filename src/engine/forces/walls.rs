@@ -2,9 +2,8 @@
 
 use wide::f64x2;
 
-use super::accumulate::ChunkSums;
-use super::block::{self, BlockForces};
-use super::chunk::{ChunkStep, Scratch};
+use super::pairs::{BlockForces, evaluate_block};
+use super::pass::{ChunkStep, ChunkSums, Scratch};
 use super::tallies::BlockRecords;
 use super::{StepInputs, SurfaceLoad, Totals};
 use crate::engine::contacts::{Block, BlockTally, ContactList, Ids, ListParameters, PairParameters};
@@ -148,7 +147,7 @@ pub fn advance<L: ContactLaw, V: MotionView, const MIXED: bool>(
         slip_rate: sliding - normal.cross(velocity) - arm * spin,
         rolling_rate: spin - F64x4::splat(inputs.angular_velocity),
     };
-    let step = block::evaluate::<L>(block, law, &motion, (normal, arm), inputs.time, totals, records);
+    let step = evaluate_block::<L>(block, law, &motion, (normal, arm), inputs.time, totals, records);
     let both = Vec2x4 { x: step.force.x + step.last.force_x, y: step.force.y + step.last.force_y };
     // What the drum does is charged to its surfaces: this is the work on the particles alone.
     totals.power -= (step.moment + step.last.moment) * spin - both.dot(velocity);

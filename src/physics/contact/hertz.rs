@@ -1,8 +1,7 @@
 //! Hertz–Mindlin: the law of elastic spheres, spread over a layer one disc diameter thick.
 
-use super::friction::TruncatedSpring;
 use super::law::{BodyPair, ContactLaw};
-use super::linear::damping_ratio_for;
+use super::linear::{SpringHistory, TruncatedSpring, damping_ratio_for};
 use super::parameters::ContactParameters;
 use super::{Flows, Kinematics, Response, Stored};
 use crate::physics::columns::{Columns, columns};
@@ -38,17 +37,9 @@ columns! {
     }
 }
 
-columns! {
-    /// What the law remembers.
-    pub struct HertzHistory {
-        /// Stretch ξ of the tangential spring [m].
-        tangential_displacement,
-    }
-}
-
 impl ContactLaw for Hertz {
     type Parameters = Self;
-    type History = HertzHistory;
+    type History = SpringHistory;
     const FLOWS: Flows<bool> = Flows { dissipated_normal: true, dissipated_sliding: true, ..Flows::NONE };
     const ROLLS: bool = false;
 
@@ -70,8 +61,8 @@ impl ContactLaw for Hertz {
     fn respond<S: Scalar>(
         law: &Hertz<S>,
         contact: &Kinematics<S>,
-        history: &HertzHistory<S>,
-    ) -> (Response<S>, HertzHistory<S>) {
+        history: &SpringHistory<S>,
+    ) -> (Response<S>, SpringHistory<S>) {
         let root = contact.overlap.sqrt();
         let elastic = law.normal_stiffness * contact.overlap * root;
         let force = elastic - law.damping * root.sqrt() * contact.separation_rate;
@@ -94,10 +85,10 @@ impl ContactLaw for Hertz {
                 ..Flows::build(|_| S::zero())
             },
         };
-        (response, HertzHistory { tangential_displacement: spring.displacement })
+        (response, SpringHistory { tangential_displacement: spring.displacement })
     }
 
-    fn stored(law: &Hertz<f64>, overlap: f64, history: &HertzHistory<f64>) -> Stored<f64> {
+    fn stored(law: &Hertz<f64>, overlap: f64, history: &SpringHistory<f64>) -> Stored<f64> {
         let (stretch, root) = (history.tangential_displacement, overlap.sqrt());
         Stored {
             elastic_normal: 0.4 * law.normal_stiffness * overlap * overlap * root,

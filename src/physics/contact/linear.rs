@@ -2,7 +2,6 @@
 
 use std::f64::consts::PI;
 
-use super::friction::TruncatedSpring;
 use super::law::{BodyPair, ContactLaw};
 use super::parameters::{ContactParameters, Tension};
 use super::{Flows, Kinematics, Response, Stored};
@@ -32,8 +31,8 @@ columns! {
 }
 
 columns! {
-    /// What the law remembers.
-    pub struct LinearHistory {
+    /// What a law with such a spring remembers.
+    pub struct SpringHistory {
         /// Stretch ξ of the tangential spring [m].
         tangential_displacement,
     }
@@ -45,7 +44,7 @@ pub struct Linear<const CLIPS: bool>;
 
 impl<const CLIPS: bool> ContactLaw for Linear<CLIPS> {
     type Parameters = LinearLaw;
-    type History = LinearHistory;
+    type History = SpringHistory;
     const FLOWS: Flows<bool> = Flows { dissipated_normal: true, dissipated_sliding: true, ..Flows::NONE };
     const ROLLS: bool = false;
 
@@ -64,8 +63,8 @@ impl<const CLIPS: bool> ContactLaw for Linear<CLIPS> {
     fn respond<S: Scalar>(
         law: &LinearLaw<S>,
         contact: &Kinematics<S>,
-        history: &LinearHistory<S>,
-    ) -> (Response<S>, LinearHistory<S>) {
+        history: &SpringHistory<S>,
+    ) -> (Response<S>, SpringHistory<S>) {
         let mut force = law.normal_stiffness * contact.overlap - law.damping * contact.separation_rate;
         if CLIPS {
             force = force.larger(law.least_normal_force);
@@ -91,10 +90,10 @@ impl<const CLIPS: bool> ContactLaw for Linear<CLIPS> {
                 ..Flows::build(|_| S::zero())
             },
         };
-        (response, LinearHistory { tangential_displacement: spring.displacement })
+        (response, SpringHistory { tangential_displacement: spring.displacement })
     }
 
-    fn stored(law: &LinearLaw<f64>, overlap: f64, history: &LinearHistory<f64>) -> Stored<f64> {
+    fn stored(law: &LinearLaw<f64>, overlap: f64, history: &SpringHistory<f64>) -> Stored<f64> {
         let stretch = history.tangential_displacement;
         Stored {
             elastic_normal: 0.5 * law.normal_stiffness * overlap * overlap,
@@ -102,6 +101,45 @@ impl<const CLIPS: bool> ContactLaw for Linear<CLIPS> {
             ..Stored::build(|_| 0.0)
         }
     }
+}
+
+/// What a truncated spring answers.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct TruncatedSpring<S: Scalar> {
+    /// Stretch ξ after the step [m].
+    pub(super) displacement: S,
+    /// Force Fₜ = kₛ ξ [N/m].
+    pub(super) force: S,
+    /// Energy that sliding took [J/m].
+    pub(super) dissipated: S,
+    /// Where nothing was truncated.
+    pub(super) sticking: S::Mask,
+}
+
+impl<S: Scalar> TruncatedSpring<S> {
+    /// A spring stretched by `last` that slips by `slip` more, of stiffness kₛ, and no farther than `limit` [m]: where it
+    /// would be, it is truncated, and the lost stretch is sliding (Park & Wassgren, Eq. 2).
+    #[inline(always)]
+    pub(super) fn new(stiffness: S, limit: S, last: S, slip: S) -> Self {
+        let trial = last + slip;
+        let displacement = trial.clamped(limit);
+        Self {
+            displacement,
+            force: stiffness * displacement,
+            dissipated: sliding_loss(stiffness, last, displacement, trial - displacement),
+            sticking: displacement.equals(trial),
+        }
+    }
+}
+
+/// Work of the friction force over the stretch that truncation took away: mean of the forces before and after, or the
+/// force after where the bodies slid against the force before. Never below zero, since sliding goes the way of the force after.
+/// Where the contact has ended, nothing is left after, and this is all that the spring held.
+#[inline(always)]
+fn sliding_loss<S: Scalar>(stiffness: S, before: S, after: S, slid: S) -> S {
+    let turned = S::zero().exceeds(before * slid);
+    let mean = S::select(turned, after, (before + after) * S::splat(0.5));
+    stiffness * (mean * slid)
 }
 
 /// The dashpot's force at mid-step times the travel. Where the whole force is clipped, the dashpot holds just the spring.

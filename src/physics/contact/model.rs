@@ -1,55 +1,33 @@
 //! The list of laws: which base law a simulation has, which terms act with it, and whether more is recorded of its contacts.
 
 use super::adhesion::Adhesion;
-use super::hertz::Hertz;
-use super::linear::Linear;
 use super::parameters::{Base, ContactParameters};
 use super::rolling::RollingResistance;
 use super::species::SpeciesTable;
 use super::tangential_dashpot::TangentialDashpot;
-use super::with_records::WithRecords;
 
 /// The terms that act with the linear law, in this order.
 pub type Terms = (RollingResistance, (TangentialDashpot, Adhesion));
-
-/// The base law alone, tension allowed.
-pub type BareLaw = Linear<false>;
-/// The base law alone, tension clipped for some contacts.
-pub type ClippedLaw = Linear<true>;
-/// The base law with all terms.
-pub type FullLaw = (Linear<true>, Terms);
-
-/// Hertz–Mindlin alone.
-pub type BareHertzLaw = Hertz;
-/// Hertz–Mindlin with the terms that do not go with the tangential stiffness.
-pub type FullHertzLaw = (Hertz, Adhesion);
-
-/// `ClippedLaw` with records; where tension is allowed, nothing is clipped.
-pub type RecordedClippedLaw = WithRecords<ClippedLaw>;
-/// `FullLaw` with records.
-pub type RecordedFullLaw = WithRecords<FullLaw>;
-/// `FullHertzLaw` with records.
-pub type RecordedFullHertzLaw = WithRecords<FullHertzLaw>;
 
 /// Which law a simulation has. Chosen once: a term that is 0 for every pair costs nothing, nor does a record that nobody asked
 /// for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Model {
-    /// `BareLaw`
+    /// The linear law alone, tension allowed.
     Bare,
-    /// `ClippedLaw`
+    /// The same, tension clipped for some contacts.
     Clipped,
-    /// `FullLaw`
+    /// The linear law with all terms.
     Full,
-    /// `BareHertzLaw`
+    /// Hertz–Mindlin alone.
     Hertz,
-    /// `FullHertzLaw`
+    /// Hertz–Mindlin with the terms that do not go with the tangential stiffness.
     FullHertz,
-    /// `RecordedClippedLaw`
+    /// `Clipped` with records; where tension is allowed, nothing is clipped.
     RecordedClipped,
-    /// `RecordedFullLaw`
+    /// `Full` with records.
     RecordedFull,
-    /// `RecordedFullHertzLaw`
+    /// `FullHertz` with records.
     RecordedFullHertz,
 }
 
@@ -57,15 +35,15 @@ impl Model {
     /// The simplest one that does what the table asks for, with records of contacts or not.
     pub fn of(table: &SpeciesTable, is_recorded: bool) -> Self {
         let has_terms = table.all().any(ContactParameters::has_terms);
-        match table.base() {
-            Base::Hertz if is_recorded => Self::RecordedFullHertz,
-            Base::Linear if is_recorded && has_terms => Self::RecordedFull,
-            Base::Linear if is_recorded => Self::RecordedClipped,
-            Base::Hertz if has_terms => Self::FullHertz,
-            Base::Hertz => Self::Hertz,
-            Base::Linear if has_terms => Self::Full,
-            Base::Linear if table.clips() => Self::Clipped,
-            Base::Linear => Self::Bare,
+        match (table.base(), is_recorded, has_terms) {
+            (Base::Linear, false, false) if table.clips() => Self::Clipped,
+            (Base::Linear, false, false) => Self::Bare,
+            (Base::Linear, false, true) => Self::Full,
+            (Base::Linear, true, false) => Self::RecordedClipped,
+            (Base::Linear, true, true) => Self::RecordedFull,
+            (Base::Hertz, false, false) => Self::Hertz,
+            (Base::Hertz, false, true) => Self::FullHertz,
+            (Base::Hertz, true, _) => Self::RecordedFullHertz,
         }
     }
 }
@@ -74,15 +52,19 @@ impl Model {
 macro_rules! with_law {
     ($model:expr, $law:ident => $work:expr) => {
         $crate::physics::contact::model::with_law!($model, $law => $work;
-            Bare BareLaw, Clipped ClippedLaw, Full FullLaw, Hertz BareHertzLaw, FullHertz FullHertzLaw,
-            RecordedClipped RecordedClippedLaw, RecordedFull RecordedFullLaw,
-            RecordedFullHertz RecordedFullHertzLaw)
+            Bare: Linear<false>, Clipped: Linear<true>, Full: (Linear<true>, Terms),
+            Hertz: Hertz, FullHertz: (Hertz, Adhesion),
+            RecordedClipped: WithRecords<Linear<true>>,
+            RecordedFull: WithRecords<(Linear<true>, Terms)>,
+            RecordedFullHertz: WithRecords<(Hertz, Adhesion)>)
     };
-    ($model:expr, $law:ident => $work:expr; $($value:ident $type:ident),*) => {{
-        use $crate::physics::contact::model as laws;
+    ($model:expr, $law:ident => $work:expr; $($value:ident: $type:ty),*) => {{
+        use $crate::physics::contact::model::{Model, Terms};
+        use $crate::physics::contact::with_records::WithRecords;
+        use $crate::physics::contact::{adhesion::Adhesion, hertz::Hertz, linear::Linear};
         match $model {
-            $(laws::Model::$value => {
-                type $law = laws::$type;
+            $(Model::$value => {
+                type $law = $type;
                 $work
             })*
         }

@@ -1,7 +1,7 @@
 //! Rolling resistance of type C: a rotational spring that yields (Ai et al., Powder Technology 206 (2011) 269).
 
-use super::friction::TruncatedSpring;
 use super::law::{BodyPair, ContactTerm};
+use super::linear::TruncatedSpring;
 use super::parameters::ContactParameters;
 use super::{Flows, Kinematics, Response, Stored};
 use crate::physics::columns::columns;

@@ -1,10 +1,11 @@
 //! Baffles and lifters: sets of equal solid shapes, spread evenly round the drum.
 
+use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
 use serde::{Deserialize, Serialize};
 
-use super::polygon::signed_area;
+use super::polygon::{signed_area, vectors};
 use super::rounding::rounded;
 use crate::physics::vector::{Rotation, Vec2};
 
@@ -124,7 +125,7 @@ impl BaffleParameters {
             }
             BaffleShape::Outline => self.corners().to_vec(),
         };
-        let mut points: Vec<Vec2> = corners.into_iter().map(Vec2::from).collect();
+        let mut points = vectors(&corners);
         if signed_area(&points) < 0.0 {
             points.reverse();
         }
@@ -136,4 +137,18 @@ impl BaffleParameters {
 /// returns the distance.
 pub(super) fn half_chord(radius: f64, distance: f64) -> f64 {
     ((radius - distance) * (radius + distance)).sqrt()
+}
+
+/// A name for each member of some sets, given as a name and a number of members: "baffle 1", "baffle 2", … Members of sets
+/// of the same name are counted on.
+pub(super) fn part_names<'a>(sets: impl Iterator<Item = (&'a str, usize)>) -> Vec<String> {
+    let mut counts = BTreeMap::new();
+    let members = sets.flat_map(|(name, count)| std::iter::repeat_n(name, count));
+    members
+        .map(|name| {
+            let number: &mut usize = counts.entry(name).or_default();
+            *number += 1;
+            format!("{name} {number}")
+        })
+        .collect()
 }

@@ -3,8 +3,8 @@
 //!
 //! A `Drum` never moves; `rotation` says how its frame turns. What a disc can touch is counted in features:
 //! the rim, and every edge and vertex of the outlines. Each contact belongs to one of them. Walls that meet are
-//! one outline. A shell is an outline whose solid lies outside of it; to users it is the rim. Lengths enter by comparison with each other only, so that a drum four times as large answers
-//! with the same bits, scaled.
+//! one outline. A shell is an outline whose solid lies outside of it; to users it is the rim. Lengths enter by
+//! comparison with each other only, so that a drum four times as large answers with the same bits, scaled.
 
 pub mod baffle;
 pub mod bins;
@@ -13,7 +13,6 @@ mod graph;
 mod network;
 mod outline;
 mod parameters;
-mod parts;
 mod polygon;
 mod rounding;
 mod segment;
@@ -22,11 +21,11 @@ mod visibility;
 
 use crate::error::Error;
 use crate::physics::vector::Vec2;
+use baffle::part_names;
 use feature::{Feature, FeatureShape};
 use graph::Graph;
 use outline::Outline;
 pub use parameters::DrumParameters;
-use parts::part_names;
 use polygon::length;
 use segment::Segment;
 pub use validate::MOST_BAFFLES;
@@ -77,7 +76,7 @@ impl Drum {
         parameters.validate()?;
         let sets = &parameters.baffles;
         let baffles: Vec<_> = sets.iter().flat_map(|set| set.outlines(parameters.radius)).collect();
-        let walls = parameters.walls.iter().map(|wall| wall.iter().map(|&point| point.into()).collect());
+        let walls = parameters.walls.iter().map(|wall| polygon::vectors(wall));
         let named = sets.iter().map(|set| (set.name.as_str(), set.count));
         let parts = part_names(named.chain([("wall", parameters.walls.len())]));
         let mut drum = Self {
@@ -143,11 +142,6 @@ impl Drum {
     /// Number of baffles.
     pub fn baffle_count(&self) -> usize {
         self.baffle_count
-    }
-
-    /// Number of walls.
-    pub fn wall_count(&self) -> usize {
-        self.shapes.len() - self.baffle_count
     }
 
     /// Number of features, the rim included; every feature's id is below it.

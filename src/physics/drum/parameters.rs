@@ -4,9 +4,10 @@ use serde::{Deserialize, Serialize};
 
 use super::baffle::BaffleParameters;
 use super::graph::Graph;
-use super::validate::{MOST_BAFFLES, simple_polygon, validate_spacing, validate_unit};
-use super::{network, polygon};
-use crate::error::{Error, require, require_finite, require_positive};
+use super::network;
+use super::polygon::{self, vectors};
+use super::validate::{MOST_BAFFLES, require_all_finite, simple_polygon, validate_spacing, validate_unit};
+use crate::error::{Error, require, require_positive};
 use crate::physics::vector::Vec2;
 
 /// Rim or shell, baffles and straight walls, as a user describes them.
@@ -40,11 +41,7 @@ impl DrumParameters {
         self.validate_size()?;
         validate_spacing(&self.baffles, self.radius)?;
         for (index, wall) in self.walls.iter().enumerate() {
-            validate_wall(index, wall)?;
-            if let Some(radius) = self.radius {
-                let points: Vec<Vec2> = wall.iter().map(|&point| point.into()).collect();
-                validate_unit(&format!("drum.walls[{index}]"), &points, radius)?;
-            }
+            validate_wall(&format!("drum.walls[{index}]"), wall, self.radius)?;
         }
         self.joined_walls().map(drop)
     }
@@ -57,7 +54,7 @@ impl DrumParameters {
 
     /// The corners of the shell in clockwise order: the solid lies outside, to their left.
     pub(super) fn shell_corners(&self) -> Option<Vec<Vec2>> {
-        let mut corners: Vec<Vec2> = self.shell.as_ref()?.iter().map(|&corner| corner.into()).collect();
+        let mut corners = vectors(self.shell.as_ref()?);
         if corners.len() > 3 && corners.first() == corners.last() {
             corners.pop();
         }
@@ -70,15 +67,9 @@ impl DrumParameters {
     fn validate_shell(&self) -> Result<(), Error> {
         let (Some(shell), Some(corners)) = (&self.shell, self.shell_corners()) else { return Ok(()) };
         let key = "drum.liner";
-        for coordinate in shell.iter().flatten() {
-            require_finite(key, *coordinate)?;
-        }
-        require(
-            self.radius.is_none(),
-            "drum.rim",
-            "true",
-            "false where a closed outline is the drum itself",
-        )?;
+        require_all_finite(key, shell)?;
+        let limit = "false where a closed outline is the drum itself";
+        require(self.radius.is_none(), "drum.rim", "true", limit)?;
         let found = format!("an outline of {} corners", corners.len());
         require(corners.len() >= 3, key, found, "an outline of at least 3 corners")?;
         let sides = simple_polygon(key, &corners)?;
@@ -113,12 +104,8 @@ impl DrumParameters {
             ("drum.walls", longest, each, " in one wall"),
             ("drum", total, all, " in baffles and walls together"),
         ] {
-            require(
-                found <= limit,
-                key,
-                format!("of {found} corners{place}"),
-                format!("of at most {limit}"),
-            )?;
+            let corners = format!("of {found} corners{place}");
+            require(found <= limit, key, corners, format!("of at most {limit}"))?;
         }
         Ok(())
     }
@@ -128,29 +115,20 @@ impl DrumParameters {
 /// outline, so that time and memory to find out grow with the square of the one and with the product of both.
 const MOST_CORNERS: (usize, usize) = (1000, 20_000);
 
-/// Checks the wall at this place of the list.
-fn validate_wall(index: usize, wall: &[[f64; 2]]) -> Result<(), Error> {
-    let key = format!("drum.walls[{index}]");
-    for coordinate in wall.iter().flatten() {
-        require_finite(&key, *coordinate)?;
-    }
-    require(
-        wall.len() >= 2,
-        &key,
-        format!("a line of {} points", wall.len()),
-        "a line of at least 2 points",
-    )?;
-    let points: Vec<Vec2> = wall.iter().map(|&point| point.into()).collect();
+/// Checks a wall, given its key and the radius of the rim.
+fn validate_wall(key: &str, wall: &[[f64; 2]], radius: Option<f64>) -> Result<(), Error> {
+    require_all_finite(key, wall)?;
+    let found = format!("a line of {} points", wall.len());
+    require(wall.len() >= 2, key, found, "a line of at least 2 points")?;
+    let points = vectors(wall);
     let segments = polygon::segments(&points, false);
     if let Some(side) = polygon::empty_segment(&segments) {
         let found = format!("a line whose points {} and {} are the same", side + 1, side + 2);
         return Err(Error::config(key, found, "a line of distinct points"));
     }
-    match segments.windows(2).position(|pair| polygon::folds_back(&pair[0], &pair[1])) {
-        Some(corner) => {
-            let found = format!("a line that folds back on itself at point {}", corner + 2);
-            Err(Error::config(key, found, "a line that does not"))
-        }
-        None => Ok(()),
+    if let Some(corner) = segments.windows(2).position(|pair| polygon::folds_back(&pair[0], &pair[1])) {
+        let found = format!("a line that folds back on itself at point {}", corner + 2);
+        return Err(Error::config(key, found, "a line that does not"));
     }
+    radius.map_or(Ok(()), |radius| validate_unit(key, &points, radius))
 }

@@ -3,6 +3,11 @@
 use super::segment::Segment;
 use crate::physics::vector::{Vec2, cross, dot};
 
+/// Points as vectors.
+pub(super) fn vectors(points: &[[f64; 2]]) -> Vec<Vec2> {
+    points.iter().map(|&point| point.into()).collect()
+}
+
 /// The segments of a polyline in order; a closed one ends with that from the last point to the first.
 pub(super) fn segments(points: &[Vec2], closed: bool) -> Vec<Segment> {
     let closing = points.last().zip(points.first()).filter(|_| closed);
@@ -60,17 +65,13 @@ pub(super) fn length(v: Vec2) -> f64 {
 mod tests {
     use super::*;
 
-    fn points(list: &[[f64; 2]]) -> Vec<Vec2> {
-        list.iter().map(|&p| p.into()).collect()
-    }
-
     fn closed(list: &[[f64; 2]]) -> Vec<Segment> {
-        segments(&points(list), true)
+        segments(&vectors(list), true)
     }
 
     #[test]
     fn area_has_the_sign_of_the_orientation() {
-        let square = points(&[[1.0, 1.0], [3.0, 1.0], [3.0, 3.0], [1.0, 3.0]]);
+        let square = vectors(&[[1.0, 1.0], [3.0, 1.0], [3.0, 3.0], [1.0, 3.0]]);
         assert_eq!(signed_area(&square), 4.0);
         let reversed: Vec<Vec2> = square.into_iter().rev().collect();
         assert_eq!(signed_area(&reversed), -4.0);

@@ -1,8 +1,7 @@
 //! Which baffles are possible: their numbers, their shape inside the rim, and the space between them and others.
 
-use super::baffle::{BaffleParameters, BaffleShape, half_chord};
+use super::baffle::{BaffleParameters, BaffleShape, half_chord, part_names};
 use super::outline::Bounds;
-use super::parts::part_names;
 use super::polygon::{contains, empty_segment, first_crossing, length, segments};
 use super::rounding::greatest_radius;
 use super::segment::Segment;
@@ -20,12 +19,8 @@ impl BaffleParameters {
         if self.count == 0 {
             return Ok(());
         }
-        require(
-            self.count <= MOST_BAFFLES,
-            "drum.baffles.count",
-            self.count,
-            format!("at most {MOST_BAFFLES}"),
-        )?;
+        let limit = format!("at most {MOST_BAFFLES}");
+        require(self.count <= MOST_BAFFLES, "drum.baffles.count", self.count, limit)?;
         match (self.shape, radius) {
             (BaffleShape::Outline, _) | (BaffleShape::Polygon, Some(_)) => self.validate_points(radius)?,
             (_, None) => {
@@ -46,10 +41,7 @@ impl BaffleParameters {
         require_non_negative("drum.baffles.corner_radius", self.corner_radius)?;
         require_positive("drum.baffles.chord_error", self.chord_error)?;
         require_finite("drum.baffles.phase", self.phase)?;
-        for coordinate in self.points.iter().flatten().flatten() {
-            require_finite(self.points_key(), *coordinate)?;
-        }
-        Ok(())
+        self.points.as_ref().map_or(Ok(()), |points| require_all_finite(self.points_key(), points))
     }
 
     fn validate_base(&self, radius: f64) -> Result<(), Error> {
@@ -145,6 +137,11 @@ pub(super) fn validate_spacing(sets: &[BaffleParameters], radius: Option<f64>) -
 
 fn are_apart(one: &[Segment], other: &[Segment]) -> bool {
     !one.iter().any(|segment| other.iter().any(|side| segment.meets(side)))
+}
+
+/// Refuses points that are not finite.
+pub(super) fn require_all_finite(key: &str, points: &[[f64; 2]]) -> Result<(), Error> {
+    points.iter().flatten().try_for_each(|&coordinate| require_finite(key, coordinate))
 }
 
 /// The sides of a closed polygon; refuses one that is not simple.

@@ -7,6 +7,8 @@
 mod moments;
 mod sum;
 
+use std::ops::Sub;
+
 use serde::{Deserialize, Serialize};
 
 pub use moments::MomentBalance;
@@ -75,12 +77,12 @@ impl StoredEnergy {
 
     /// What contacts hold, all together.
     pub fn of_contacts(&self) -> f64 {
-        (0..Stored::COUNT).map(|k| Stored::field(&self.contacts, k)).sum()
+        Stored::values(&self.contacts).sum()
     }
 
     /// Sum of the parts' magnitudes: the scale that round-off is held against.
     fn scale(&self) -> f64 {
-        let contacts: f64 = (0..Stored::COUNT).map(|k| Stored::field(&self.contacts, k).abs()).sum();
+        let contacts: f64 = Stored::values(&self.contacts).map(f64::abs).sum();
         self.kinetic_translation.abs() + self.kinetic_rotation.abs() + self.gravitational.abs() + contacts
     }
 }
@@ -106,14 +108,11 @@ impl EnergyLedger {
     /// Accounts opened with what is stored, and what pushes, at the start.
     pub fn open(stored: StoredEnergy, moments: MomentBalance, surfaces: &[SurfaceLoad]) -> Self {
         Self {
-            taken: Sum::default(),
-            flows: Flows::build(|_| Sum::default()),
-            gross_work: GrossWork::build(|_| Sum::default()),
             surfaces: surfaces.iter().map(|load| SurfaceAccount(Integrals::from(load.rates()))).collect(),
             moments,
             initial: stored,
             greatest_stored: stored.scale(),
-            overlap_ratio: 0.0,
+            ..Self::default()
         }
     }
 
@@ -161,13 +160,12 @@ impl EnergyLedger {
 
     /// Energy taken by all flows [J/m].
     pub fn dissipated(&self) -> f64 {
-        (0..Flows::COUNT).map(|flow| self.flow(flow)).sum()
+        Flows::values(&self.flows).map(|sum| sum.value()).sum()
     }
 
     /// What contacts hold more than at the start, part by part [J/m].
     pub fn stored_since_start(&self, stored: &StoredEnergy) -> Stored<f64> {
-        let (now, initial) = (&stored.contacts, &self.initial.contacts);
-        Stored::build(|k| Stored::field(now, k) - Stored::field(initial, k))
+        Stored::zip(&stored.contacts, &self.initial.contacts, f64::sub)
     }
 
     /// Work of the whole drum on the load [J/m]: the first of the three powers, integrated.
@@ -188,7 +186,7 @@ impl EnergyLedger {
 
     /// |residual| over the greater of Σ |flows| and the greatest stored energy; 0 where both vanish.
     pub fn relative_residual(&self, stored: &StoredEnergy) -> f64 {
-        let flows: f64 = (0..Flows::COUNT).map(|flow| self.flow(flow).abs()).sum();
+        let flows: f64 = Flows::values(&self.flows).map(|sum| sum.value().abs()).sum();
         let flows = self.drum_work().abs() + flows + self.numerical(stored).abs();
         let scale = flows.max(self.greatest_stored);
         if scale > 0.0 { self.residual(stored).abs() / scale } else { 0.0 }

@@ -53,9 +53,6 @@ pub struct Composition {
 
 impl Composition {
     /// Species with their shares, counted by a measure.
-    ///
-    /// # Errors
-    /// `Error::Config` naming the key.
     pub fn new(species: &[SpeciesParameters], share_by: Measure) -> Result<Self, Error> {
         let mut sizes = Vec::new();
         for (index, own) in species.iter().enumerate() {
@@ -80,9 +77,6 @@ impl Composition {
     }
 
     /// Refuses discs that are as large as a drum of this radius [m].
-    ///
-    /// # Errors
-    /// `Error::Config` naming the species.
     pub fn require_smaller(&self, rim: f64) -> Result<(), Error> {
         self.sizes.iter().enumerate().try_for_each(|(index, sizes)| {
             let (smallest, largest) = sizes.range();

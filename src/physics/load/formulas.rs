@@ -45,9 +45,6 @@ const DEVIATIONS: f64 = 3.090_232_306_167_813_5;
 
 impl Formula {
     /// Checks its parameters; `key` is what a user writes before them.
-    ///
-    /// # Errors
-    /// `Error::Config` naming the key.
     pub fn validate(&self, key: &str) -> Result<(), Error> {
         let [(first, size), (second, width)] = match *self {
             Self::GaudinSchuhmann { top_size, modulus } => [("top_size", top_size), ("modulus", modulus)],

@@ -69,9 +69,6 @@ impl SizeLaw {
     }
 
     /// How discs of this law are distributed; `key` is what a user writes before its keys, such as `load.species[0].sizes`.
-    ///
-    /// # Errors
-    /// `Error::Config` naming the key.
     pub fn distribution(&self, key: &str) -> Result<SizeDistribution, Error> {
         match self {
             Self::Mix { by, diameters, shares } => mix(key, *by, diameters, shares),

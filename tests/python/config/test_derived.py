@@ -71,6 +71,16 @@ def test_speeds():
     assert (program.froude_number, program.critical_share) == (derived.froude_number, derived.critical_share)
 
 
+def test_in_a_shell_the_corner_farthest_from_the_axis_stands_for_the_rim():
+    corners = [[0.3, 0.0], [0.0, 0.2], [-0.3, 0.0], [0.0, -0.2]]
+    shell = BASE.replace({"drum.rim": False, "drum.liner.outlines": [{"name": "shell", "points": corners}]})
+    facts, omega = shell.derived, 54.0 * math.pi / 30.0
+    assert facts.froude_number == pytest.approx(omega**2 * 0.3 / 9.81)
+    assert facts.critical_angular_velocity == pytest.approx(math.sqrt(9.81 / (0.3 - 0.011875)))
+    assert facts.critical_share == pytest.approx(omega / facts.critical_angular_velocity)
+    assert shell.facts.startswith("Froude number 0.978, 96.9 % of the critical speed")
+
+
 def test_what_places_a_case_is_in_the_registry():
     names = [field.name for field in dataclasses.fields(module.Facts)]
     assert names == list(registry.FACTS)

@@ -207,7 +207,7 @@ def test_nothing_passes_a_plate_thinner_than_a_step_of_motion(plate):
 
 
 def test_a_drum_that_is_not_round_packs_shows_and_saves_itself(tmp_path):
-    from drumrs.output import save
+    from drumrs.output import player, save
     from drumrs.viewer.recording import pack
 
     hexagon = {"drum.rim": False, "drum.liner.outlines": [{"name": "shell", "points": polygon(6)}]}
@@ -216,6 +216,8 @@ def test_a_drum_that_is_not_round_packs_shows_and_saves_itself(tmp_path):
     assert drum.bundle_count == round(0.3 * area / (math.pi * drum.load.diameter**2 / 4))
     assert drum.title.startswith(f"{drum.bundle_count} bundles (29.9 % fill), 6 sides")
     result = drumrs.run(drum, progress=False)
+    assert result.summary.fill == pytest.approx(drum.fill)
+    assert player(result).title.startswith(drum.title.partition(", seed")[0])
     save(result, tmp_path, pictures=False)
     frames = drumrs.load(tmp_path).frames
     assert np.array_equal(frames.shell, result.frames.shell)

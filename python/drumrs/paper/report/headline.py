@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from drumrs.config import Config, baseline
+from drumrs.config import baseline
 from drumrs.paper.cases import BASELINE_FILL, HALF_FULL, THIRDS, percent
 from drumrs.paper.curves import RATIOS, Curve
 from drumrs.paper.data import StudyData
@@ -124,12 +124,13 @@ EVIDENCE = (
 
 def seeds(data: StudyData) -> int:
     """Return the number of seeds of a case, but for those at the ends of curves and about half full."""
-    return min(len(runs) for runs in _by_case(data))
+    return min(len(runs) for runs in data.seeds)
 
 
 def more_seeds(data: StudyData) -> str:
     """Say which cases have more seeds, and how long they were run; nothing where none has."""
-    more = [runs for runs in _by_case(data) if len(runs) > seeds(data)]
+    usual = seeds(data)
+    more = [runs for runs in data.seeds if len(runs) > usual]
     fills = ", ".join(f"{100.0 * fill:.3g}" for fill in HALF_FULL)
     half_full = [runs for runs in more if runs[0].load.fill in HALF_FULL and not runs[0].drum.baffles.count]
     ends = [runs for runs in more if runs not in half_full]
@@ -139,14 +140,6 @@ def more_seeds(data: StudyData) -> str:
         if cases
     ]
     return f" ({'; '.join(told)})" if told else ""
-
-
-def _by_case(data: StudyData) -> list[list[Config]]:
-    """Group the runs that differ by their seeds alone."""
-    found: dict[str, list[Config]] = {}
-    for config in data.configs.values():
-        found.setdefault(config.replace({"run.seed": 1}).digest, []).append(config)
-    return list(found.values())
 
 
 def softer(data: StudyData) -> str:

@@ -2,14 +2,10 @@
 
 use rand::Rng;
 
-use super::Room;
 use super::cells::Cells;
 use super::draws::{below, in_square};
+use super::{Room, tries};
 use crate::physics::vector::Vec2;
-
-/// Tries of random insertion, per disc and in all, after which a bed counts as too dense for it.
-const TRIES_PER_DISC: usize = 30;
-const TRIES: usize = 1000;
 
 /// Moves of a shuffle, in all, and the limits of the sweeps that this means.
 const MOVES: usize = 10_000_000;
@@ -18,7 +14,7 @@ const SWEEPS: (usize, usize) = (20, 2000);
 /// Inserts discs one by one wherever a random point has room for one; `None` if that stalls.
 pub(super) fn insert(room: &Room, count: usize, random: &mut impl Rng) -> Option<Cells> {
     let mut bed = Cells::new(room.reach, room.spacing, count);
-    for _ in 0..count.saturating_mul(TRIES_PER_DISC).saturating_add(TRIES) {
+    for _ in 0..tries(count) {
         let center = in_square(room.reach, random);
         // The solids come last: their distance may cost more than everything else.
         if room.bounds(center) && bed.is_free(center, None) && room.admits(center) {

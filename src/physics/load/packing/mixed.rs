@@ -13,15 +13,12 @@ use rand_pcg::Pcg64;
 
 use super::draws::in_square;
 use super::grid::Grid;
-use super::{GAP, Room, bound_of, pack, pattern};
+use super::{GAP, Room, bound_of, pack, pattern, tries};
 use crate::error::{Error, require_positive};
 use crate::physics::drum::Drum;
 use crate::physics::vector::{Vec2, dot};
 
-/// Tries of random insertion, per disc and in all, after which discs count as too large for it; their size is then
-/// multiplied by `SHRINKAGE`.
-const TRIES_PER_DISC: usize = 30;
-const TRIES: usize = 1000;
+/// What the size of discs that are too large for random insertion is multiplied by.
 const SHRINKAGE: f64 = 0.8;
 
 /// The least step between two sizes, in parts of the full one.
@@ -113,7 +110,7 @@ impl<'a> Bed<'a> {
     /// Inserts the discs one by one at random points that have room for them, and tells whether that did not stall.
     fn insert(&mut self, random: &mut impl Rng) -> bool {
         let mut grid = self.grid(self.scale);
-        let mut tries = self.discs.len().saturating_mul(TRIES_PER_DISC).saturating_add(TRIES);
+        let mut tries = tries(self.discs.len());
         for index in 0..self.discs.len() {
             let full_radius = self.discs[index].radius * (1.0 + GAP);
             let radius = full_radius * self.scale;

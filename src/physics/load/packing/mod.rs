@@ -27,6 +27,11 @@ use crate::physics::vector::{Vec2, dot};
 /// The relative gap kept round every disc, so that neither rounding nor a turn of the drum makes two discs overlap.
 const GAP: f64 = 1e-9;
 
+/// Tries of random insertion, for so many discs in all, after which they count as too many or too large for it.
+fn tries(count: usize) -> usize {
+    count.saturating_mul(30).saturating_add(1000)
+}
+
 /// Seeded random positions (drum frame) of `count` equal discs of `radius` [m] that overlap neither each other nor
 /// a solid.
 ///

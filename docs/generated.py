@@ -1,0 +1,96 @@
+"""Pages of the site that the program writes: keys, commands, the player; and copies of pages from elsewhere."""
+
+import shutil
+from pathlib import Path
+from typing import Any
+
+import drumrs
+from drumrs.cli.app import app
+
+ROOT = Path(__file__).parents[1]
+FOLDER = ROOT / "docs" / "_generated"
+# Pages that the repository shows beside the code.
+COPIES = {
+    "architecture.md": "ARCHITECTURE.md",
+    "changelog.md": "CHANGELOG.md",
+    "contributing.md": "CONTRIBUTING.md",
+    "speed.md": "benches/README.md",
+}
+
+
+def write() -> None:
+    """Write all of them."""
+    FOLDER.mkdir(exist_ok=True)
+    for copy, original in COPIES.items():
+        _put(copy, (ROOT / original).read_text(encoding="utf-8"))
+    for picture in (ROOT / "benches").glob("*.png"):
+        shutil.copy(picture, FOLDER)
+    _put("commands.md", commands())
+    _put("keys.md", keys())
+    (ROOT / "docs" / "site" / "player.html").write_text(_player(), encoding="utf-8")
+
+
+def commands() -> str:
+    """Return a page with every command and its options."""
+    return app.generate_docs()
+
+
+def keys() -> str:
+    """Return a page with every key of a configuration: its default and meaning."""
+    schema = drumrs.Config.model_json_schema()
+    lines = [
+        "# Keys of a case file",
+        "",
+        "Every key that a case file, `--set` and `Config.replace` take. `drumrs config` prints them as a file to start",
+        "from, `drumrs config --schema` as the schema by which editors complete them.",
+        "",
+    ]
+    _tables(schema, schema["$defs"], (), lines)
+    return "\n".join(lines) + "\n"
+
+
+def _tables(table: dict[str, Any], known: dict[str, Any], path: tuple[str, ...], lines: list[str]) -> None:
+    """Add a table and those below it; `path` has the names of those above."""
+    prefix = "".join(f"{name}." for name in path)
+    rows, below = [], []
+    for name, value in table["properties"].items():
+        inner = _table_of(value, known)
+        # Phases may hold phases: once is enough.
+        if inner is not None and inner is not table:
+            below.append((name, inner))
+            continue
+        default = value.get("default")
+        shown = (
+            "" if default is None else f"`{str(default).lower() if isinstance(default, bool) else default}`"
+        )
+        meaning = value.get("description", "").replace("|", "\\|").replace("\n", " ")
+        rows.append(f"| `{prefix}{name}` | {shown} | {meaning} |")
+    if rows:
+        lines += [f"## {prefix.removesuffix('.') or 'At the top'}", ""]
+        lines += [table["description"].splitlines()[0], ""] if path and table.get("description") else []
+        lines += ["| key | default | meaning |", "|---|---|---|", *rows, ""]
+    for name, inner in below:
+        _tables(inner, known, (*path, name), lines)
+
+
+def _table_of(value: dict[str, Any], known: dict[str, Any]) -> dict[str, Any] | None:
+    """Return the table that a key holds, or each entry of a list that it holds; `None` for a plain value."""
+    choices = [value, value.get("items", {}), *value.get("allOf", []), *value.get("anyOf", [])]
+    names = [one["$ref"].rpartition("/")[2] for one in choices if "$ref" in one]
+    names += [one["items"]["$ref"].rpartition("/")[2] for one in choices if "$ref" in one.get("items", {})]
+    found = known[names[0]] if names else {}
+    return found if "properties" in found else None
+
+
+def _player() -> str:
+    """Return the player of a short run, for the first page."""
+    changes = {"run.duration": 6.0, "run.window": [3.0, 6.0]}
+    config = drumrs.baseline(fill=0.25, baffles=True).softer(100.0).replace(changes)
+    return drumrs.player(drumrs.run(config, progress=False)).page()
+
+
+def _put(name: str, text: str) -> None:
+    """Write a page where it is new, so that the rest is not made again."""
+    path = FOLDER / name
+    if not path.exists() or path.read_text(encoding="utf-8") != text:
+        path.write_text(text, encoding="utf-8")
