@@ -4,7 +4,6 @@ import io
 import json
 import math
 from dataclasses import asdict, dataclass, fields
-from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -14,6 +13,7 @@ from drumrs.datasets import dataset
 from drumrs.errors import ConfigError
 from drumrs.files import read_object, read_plain, require_plain, write_whole
 from drumrs.frames import Frames
+from drumrs.notebook import table
 from drumrs.registry import known, metadata, quantity, recorded, require
 from drumrs.tables import write_table
 
@@ -108,6 +108,10 @@ class Summary:
             "particle_steps_per_second": number(self.particle_steps_per_second),
         }
         return {quantity(name).label: text for name, text in shown.items()}
+
+    def _repr_html_(self) -> str:
+        """Show the main numbers in a notebook."""
+        return table(f"averages over t = {self.window_start:.6g} to {self.window_end:.6g} s", self.rows())
 
 
 # Each number says what it is, as the registry has it.
@@ -215,12 +219,8 @@ class Result:
         return to_xarray(self.config, self.frames, self.series)
 
     def _repr_html_(self) -> str:
-        """Show the summary as a table in a notebook."""
-        rows = (
-            f"<tr><th>{escape(name)}</th><td>{escape(value)}</td></tr>"
-            for name, value in self.summary.rows().items()
-        )
-        return f"<table>{''.join(rows)}</table>"
+        """Show the summary in a notebook."""
+        return table(self.config.title, self.summary.rows())
 
 
 def to_xarray(config: Config, frames: Frames, series: "pl.DataFrame") -> "xarray.Dataset":
