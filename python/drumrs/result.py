@@ -4,7 +4,6 @@ import io
 import json
 import math
 from dataclasses import asdict, dataclass, fields
-from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -14,6 +13,7 @@ from drumrs.datasets import dataset
 from drumrs.errors import ConfigError
 from drumrs.files import read_object, read_plain, require_plain, write_whole
 from drumrs.frames import Frames
+from drumrs.notebook import table
 from drumrs.registry import known, metadata, quantity, recorded, require
 from drumrs.tables import write_table
 
@@ -109,6 +109,10 @@ class Summary:
         }
         return {quantity(name).label: text for name, text in shown.items()}
 
+    def _repr_html_(self) -> str:
+        """Show the main numbers in a notebook."""
+        return table(f"averages over t = {self.window_start:.6g} to {self.window_end:.6g} s", self.rows())
+
 
 # Each number says what it is, as the registry has it.
 Summary.__doc__ = "\n".join(
@@ -158,13 +162,17 @@ class Result:
         What contacts took, one row a pair of species, or species and part of the drum; where it has "ledger_split".
     discs
         What each bundle received, and its flights, one row each; where it has "discs".
+    fields
+        Means of density, momentum and stress, one row a cell, from the start of the window on; where it has "fields".
+    zone_visits
+        How the bundles visited the zones of ``run.zone``, one row a zone and bundle, likewise.
     dissipated
         What contacts took from t = 0 to the end of the run [J/m], by column of the series: what each of these tables
         adds up to. The last row of the series is up to one `run.sample_every` older.
 
     Notes
     -----
-    The four are polars tables over the whole run from t = 0; docs/records.md has their columns.
+    The first four are polars tables over the whole run from t = 0; docs/records.md has the columns of all.
     """
 
     config: Config
@@ -175,6 +183,8 @@ class Result:
     wall_profile: "pl.DataFrame | None" = None
     ledger_split: "pl.DataFrame | None" = None
     discs: "pl.DataFrame | None" = None
+    fields: "pl.DataFrame | None" = None
+    zone_visits: "pl.DataFrame | None" = None
     dissipated: "dict[str, float] | None" = None
 
     def __repr__(self) -> str:
@@ -209,12 +219,8 @@ class Result:
         return to_xarray(self.config, self.frames, self.series)
 
     def _repr_html_(self) -> str:
-        """Show the summary as a table in a notebook."""
-        rows = (
-            f"<tr><th>{escape(name)}</th><td>{escape(value)}</td></tr>"
-            for name, value in self.summary.rows().items()
-        )
-        return f"<table>{''.join(rows)}</table>"
+        """Show the summary in a notebook."""
+        return table(self.config.title, self.summary.rows())
 
 
 def to_xarray(config: Config, frames: Frames, series: "pl.DataFrame") -> "xarray.Dataset":

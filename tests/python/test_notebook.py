@@ -50,6 +50,25 @@ def test_a_sweep_shows_cases_and_failures(shown, short, tmp_path):
     assert float(SHARE.search(shown.pages[-1])[1]) == 1.0
 
 
+def test_a_configuration_shows_what_differs_from_the_baseline():
+    config = drumrs.baseline(fill=0.1).replace({"contact.drum.friction": 0.3})
+    shown = config._repr_html_()
+    assert f"<caption>{config.title}</caption>" in shown
+    rows = dict(re.findall(r"<tr><th>(.*?)</th><td>(.*?)</td></tr>", shown))
+    assert rows == {"load.fill": "0.1", "contact.drum.friction": "0.3"}
+    assert "<pre># Gravity" in shown
+    assert "<tr>" not in drumrs.baseline()._repr_html_()
+
+
+def test_a_sweep_shows_its_axes():
+    base = drumrs.baseline().replace({"run.duration": 0.1})
+    sweep = drumrs.Sweep(base, {"load.fill": [0.1, 0.2]}, seeds=12)
+    rows = dict(re.findall(r"<tr><th>(.*?)</th><td>(.*?)</td></tr>", sweep._repr_html_()))
+    assert rows["load.fill"] == "0.1, 0.2"
+    assert rows["seed"] == "0, 1, 2, 3, 4, 5, 6, 7, … (12 values)"
+    assert float(rows["particle-steps"]) == pytest.approx(sum(case.cost for case in sweep.cases), rel=0.05)
+
+
 def test_names_cannot_break_the_page(shown):
     with drumrs.Task("<i>", 1) as task:
         task.note("<b>a & b")

@@ -264,6 +264,7 @@ def test_a_notebook_shows_a_result_as_a_table_with_units(short):
     assert f"<th>drum power [W/m]</th><td>{result.summary.drum_power:.4g}</td>" in shown
     assert shown.count("<tr>") == len(result.summary.rows())
     assert len(shown) < 2000
+    assert result.summary._repr_html_().count("<tr>") == shown.count("<tr>")
 
 
 def test_result_survives_a_folder(short, tmp_path):

@@ -14,7 +14,7 @@ from drumrs.config.derived import GREATEST_COUNT, Derived, Facts, compose, deriv
 from drumrs.config.drum_tables import Liner
 from drumrs.config.hints import hints
 from drumrs.config.laws import laws
-from drumrs.config.layers import merge, nest, read_json, read_toml
+from drumrs.config.layers import flat, merge, nest, read_json, read_toml
 from drumrs.config.liner import anchored, with_drawing
 from drumrs.config.load import SOLID_FRACTION
 from drumrs.config.messages import conflict
@@ -22,7 +22,8 @@ from drumrs.config.softening import layer, softening
 from drumrs.config.tables import Tables
 from drumrs.config.to_core import core_config
 from drumrs.config.toml_writer import to_toml
-from drumrs.errors import ConfigError
+from drumrs.errors import ConfigError, format_value
+from drumrs.notebook import table
 
 _CHANGES = "a dict of keys with their values, such as {'load.fill': 0.3}"
 # Less load than such a part of a bundle comes of lengths in another unit.
@@ -339,6 +340,18 @@ class Config(Tables):
             Where the file cannot be read, or `from_toml` or `from_json` would raise.
         """
         return cls().replace(read_layer(path))
+
+    def _repr_html_(self) -> str:
+        """Show in a notebook what differs from the baseline, and every key to unfold."""
+        differs = {key: format_value(value) for key, value in self._beside_baseline().items()}
+        return table(self.title, differs, ("all keys", self.to_toml()))
+
+    def _beside_baseline(self) -> dict[str, Any]:
+        """Return the values that differ from the baseline's by dotted key."""
+        own, baseline = (
+            flat(config.model_dump(mode="json", exclude_none=True)) for config in (self, type(self)())
+        )
+        return {key: value for key, value in own.items() if baseline.get(key) != value}
 
     def to_core_json(self) -> str:
         """Return what crosses to the compiled core: angular velocities, radians, a number of bundles."""

@@ -40,6 +40,20 @@ def nest(dotted: Mapping[str, Any]) -> dict[str, Any]:
     return nested
 
 
+def flat(table: Mapping[str, Any], at: str = "") -> dict[str, Any]:
+    """Turn nested tables into dotted keys.
+
+    Examples
+    --------
+    >>> flat({"load": {"fill": 0.4}, "run.seed": 2})
+    {'load.fill': 0.4, 'run.seed': 2}
+    """
+    dotted: dict[str, Any] = {}
+    for key, value in table.items():
+        dotted |= flat(value, f"{at}{key}.") if isinstance(value, Mapping) else {f"{at}{key}": value}
+    return dotted
+
+
 def merge(
     model: type[BaseModel], lower: Mapping[str, Any], upper: Mapping[str, Any], prefix: str = ""
 ) -> dict[str, Any]:

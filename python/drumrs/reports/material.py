@@ -134,7 +134,10 @@ class Material:
 
     @cached_property
     def fields(self) -> "Fields":
-        """Fields of density and velocity, over as many frames as are plenty for a picture."""
+        """Fields of density and velocity, from sums where these are recorded, else from frames that are plenty."""
+        speed = self.config.derived.angular_velocity
+        if self.result.fields is not None and speed:
+            return measures.recorded_fields(self.result.fields, clockwise=speed < 0.0)
         seen = within(self.frames, self.span)
         few = seen.picked(slice(None, None, max(1, len(seen) // _PLENTY)))
         return measures.fields(few, self.span, self.masses)

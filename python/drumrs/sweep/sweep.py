@@ -5,6 +5,7 @@ from concurrent.futures import Executor
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
 
+from drumrs import notebook
 from drumrs.config import Config
 from drumrs.errors import ConfigError
 from drumrs.frames import Frames
@@ -19,6 +20,9 @@ if TYPE_CHECKING:
 
     from drumrs.analysis import Mean
     from drumrs.result import Result
+
+# Values of an axis that a notebook shows.
+_MOST_SHOWN = 8
 
 
 class Sweep:
@@ -124,6 +128,13 @@ class Sweep:
         """Say how many cases there are and what they cost."""
         cost = sum(case.cost for case in self.cases)
         return f"<Sweep of {len(self.cases)} cases, {cost:.2g} particle-steps>"
+
+    def _repr_html_(self) -> str:
+        """Show in a notebook how many cases there are, and by what they differ."""
+        cases = [{**parameters(case.config), SEED: case.seed} for case in self.cases]
+        rows = {name: _listed(dict.fromkeys(str(case[name]) for case in cases)) for name in self.varied()}
+        cost = f"{sum(case.cost for case in self.cases):.2g}"
+        return notebook.table(f"sweep of {len(self)} cases", {**rows, "particle-steps": cost})
 
     def varied(self) -> list[str]:
         """Return the columns, among parameters and seed, in which the cases differ."""
@@ -266,3 +277,10 @@ class Sweep:
         store = Store(chosen)
         store.check_format()
         return store
+
+
+def _listed(values: Iterable[str]) -> str:
+    """List different values, the first few where they are many."""
+    words = list(values)
+    more = f", … ({len(words)} values)" if len(words) > _MOST_SHOWN else ""
+    return ", ".join(words[:_MOST_SHOWN]) + more

@@ -1,11 +1,12 @@
 """The file that `drumrs sweep` is given: a base, axes, seeds."""
 
 import difflib
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from drumrs.config import Config, anchored, read_layer
+from drumrs.config.layers import flat
 from drumrs.config.messages import dotted_keys
 from drumrs.errors import ConfigError
 from drumrs.sweep.sweep import Sweep
@@ -52,7 +53,7 @@ def read_sweep(path: str | Path, seeds: "Seeds" = None) -> Sweep:
     folder = Path(path).parent
     return Sweep(
         _base(content, folder),
-        None if axes is None else dict(_flat(anchored(axes, folder))),
+        None if axes is None else flat(anchored(axes, folder)),
         content.get("seeds") if seeds is None else seeds,
     )
 
@@ -76,15 +77,6 @@ def _table(content: Mapping[str, Any], key: str) -> Mapping[str, Any] | None:
         choice = " or the path of a case file" if key == "base" else ""
         raise ConfigError(key, table, f"a table{choice}")
     return table
-
-
-def _flat(axes: Mapping[str, Any], at: str = "") -> Iterator[tuple[str, Any]]:
-    """List the axes by dotted key, whether a table or a dotted key holds them."""
-    for key, value in axes.items():
-        if isinstance(value, Mapping):
-            yield from _flat(value, f"{at}{key}.")
-        else:
-            yield f"{at}{key}", value
 
 
 def _meant(key: str) -> str:

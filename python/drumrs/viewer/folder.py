@@ -2,11 +2,12 @@
 
 import glob
 import json
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
 from drumrs.config import Config, parse_settings
+from drumrs.config.layers import flat
 from drumrs.errors import ConfigError
 
 FRAMES = "frames.parquet"
@@ -130,12 +131,4 @@ def _values(file: Path) -> dict[str, Any]:
         config = config_of(file)
     except ConfigError:
         return {}
-    return dict(_flat(config.model_dump(mode="json", exclude_none=True))) if config is not None else {}
-
-
-def _flat(table: Mapping[str, Any], at: str = "") -> Iterator[tuple[str, Any]]:
-    for key, value in table.items():
-        if isinstance(value, Mapping):
-            yield from _flat(value, f"{at}{key}.")
-        else:
-            yield f"{at}{key}", value
+    return flat(config.model_dump(mode="json", exclude_none=True)) if config is not None else {}

@@ -5,6 +5,7 @@ import json
 import sys
 import tomllib
 
+import duckdb
 import gsd.hoomd
 import h5py
 import numpy as np
@@ -166,6 +167,15 @@ def test_netcdf_has_units_series_and_configuration(result, tmp_path):
         assert run.species.values.tolist() == list(result.frames.species)
         assert tomllib.loads(run.attrs["configuration"])["load"]["fill"] == 0.1
         assert (run.attrs["Conventions"], run.attrs["digest"]) == ("CF-1.11", result.config.digest)
+
+
+def test_duckdb_finds_columns_and_units_of_a_run(folder, result):
+    series = str(folder / "series.parquet")
+    power = duckdb.read_parquet(series).max("drum_power").fetchall()
+    assert power == [(result.series["drum_power"].max(),)]
+    query = "select decode(value) from parquet_kv_metadata($1) where decode(key) = 'units'"
+    told = duckdb.sql(query, params=[series])
+    assert json.loads(told.fetchall()[0][0])["drum_power"] == "W/m"
 
 
 @pytest.mark.parametrize("to", FORMATS)
