@@ -10,6 +10,7 @@ import numpy as np
 
 from drumrs import measures
 from drumrs.errors import ConfigError
+from drumrs.measures.frame_window import within
 
 if TYPE_CHECKING:
     import polars as pl
@@ -20,6 +21,9 @@ if TYPE_CHECKING:
     from drumrs.frames import Frames
     from drumrs.measures import Fields, FreeSurface
     from drumrs.result import Result, Summary
+
+# Frames that are plenty for a mean field.
+_PLENTY = 100
 
 
 @dataclass(frozen=True, eq=False)
@@ -130,11 +134,13 @@ class Material:
 
     @cached_property
     def fields(self) -> "Fields":
-        """Fields of density and velocity, from sums where these are recorded, else from frames."""
+        """Fields of density and velocity, from sums where these are recorded, else from frames that are plenty."""
         speed = self.config.derived.angular_velocity
         if self.result.fields is not None and speed:
             return measures.recorded_fields(self.result.fields, clockwise=speed < 0.0)
-        return measures.fields(self.frames, self.span, self.masses)
+        seen = within(self.frames, self.span)
+        few = seen.picked(slice(None, None, max(1, len(seen) // _PLENTY)))
+        return measures.fields(few, self.span, self.masses)
 
     def require_speed(self) -> float:
         """Return the drum's angular velocity [rad/s] without its sign, where it is one and not zero.
