@@ -51,6 +51,7 @@ html_theme = "pydata_sphinx_theme"
 html_title = f"drumrs {release}"
 html_static_path = ["site"]
 html_css_files = ["site.css"]
+html_js_files = ["site.js"]
 html_show_sourcelink = False
 html_theme_options = {
     "navbar_align": "left",
@@ -107,8 +108,12 @@ def bars_are_bars(
 
 def write_math(translator: HTML5Translator, node: nodes.Element) -> None:
     """Write a formula as MathML, which browsers set themselves: the site needs no script from elsewhere."""
-    is_block = isinstance(node, nodes.math_block)
-    translator.body.append(convert(node.astext(), display="block" if is_block else "inline"))
+    if isinstance(node, nodes.math_block):
+        formula = convert(node.astext(), display="block")
+        # What may scroll must be reached with the keyboard.
+        translator.body.append(f'<div class="formula" tabindex="0">{formula}</div>')
+    else:
+        translator.body.append(convert(node.astext()))
     raise nodes.SkipNode
 
 

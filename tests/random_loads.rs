@@ -82,7 +82,12 @@ fn require_sums(simulation: &Simulation) -> Result<(), TestCaseError> {
     let rows = simulation.records().contacts.iter().chain(&open);
     let listed =
         rows.fold([0.0; 3], |sum: [f64; 3], row| std::array::from_fn(|k| sum[k] + row.dissipated[k]));
-    require_same("contacts", listed, whole, scale)
+    require_same("contacts", listed, whole, scale)?;
+    let fields = &simulation.state().fields;
+    let mass: f64 = fields.cells.iter().map(|cell| cell[0]).sum();
+    let whole = fields.moments as f64 * simulation.mass();
+    prop_assert!((mass - whole).abs() <= 1e-12 * whole, "cells: {mass:e}, load: {whole:e}");
+    Ok(())
 }
 
 fn require_same(name: &str, sums: [f64; 3], whole: [f64; 3], scale: f64) -> Result<(), TestCaseError> {

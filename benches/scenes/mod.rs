@@ -8,6 +8,7 @@ pub mod common;
 use drumrs::io::config::SimulationConfig;
 use drumrs::observe::recorder::Recording;
 use drumrs::physics::drum::Drum;
+use drumrs::physics::drum::zone::{ZoneFrame, ZoneParameters};
 use drumrs::physics::load::composition::SpeciesParameters;
 use drumrs::physics::load::shares::Measure;
 use drumrs::physics::load::sizes::SizeLaw;
@@ -38,6 +39,7 @@ pub const ALL_RECORDS: &[Recording] = &[
     Recording::WallProfile,
     Recording::LedgerSplit,
     Recording::Discs,
+    Recording::Fields,
 ];
 
 /// A load before its first step. Large ones, which would fall for longer than is spent here, start as a bed.
@@ -49,6 +51,11 @@ pub fn started(count: usize, baffle_count: usize) -> Simulation {
 pub fn started_with(count: usize, baffle_count: usize, record: &[Recording]) -> Simulation {
     let mut config = drum_for(count, baffle_count);
     config.run.record = record.to_vec();
+    if !record.is_empty() {
+        let corners = vec![[-0.1, -0.2], [0.0, -0.2], [0.1, 0.1], [0.0, 0.1]];
+        config.run.zones =
+            vec![ZoneParameters { name: "spray".into(), corners, frame: ZoneFrame::Laboratory }];
+    }
     if count > 1_000 {
         let bed = bed(&config);
         Simulation::with_state(config, 1, 1, bed).expect("a bed inside the drum")

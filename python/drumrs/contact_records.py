@@ -1,7 +1,8 @@
-"""Tables of what is recorded of contacts on request: their columns, with units and meanings, and how they are made.
+"""Tables of what is recorded on request: their columns, with units and meanings, and how they are made.
 
-`run.record` names them. Each covers the whole run from t = 0, contacts that are still open included, and splits the
-same energies: those that contacts took, `Result.dissipated`, of which the series' columns of these names are samples.
+`run.record` names them, and `run.zone` the zones of "zone_visits". Those of contacts cover the whole run from t = 0,
+contacts that are still open included, and split the same energies: those that contacts took, `Result.dissipated`, of
+which the series' columns of these names are samples. Fields and visits begin with the averages' window.
 """
 
 import io
@@ -21,6 +22,8 @@ from drumrs.tables import write_table
 
 if TYPE_CHECKING:
     import polars as pl
+
+    from drumrs.config.tables import Run
 
 # The energies that contacts take, as the core adds them up.
 FLOWS = ("dissipated_normal", "dissipated_sliding", "dissipated_tangential", "dissipated_rolling")
@@ -118,8 +121,53 @@ DISCS = _columns(
     ("drum_landings", "1", "flights that ended at the drum"),
     ("load_landings", "1", "flights that ended at another bundle"),
 )
+FIELDS = _columns(
+    ("x", "m", "middle of the cell, in the laboratory's frame"),
+    ("y", "m", "middle of the cell"),
+    ("density", "kg/m³", "mass of the discs whose centers are in the cell over its area, on average"),
+    ("solid_fraction", "1", "area of these discs over that of the cell, on average"),
+    ("momentum_x", "kg/(m² s)", "their momentum over the area, on average"),
+    ("momentum_y", "kg/(m² s)", "likewise"),
+    ("momentum_flux_xx", "Pa", "Σ m vₓ vₓ over the area, on average"),
+    ("momentum_flux_xy", "Pa", "Σ m vₓ v_y over the area, on average"),
+    ("momentum_flux_yy", "Pa", "Σ m v_y v_y over the area, on average"),
+    (
+        "contact_stress_xx",
+        "Pa",
+        "Σ Fₓ lₓ over the area: force on the other body, part of the branch in the cell",
+    ),
+    ("contact_stress_xy", "Pa", "Σ Fₓ l_y over the area"),
+    ("contact_stress_yx", "Pa", "Σ F_y lₓ over the area"),
+    ("contact_stress_yy", "Pa", "Σ F_y l_y over the area; pressure is positive"),
+)
+ZONE_VISITS = _columns(
+    ("zone", "1", "name of the zone"),
+    ("id", "1", "number of the bundle"),
+    ("species", "1", "its species; 'bundle' where the load has no species"),
+    ("entries", "1", "visits that have begun in sight"),
+    ("time_inside", "s", "time in the zone"),
+    ("cycles", "1", "whole visits that another one followed"),
+    ("stay", "s", "Σ W over cycles, the time W of a visit"),
+    ("cycle", "s", "Σ C over cycles, the time C from the beginning of a visit to that of the next"),
+    ("stay_squared", "s²", "Σ W² over cycles"),
+    ("cycle_squared", "s²", "Σ C² over cycles"),
+    ("stay_cycle", "s²", "Σ W C over cycles"),
+)
 # The tables by the name under which they are asked for, and under which their file goes.
-COLUMNS = {"contacts": CONTACTS, "wall_profile": WALL_PROFILE, "ledger_split": LEDGER_SPLIT, "discs": DISCS}
+COLUMNS = {
+    "contacts": CONTACTS,
+    "wall_profile": WALL_PROFILE,
+    "ledger_split": LEDGER_SPLIT,
+    "discs": DISCS,
+    "fields": FIELDS,
+    "zone_visits": ZONE_VISITS,
+}
+
+
+def recorded_tables(run: "Run") -> tuple[str, ...]:
+    """Return the names of the tables that a configuration asks for."""
+    asked = (*run.record, *(["zone_visits"] if run.zone else []))
+    return tuple(kind for kind in COLUMNS if kind in asked)
 
 
 def file_words(kind: str, dissipated: dict[str, float]) -> dict[str, str]:
@@ -219,17 +267,51 @@ class TableMaker:
                 strict=True,
             )
         )
-        names = pl.Series(self.kinds, dtype=pl.Enum(sorted(set(self.kinds))))
         return pl.DataFrame(
             {
                 "id": np.arange(len(radii), dtype=np.uint32),
-                "species": names.gather(pl.Series(species)),
+                "species": self._species_names(species),
                 "radius": radii,
                 "mass": discs["mass"],
                 **received,
                 **{column.name: discs[column.name] for column in DISCS[7:]},
             }
         )
+
+    def fields(self, fields: dict[str, Any]) -> "pl.DataFrame":
+        """Return the means in cells as a table."""
+        import polars as pl
+
+        middles, moments = fields["middles"], max(fields["moments"], 1)
+        count = len(middles)
+        area = (middles[1] - middles[0]) ** 2
+        means = fields["sums"] / (moments * area)
+        places = [np.repeat(middles, count), np.tile(middles, count)]
+        return pl.DataFrame(dict(zip((one.name for one in FIELDS), [*places, *means.T], strict=True)))
+
+    def zone_visits(
+        self, visits: dict[str, Any], zones: Sequence[str], species: NDArray[Any]
+    ) -> "pl.DataFrame":
+        """Return how bundles visited zones as a table."""
+        import polars as pl
+
+        count, inside, sums = len(species), visits["times"][:, 0], visits["times"][:, 1:].T
+        return pl.DataFrame(
+            {
+                "zone": pl.Series(np.repeat(zones, count), dtype=pl.Enum(zones)),
+                "id": np.tile(np.arange(count, dtype=np.uint32), len(zones)),
+                "species": self._species_names(np.tile(species, len(zones))),
+                "entries": visits["entries"],
+                "time_inside": inside,
+                "cycles": visits["cycles"],
+                **dict(zip((one.name for one in ZONE_VISITS[6:]), sums, strict=True)),
+            }
+        )
+
+    def _species_names(self, places: NDArray[Any]) -> "pl.Series":
+        import polars as pl
+
+        return pl.Series(self.kinds, dtype=pl.Enum(sorted(set(self.kinds)))).gather(pl.Series(places))
 
     def _part_names(self, places: NDArray[np.uint32]) -> "pl.Series":
         import polars as pl

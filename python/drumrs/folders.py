@@ -29,6 +29,8 @@ RUN_FILES = (
     "wall_profile.parquet",
     "ledger_split.parquet",
     "discs.parquet",
+    "fields.parquet",
+    "zone_visits.parquet",
     "summary.json",
     "unstable.json",
     "checkpoint.bin",

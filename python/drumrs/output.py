@@ -50,8 +50,8 @@ def player(run: Result | UnstableRun) -> "Player":
 def save(result: Result, folder: str | Path, *, pictures: bool = True, force: bool = False) -> list[Path]:
     """Write config.toml, series.parquet, frames.parquet and summary.json, then pictures and a player.
 
-    Where the drum turns by phases, phases.parquet holds what `phases` returns. What `run.record` asks of contacts goes
-    to contacts.parquet, wall_profile.parquet, ledger_split.parquet and discs.parquet.
+    Where the drum turns by phases, phases.parquet holds what `phases` returns. What `run.record` and
+    `run.zone` ask for goes to contacts.parquet, wall_profile.parquet and the like, by the names of the tables.
 
     Parameters
     ----------

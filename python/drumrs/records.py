@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drumrs.config import Config
-from drumrs.contact_records import COLUMNS, FLOWS, TableMaker
+from drumrs.contact_records import FLOWS, TableMaker, recorded_tables
 from drumrs.errors import CheckpointError, ConfigError
 from drumrs.frames import SHAPED, Frames
 
@@ -86,8 +86,8 @@ class Core(Protocol):
     def contacts(self, are_open: bool) -> dict[str, NDArray[Any]]:
         """Return the contacts that are open, or those in memory that have ended."""
 
-    def contact_sums(self) -> dict[str, Any]:
-        """Return what is recorded of contacts beside their list, up to now."""
+    def recorded_sums(self) -> dict[str, Any]:
+        """Return what is summed up on request, up to now."""
 
     def put_back_contacts(self, contacts: dict[str, NDArray[Any]]) -> None:
         """Put contacts before those in memory."""
@@ -116,7 +116,8 @@ class Records:
         self._core = core
         self._drum = config.drum
         self._names = config.load.names
-        self._kinds = tuple(kind for kind in COLUMNS if kind in config.run.record)
+        self._kinds = recorded_tables(config.run)
+        self._zones = tuple(zone.name for zone in config.run.zone or ())
         self._floor = config.run.contact_floor
 
     @property
@@ -199,10 +200,10 @@ class Records:
         open_now = tables.contacts(self._core.contacts(True), is_open=True)
         if not self._floor:
             return open_now
-        return pl.concat([open_now, tables.below_floor(*self._core.contact_sums()["below_floor"])])
+        return pl.concat([open_now, tables.below_floor(*self._core.recorded_sums()["below_floor"])])
 
     def contact_tables(self, *, with_contacts: bool = True) -> dict[str, Any]:
-        """Return what is recorded of contacts, by table, and "dissipated", what each of them adds up to [J/m].
+        """Return what is recorded on request, by table, and "dissipated", what those of contacts add up to [J/m].
 
         Parameters
         ----------
@@ -218,7 +219,7 @@ class Records:
 
         if not self._kinds:
             return {}
-        sums, tables = self._core.contact_sums(), self._tables
+        sums, tables = self._core.recorded_sums(), self._tables
         made: dict[str, Any] = {"dissipated": dict(zip(FLOWS, sums["dissipated"], strict=True))}
         if self.lists_contacts and with_contacts:
             if self.taken_contacts:
@@ -235,6 +236,10 @@ class Records:
             made["ledger_split"] = tables.ledger_split(sums["split"])
         if "discs" in self._kinds:
             made["discs"] = tables.discs(sums["discs"], self._core.radii, self._core.species)
+        if "fields" in self._kinds:
+            made["fields"] = tables.fields(sums["fields"])
+        if "zone_visits" in self._kinds:
+            made["zone_visits"] = tables.zone_visits(sums["visits"], self._zones, self._core.species)
         return made
 
     @property

@@ -162,13 +162,17 @@ class Result:
         What contacts took, one row a pair of species, or species and part of the drum; where it has "ledger_split".
     discs
         What each bundle received, and its flights, one row each; where it has "discs".
+    fields
+        Means of density, momentum and stress, one row a cell, from the start of the window on; where it has "fields".
+    zone_visits
+        How the bundles visited the zones of ``run.zone``, one row a zone and bundle, likewise.
     dissipated
         What contacts took from t = 0 to the end of the run [J/m], by column of the series: what each of these tables
         adds up to. The last row of the series is up to one `run.sample_every` older.
 
     Notes
     -----
-    The four are polars tables over the whole run from t = 0; docs/records.md has their columns.
+    The first four are polars tables over the whole run from t = 0; docs/records.md has the columns of all.
     """
 
     config: Config
@@ -179,6 +183,8 @@ class Result:
     wall_profile: "pl.DataFrame | None" = None
     ledger_split: "pl.DataFrame | None" = None
     discs: "pl.DataFrame | None" = None
+    fields: "pl.DataFrame | None" = None
+    zone_visits: "pl.DataFrame | None" = None
     dissipated: "dict[str, float] | None" = None
 
     def __repr__(self) -> str:

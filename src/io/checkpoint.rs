@@ -23,7 +23,7 @@ use crate::simulation::{Records, Simulation};
 
 const MAGIC: &[u8; 8] = b"DRUMRS\r\n";
 /// Version of the layout below; a checkpoint of another one is refused.
-pub const FORMAT_VERSION: u32 = 8;
+pub const FORMAT_VERSION: u32 = 9;
 /// Beyond this, step × time step is no longer exact to a step.
 const MOST_STEPS: u64 = 1 << 53;
 const HEADER: usize = MAGIC.len() + 4 + 32;
@@ -98,7 +98,7 @@ impl Simulation {
         if simulation.has_whole_log(&snapshot.engine) {
             return Ok(simulation);
         }
-        Err(refuse("its records of contacts are not those of its bundles and its drum"))
+        Err(refuse("its sums of contacts, fields or visits are not those of its bundles and its drum"))
     }
 }
 

@@ -11,6 +11,7 @@ use crate::observe::recorder::Recording;
 use crate::physics::contact::parameters::ContactParameters;
 use crate::physics::contact::species::SpeciesTable;
 use crate::physics::drum::DrumParameters;
+use crate::physics::drum::zone::ZoneParameters;
 use crate::physics::load::composition::{Composition, Discs, SpeciesParameters};
 use crate::physics::load::shares::Measure;
 use crate::physics::rotation::RotationSchedule;
@@ -159,6 +160,13 @@ pub struct RunParameters {
     /// Width of the bins along the drum's outline [m]; none takes a twentieth of the drum's radius.
     #[serde(deserialize_with = "Option::deserialize")]
     pub arc_bin: Option<f64>,
+    /// Side of the cells of fields [m]; none takes the mean radius of the bundles.
+    #[serde(deserialize_with = "Option::deserialize")]
+    pub cell: Option<f64>,
+    /// Zones whose visits are counted.
+    pub zones: Vec<ZoneParameters>,
+    /// Time [s] from which fields are summed up and visits counted.
+    pub sums_from: f64,
     /// Greatest overlap allowed, as a fraction of the smaller radius.
     pub overlap_limit: f64,
 }
@@ -190,6 +198,7 @@ impl SimulationConfig {
         for component in self.gravity {
             require_finite("gravity", component)?;
         }
+        ZoneParameters::validate(&self.run.zones, self.drum.bounding_radius())?;
         self.run.validate()
     }
 }
@@ -257,6 +266,10 @@ impl RunParameters {
         if let Some(width) = self.arc_bin {
             require_positive("run.arc_bin", width)?;
         }
+        if let Some(side) = self.cell {
+            require_positive("run.cell", side)?;
+        }
+        require_non_negative("run.window", self.sums_from)?;
         let is_possible = self.overlap_limit > 0.0 && self.overlap_limit < 1.0;
         require(is_possible, "run.overlap_limit", self.overlap_limit, "between 0 and 1")
     }

@@ -2,7 +2,9 @@
 
 pub mod averages;
 pub mod contact_rows;
+pub mod fields;
 pub mod frames;
 pub mod memory;
 pub mod recorder;
 pub mod summary;
+pub mod visits;

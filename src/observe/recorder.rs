@@ -27,12 +27,14 @@ pub enum Recording {
     LedgerSplit,
     /// What contacts do to each disc, and its flights.
     Discs,
+    /// Sums over discs and contacts in cells of the laboratory.
+    Fields,
 }
 
 impl Recording {
     /// Whether what each contact does has to be added up for it.
     pub fn needs_contacts(self) -> bool {
-        self != Self::GrossWork
+        !matches!(self, Self::GrossWork | Self::Fields)
     }
 }
 

@@ -1,4 +1,4 @@
-//! Records of contacts as numpy arrays.
+//! Records of contacts, and what is summed up by place, as numpy arrays.
 
 use numpy::{Element, IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
@@ -7,6 +7,8 @@ use pyo3::types::PyDict;
 use super::arrays::table_of_rows;
 use crate::error::Error;
 use crate::observe::contact_rows::ContactRow;
+use crate::observe::fields::{FIELD_WIDTH, FieldGrid, FieldSums};
+use crate::observe::visits::Visits;
 use crate::physics::columns::Columns;
 use crate::physics::contact::Flows;
 use crate::physics::drum::bins::ArcBin;
@@ -100,9 +102,13 @@ fn column<T: Element + Copy>(table: &Bound<'_, PyDict>, key: &str) -> Result<Vec
     Ok(array.as_array().to_vec())
 }
 
-/// What is recorded of contacts beside their list, up to now.
-pub struct ContactSums {
+/// What is summed up on request, up to now.
+pub struct RecordedSums {
     log: ContactLog,
+    fields: FieldSums,
+    grid: Option<FieldGrid>,
+    visits: Vec<Visits>,
+    look_interval: f64,
     bins: Vec<ArcBin>,
     dissipated: Flows<f64>,
     masses: Vec<f64>,
@@ -110,12 +116,16 @@ pub struct ContactSums {
     time_step: f64,
 }
 
-impl ContactSums {
+impl RecordedSums {
     /// That of a simulation.
     pub fn of(core: &Core) -> Self {
         let particles = &core.state().particles;
         Self {
             log: core.contact_log(),
+            fields: core.state().fields.clone(),
+            grid: core.grid(),
+            visits: core.state().visits.clone(),
+            look_interval: core.visit_interval(),
             bins: core.profile_bins().to_vec(),
             dissipated: core.dissipated(),
             masses: particles.by_id(&particles.masses),
@@ -126,7 +136,8 @@ impl ContactSums {
 
     /// As arrays: `dissipated`, what contacts took, flow by flow; `below_floor`, how many contacts that were not listed and
     /// what they took; `split`, a row for each pair of species, then for each species and part of the drum, flow by flow;
-    /// `profile`, a row for each bin of the drum's outline; `discs`, a row for each disc.
+    /// `profile`, a row for each bin of the drum's outline; `discs`, a row for each disc; `fields`, a row for each cell; `visits`,
+    /// a row for each zone and disc.
     ///
     /// # Errors
     /// What Python answers.
@@ -141,6 +152,37 @@ impl ContactSums {
         table.set_item("split", table_of_rows(py, split.collect(), Flows::COUNT))?;
         table.set_item("profile", self.profile(py)?)?;
         table.set_item("discs", self.discs(py)?)?;
+        table.set_item("fields", self.fields(py)?)?;
+        table.set_item("visits", self.visits(py)?)?;
+        Ok(table)
+    }
+
+    /// The middles of the cells of a row [m], the number of moments, and the sums by cell; none of what is not recorded.
+    fn fields<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let table = PyDict::new(py);
+        let middles: Vec<f64> = self.grid.iter().flat_map(FieldGrid::middles).collect();
+        table.set_item("middles", middles.into_pyarray(py))?;
+        table.set_item("moments", self.fields.moments)?;
+        let sums = self.fields.cells.iter().flatten().copied().collect();
+        table.set_item("sums", table_of_rows(py, sums, FIELD_WIDTH))?;
+        Ok(table)
+    }
+
+    /// Counts, and times in seconds.
+    fn visits<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let table = PyDict::new(py);
+        let counts = |value: fn(&Visits) -> u32| -> Bound<'py, PyArray1<u32>> {
+            self.visits.iter().map(value).collect::<Vec<_>>().into_pyarray(py)
+        };
+        table.set_item("entries", counts(|own| own.entries))?;
+        table.set_item("cycles", counts(|own| own.cycles))?;
+        let once = self.look_interval;
+        let units = [once, once, once, once * once, once * once, once * once];
+        let times = self.visits.iter().flat_map(|own| {
+            let looks = [own.inside].into_iter().chain(own.sums);
+            looks.zip(units).map(|(looks, unit)| looks as f64 * unit)
+        });
+        table.set_item("times", table_of_rows(py, times.collect(), units.len()))?;
         Ok(table)
     }
 

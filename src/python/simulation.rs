@@ -376,9 +376,9 @@ impl Simulation {
         self.contact_arrays(py, &self.with(py, of))
     }
 
-    /// What is recorded of contacts beside their list, up to now: see `contact_arrays::sums`.
-    fn contact_sums<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let sums = self.with(py, |core| contact_arrays::ContactSums::of(core));
+    /// What is summed up on request, up to now: see `contact_arrays::RecordedSums`.
+    fn recorded_sums<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let sums = self.with(py, |core| contact_arrays::RecordedSums::of(core));
         sums.into_dict(py)
     }
 

@@ -140,6 +140,7 @@ impl Simulation {
         state.recorded.earlier = snapshot.for_next();
         state.recorded.samples += 1;
         state.ledger.overlap_ratio = 0.0;
+        self.add_to_fields();
     }
 
     /// Energy stored now.

@@ -62,6 +62,7 @@ impl Simulation {
                 == [empty.split.len(), empty.profile.len(), empty.discs.len()]
             && events.iter().all(|event| is_body(&event.key, event.is_wall))
             && self.records.contacts.iter().all(is_part)
+            && self.has_whole_sums()
     }
 
     /// Begins the records of contacts; what opened them has happened before any step.

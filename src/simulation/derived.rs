@@ -5,6 +5,7 @@ use serde::Serialize;
 use crate::engine::World;
 use crate::error::Error;
 use crate::io::config::SimulationConfig;
+use crate::observe::fields::FieldGrid;
 use crate::observe::recorder::Recording;
 use crate::physics::contact::law::BodyPair;
 use crate::physics::contact::linear;
@@ -12,6 +13,7 @@ use crate::physics::contact::parameters::{Base, ContactParameters};
 use crate::physics::contact::species::{self, SpeciesTable};
 use crate::physics::drum::Drum;
 use crate::physics::drum::bins::ArcBins;
+use crate::physics::drum::zone::Zone;
 use crate::physics::load::composition::Discs;
 use crate::physics::particles::Particles;
 use crate::physics::vector::Vec2;
@@ -26,6 +28,12 @@ pub(super) struct Derived {
     pub(super) records_contacts: bool,
     /// The bins of a profile along the drum's outline, where one is recorded.
     pub(super) profile: Option<ArcBins>,
+    /// The cells of fields, where they are recorded.
+    pub(super) grid: Option<FieldGrid>,
+    /// The zones whose visits are counted.
+    pub(super) zones: Vec<Zone>,
+    /// The step from which fields are summed up and visits counted.
+    pub(super) first_summed: u64,
     pub(super) time_step: f64,
     pub(super) gravity: Vec2,
     pub(super) mass: f64,
@@ -49,6 +57,9 @@ impl Derived {
             records_gross_work: config.run.record.contains(&Recording::GrossWork),
             records_contacts: config.run.record.iter().any(|recording| recording.needs_contacts()),
             profile: profile(config, &drum)?,
+            grid: grid(config, &drum, particles)?,
+            zones: config.run.zones.iter().map(Zone::new).collect(),
+            first_summed: (config.run.sums_from / time_step).ceil() as u64,
             drum,
             time_step,
             gravity: Vec2::new(config.gravity[0], config.gravity[1]),
@@ -95,6 +106,21 @@ fn profile(config: &SimulationConfig, drum: &Drum) -> Result<Option<ArcBins>, Er
         )
     };
     ArcBins::new(drum, width.ok_or_else(unknown)?).map(Some)
+}
+
+/// The cells of fields, if they are recorded.
+///
+/// # Errors
+/// `Error::Config` where they would be too many, or what they would cover has no end.
+fn grid(config: &SimulationConfig, drum: &Drum, particles: &Particles) -> Result<Option<FieldGrid>, Error> {
+    if !config.run.record.contains(&Recording::Fields) {
+        return Ok(None);
+    }
+    let Some(radius) = drum.bounding_radius() else {
+        let limit = "without \"fields\" in a drum without rim and shell, which has no radius";
+        return Err(Error::config("run.record", "a list with \"fields\"", limit));
+    };
+    FieldGrid::new(config.run.cell.unwrap_or_else(|| particles.mean_radius()), radius).map(Some)
 }
 
 /// The configured time step, or the shortest collision time / 50.

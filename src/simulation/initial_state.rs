@@ -9,7 +9,7 @@ use crate::engine::contacts::ContactRecord;
 use crate::engine::forces::Lists;
 use crate::error::{Error, require, require_finite};
 use crate::io::config::{MOST_BUNDLES, SimulationConfig};
-use crate::physics::drum::Drum;
+use crate::physics::drum::{Drum, RIM};
 use crate::physics::energy::SurfaceLoad;
 use crate::physics::load::composition::Discs;
 use crate::physics::load::packing::unit;
@@ -191,7 +191,7 @@ pub fn matching(contacts: &Lists, particles: &Particles, drum: &Drum, rotation: 
         i < count && record.other < drum.feature_count() && {
             let center = rotation.apply_inverse(particles.positions[i]);
             let distance = match (record.other, drum.radius()) {
-                (crate::physics::drum::RIM, rim) => rim.map(|rim| rim - center.norm()),
+                (RIM, rim) => rim.map(|rim| rim - center.norm()),
                 (feature, _) => drum.proximity(feature, center).map(|near| near.distance),
             };
             distance.is_some_and(|distance| {

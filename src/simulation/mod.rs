@@ -9,6 +9,7 @@ pub mod initial_state;
 mod records;
 mod run;
 pub mod state;
+mod sums;
 mod views;
 pub mod warnings;
 
@@ -23,6 +24,7 @@ use crate::engine::parallel::Threads;
 use crate::engine::{Engine, memory_order, relabel};
 use crate::error::Error;
 use crate::io::config::SimulationConfig;
+use crate::observe::fields::FieldSums;
 use crate::physics::drum::Drum;
 use crate::physics::energy::{EnergyLedger, MomentBalance};
 use crate::physics::load::packing::pack_mixed;
@@ -104,6 +106,8 @@ impl Simulation {
             recorded: Recorded::default(),
             ledger: EnergyLedger::default(),
             log: ContactLog::default(),
+            fields: FieldSums::default(),
+            visits: Vec::new(),
             particles,
         };
         let engine_state = EngineState { contacts, totals: Vec::new(), events: Vec::new() };
@@ -185,6 +189,7 @@ impl Simulation {
         self.state.ledger = EnergyLedger::open(self.stored(), moments, &surfaces);
         self.state.ledger.overlap_ratio = overlap_ratio;
         self.open_log();
+        self.open_sums();
     }
 
     /// What the engine holds of the state.

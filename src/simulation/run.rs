@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::physics::vector::Rotation;
 
 /// Steps from one check of the whole load to the next: whether all is finite, no overlap too deep, no center inside a solid.
-const CHECK_STEPS: u64 = 32;
+pub(super) const CHECK_STEPS: u64 = 32;
 
 impl Simulation {
     /// Does `steps` steps. Everything is up to date after the last.
@@ -96,6 +96,7 @@ impl Simulation {
             })?;
             // Where there is no memory for them, events wait for the next sample or frame, which tells.
             let _ = self.collect();
+            self.count_visits();
         }
         self.next_event = self.event_after(self.state.step);
         if !(is_last || self.is_record_due() || self.is_sort_due()) {

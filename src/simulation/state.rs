@@ -5,7 +5,9 @@ use serde::{Deserialize, Serialize};
 use super::contact_log::ContactLog;
 use crate::engine::contacts::ContactEvent;
 use crate::engine::forces::{Lists, Totals};
+use crate::observe::fields::FieldSums;
 use crate::observe::recorder::Earlier;
+use crate::observe::visits::Visits;
 use crate::physics::energy::EnergyLedger;
 use crate::physics::particles::Particles;
 
@@ -22,6 +24,10 @@ pub struct State {
     pub ledger: EnergyLedger,
     /// What contacts did, where that is recorded.
     pub log: ContactLog,
+    /// Sums in cells; none where fields are not recorded.
+    pub fields: FieldSums,
+    /// By zone and disc, in id order, its visits.
+    pub visits: Vec<Visits>,
     /// How much has been recorded.
     pub recorded: Recorded,
 }

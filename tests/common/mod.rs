@@ -120,6 +120,9 @@ pub fn baseline(count: usize, baffle_count: usize) -> SimulationConfig {
             record: Vec::new(),
             contact_floor: 0.0,
             arc_bin: None,
+            cell: None,
+            zones: Vec::new(),
+            sums_from: 0.0,
             overlap_limit: 0.5,
         },
     }

@@ -49,13 +49,16 @@ const KEYS: &[&str] = &[
     "load.start_speed",
     "rotation.knots",
     "run.arc_bin",
+    "run.cell",
     "run.contact_floor",
     "run.frame_every",
     "run.overlap_limit",
     "run.record",
     "run.sample_every",
     "run.skin",
+    "run.sums_from",
     "run.time_step",
+    "run.zones",
 ];
 
 fn tree(config: &SimulationConfig) -> Value {

@@ -1,15 +1,26 @@
-//! What is recorded of contacts keeps the promises: the same bits for any number of threads, any margin, across restarts and
+//! What is recorded on request, of contacts, in cells and in zones, keeps the promises: the same bits for any number of threads, any margin, across restarts and
 //! sorts of the memory; and recording changes nothing else.
 
 use crate::common::*;
 use drumrs::io::config::SimulationConfig;
 use drumrs::observe::recorder::Recording;
+use drumrs::physics::drum::zone::{ZoneFrame, ZoneParameters};
 use drumrs::simulation::Simulation;
 
 fn recorded(mut config: SimulationConfig) -> SimulationConfig {
-    config.run.record =
-        vec![Recording::Contacts, Recording::WallProfile, Recording::LedgerSplit, Recording::Discs];
+    config.run.record = vec![
+        Recording::Contacts,
+        Recording::WallProfile,
+        Recording::LedgerSplit,
+        Recording::Discs,
+        Recording::Fields,
+    ];
     config.run.sample_every = 300.0 * TIME_STEP;
+    config.run.sums_from = 100.0 * TIME_STEP;
+    let radius = config.drum.radius.expect("a rim");
+    let corners = vec![[-0.5 * radius, -radius], [0.5 * radius, -radius], [0.0, 0.3 * radius]];
+    let zone = |name: &str, frame| ZoneParameters { name: name.into(), corners: corners.clone(), frame };
+    config.run.zones = vec![zone("standing", ZoneFrame::Laboratory), zone("turning", ZoneFrame::Drum)];
     config.load.start_speed = 4.0;
     config
 }
@@ -45,7 +56,11 @@ fn records(simulation: &Simulation) -> Vec<u8> {
     let (rows, open) = (&simulation.records().contacts, simulation.open_rows());
     let is_wall = |row: &&drumrs::observe::contact_rows::ContactRow| row.part < 4;
     assert!(rows.len() > 20 && rows.iter().filter(is_wall).count() > 5 && !open.is_empty());
-    postcard::to_stdvec(&(simulation.contact_log(), rows, open)).expect("plain numbers")
+    let (fields, visits) = (&simulation.state().fields, &simulation.state().visits);
+    let (come, stress) =
+        (visits.iter().any(|own| own.entries > 0), fields.cells.iter().any(|cell| cell[10] > 0.0));
+    assert!(fields.moments > 3 && stress && come);
+    postcard::to_stdvec(&(simulation.contact_log(), rows, open, fields, visits)).expect("plain numbers")
 }
 
 #[test]
@@ -126,6 +141,7 @@ fn recording_contacts_changes_nothing_else() {
     for config in loads() {
         let mut bare = config.clone();
         bare.run.record.clear();
+        bare.run.zones.clear();
         assert_eq!(bits(&after(&bare, 1, 1700)), bits(&after(&config, 1, 1700)));
     }
 }

@@ -8,21 +8,23 @@ import polars as pl
 import pytest
 
 import drumrs
+from drumrs import measures
 from drumrs.contact_records import COLUMNS
 from drumrs.errors import ConfigError
 from drumrs.run_folder import RunFolder
 from drumrs.sweep import Case
 from drumrs.sweep.store import Store
 
-RECORD = list(COLUMNS)
-FILES = [f"{kind}.parquet" for kind in RECORD]
+RECORD = ["contacts", "wall_profile", "ledger_split", "discs", "fields"]
+ZONES = [{"name": "left", "corners": [[-0.24, -0.24], [0.0, -0.24], [0.0, 0.24]], "frame": "drum"}]
+FILES = [f"{kind}.parquet" for kind in COLUMNS]
 ENERGIES = ["dissipated_normal", "dissipated_tangential", "dissipated_rolling"]
 TERMS = {"rolling_friction": 0.1, "tangential_damping_ratio": 0.2}
 
 
 def recorded(duration: float = 0.3, **changes) -> drumrs.Config:
     config = drumrs.baseline(fill=0.15, baffles=True).softer(100.0)
-    return config.replace({"run.record": RECORD, "run.duration": duration, **changes})
+    return config.replace({"run.record": RECORD, "run.zone": ZONES, "run.duration": duration, **changes})
 
 
 @pytest.fixture(scope="module")
@@ -37,7 +39,7 @@ def result() -> drumrs.Result:
         {
             "drum": {"baffles": {"count": 3}},
             "load": {"species": species, "share_by": "mass", "fill": 0.2},
-            "run": {"record": RECORD, "duration": 0.5, "time_step": "auto"},
+            "run": {"record": RECORD, "zone": ZONES, "duration": 0.5, "time_step": "auto"},
         }
     ).softer(100.0)
     return drumrs.run(config.replace(terms), progress=False)
@@ -146,7 +148,7 @@ def test_nothing_is_recorded_unasked(tmp_path):
     drumrs.save(result, tmp_path, pictures=False)
     assert not set(FILES) & {path.name for path in tmp_path.iterdir()}
     with pytest.raises(ConfigError, match=r"run\.record.*'wall_profile'"):
-        drumrs.baseline().replace({"run.record": ["fields"]})
+        drumrs.baseline().replace({"run.record": ["forces"]})
 
 
 def test_small_contacts_are_one_row():
@@ -201,7 +203,8 @@ def test_a_finished_run_goes_on_with_its_contacts(drum, tmp_path):
     goal = ["--until", "0.0001", "--limit", "0.3"]
     record = f"run.record={json.dumps(RECORD)}"
     case = ["--softer", "100", "--set", "load.count=40", "--set", record, "--set", "run.duration=0.1"]
-    case += ["--set", "run.window=[0.05, 0.1]", "--out"]
+    zone = 'run.zone=[{name="left", corners=[[-0.2, -0.2], [0.0, -0.2], [0.0, 0.2]]}]'
+    case += ["--set", "run.window=[0.05, 0.1]", "--set", zone, "--out"]
     assert drum("run", *case, tmp_path / "whole", *goal)[0] == 0
     assert drum("run", *case, tmp_path / "twice")[0] == 0
     assert drum("run", "--resume", tmp_path / "twice", *goal)[0] == 0
@@ -214,7 +217,7 @@ def test_a_sweep_keeps_the_tables(tmp_path):
     result = drumrs.run(case.config, progress=False)
     store.write(case, result, {})
     assert store.fault(case) is None
-    for kind in RECORD:
+    for kind in COLUMNS:
         assert store.contact_table(case, kind).equals(getattr(result, kind))
     (tmp_path / f"{case.id}.discs.parquet").unlink()
     assert "discs" in store.fault(case)
@@ -229,7 +232,10 @@ def test_bins_need_a_width():
     state = drumrs.State(np.array([[0.5, 0.1]]))
     with pytest.raises(ConfigError, match=r"run\.arc_bin is not given, but must be given in a drum without"):
         drumrs.Simulation(config, state=state)
-    assert drumrs.Simulation(config.replace({"run.arc_bin": 0.1}), state=state).step == 0
+    with pytest.raises(ConfigError, match='without "fields" in a drum without rim'):
+        drumrs.Simulation(config.replace({"run.arc_bin": 0.1}), state=state)
+    without = {"run.arc_bin": 0.1, "run.record": RECORD[:-1]}
+    assert drumrs.Simulation(config.replace(without), state=state).step == 0
 
 
 def test_frames_hold_velocities_and_numbers_of_contacts(tmp_path):
@@ -251,3 +257,55 @@ def test_frames_hold_velocities_and_numbers_of_contacts(tmp_path):
     again = drumrs.Frames.load(tmp_path / "frames.parquet")
     assert np.array_equal(again.velocities, frames.velocities)
     assert np.array_equal(again.contacts, frames.contacts)
+
+
+def test_fields_and_visits_begin_with_the_window():
+    spray = {"name": "spray", "corners": [[-0.24, -0.24], [0.24, -0.24], [0.24, 0.0], [-0.24, 0.0]]}
+    config = recorded(0.3, **{"run.window": [0.1, 0.3], "run.zone": [spray], "run.record": ["fields"]})
+    result = drumrs.run(config, progress=False)
+    area = result.config.load.diameter**2 / 4.0
+    mass = measures.disc_masses(config, result.frames).sum()
+    assert result.fields["density"].sum() * area == pytest.approx(mass, rel=1e-12)
+    visits = result.zone_visits
+    assert visits["id"].to_list() == list(range(config.bundle_count))
+    looks = visits["time_inside"].to_numpy() / (32.0 * result.summary.time_step)
+    assert looks == pytest.approx(np.rint(looks))
+    # What lies below the axis all the time is there for the 0.2 s of the window, and nobody for longer.
+    assert visits["time_inside"].max() == pytest.approx(0.2, abs=64.0 * result.summary.time_step)
+    assert visits["entries"].sum() > 0
+    assert (visits["cycles"] <= visits["entries"]).all()
+
+
+@pytest.mark.parametrize(
+    ("zone", "message"),
+    [
+        ({"corners": [[1.0, 0.0], [0.3, 0.0], [0.3, 0.1]]}, "zone.0..corners .* in or near the drum"),
+        (
+            {"corners": [[0.3, 0.0], [0.4, 0.0], [0.3, 0.1]]},
+            "outside the drum, but must .* radius is 0.2375 m",
+        ),
+        ({"corners": [[0.0, 0.0], [0.1, 0.1], [0.1, 0.0], [0.0, 0.1]]}, "sides 1 and 3 cross"),
+        ({"corners": [[0.0, 0.0], [0.1, 0.1], [0.2, 0.2]]}, "cross or touch"),
+        ({"corners": [[0.0, 0.0], [0.1, 0.1]]}, "at least 3 points"),
+        ({"frame": "lab"}, "'laboratory' or 'drum'"),
+    ],
+)
+def test_zones_that_cannot_be_are_refused(zone, message):
+    whole = {"name": "spray", "corners": [[0.0, 0.0], [0.1, 0.0], [0.0, 0.1]], **zone}
+    with pytest.raises(ConfigError, match=message):
+        drumrs.Simulation(recorded(**{"run.zone": [whole]}))
+
+
+def test_zones_and_cells_that_are_too_many_are_refused():
+    spray = {"name": "spray", "corners": [[0.0, 0.0], [0.1, 0.0], [0.0, 0.1]]}
+    with pytest.raises(ConfigError, match=r"zone\[1\].name is spray, but must be another name"):
+        drumrs.Simulation(recorded(**{"run.zone": [spray, spray]}))
+    with pytest.raises(ConfigError, match="at most 64 zones"):
+        drumrs.Simulation(recorded(**{"run.zone": [{**spray, "name": str(k)} for k in range(65)]}))
+    with pytest.raises(ConfigError, match=r"run.cell is 1e-6, but must be at least 4.750e-4"):
+        drumrs.Simulation(recorded(**{"run.cell": 1e-6}))
+
+
+def test_a_zone_that_was_not_recorded_is_named():
+    with pytest.raises(ConfigError, match="no zone named 'spray'"):
+        measures.recorded_visits(None, "spray")

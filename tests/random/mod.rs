@@ -63,9 +63,14 @@ prop_compose! {
     }
 }
 
-/// All that is recorded of contacts.
-pub const CONTACT_RECORDS: [Recording; 4] =
-    [Recording::Contacts, Recording::WallProfile, Recording::LedgerSplit, Recording::Discs];
+/// All that is recorded of contacts, and fields.
+pub const CONTACT_RECORDS: [Recording; 5] = [
+    Recording::Contacts,
+    Recording::WallProfile,
+    Recording::LedgerSplit,
+    Recording::Discs,
+    Recording::Fields,
+];
 
 /// A number of any of these powers of ten.
 fn decades(low: f64, high: f64) -> impl Strategy<Value = f64> {
@@ -148,6 +153,9 @@ fn put_together(draw: &Draw, mut baffles: BaffleParameters, mut walls: Vec<Vec<[
         record: if draw.records { CONTACT_RECORDS.to_vec() } else { Vec::new() },
         contact_floor: 0.0,
         arc_bin: None,
+        cell: None,
+        zones: Vec::new(),
+        sums_from: 0.0,
         overlap_limit: 0.5,
     };
     let load = LoadParameters {

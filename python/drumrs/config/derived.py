@@ -75,7 +75,7 @@ class Facts:
             words.append(f"Froude number {limit}{self.froude_number:.3g}")
         if self.critical_share is not None:
             words.append(f"{limit}{100.0 * self.critical_share:.3g} % of the critical speed")
-        words.append(f"load {self.load_mass:.3g} kg per m of depth")
+        words.append(f"load {float(f'{self.load_mass:.3g}'):.15g} kg per m of depth")
         return ", ".join([*words, f"{self.steps_per_collision:.3g} steps per collision"])
 
 

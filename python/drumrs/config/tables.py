@@ -25,6 +25,7 @@ _GRAVITY = (0.0, -9.81)
 _PHASES = Limit(
     "a list of phases: tables with name, duration, and rpm or ramp, or a group with phase and repeat"
 )
+_ZONES = Limit("a list of zones: tables with name, corners and, where it turns with the drum, frame = 'drum'")
 
 
 class Phase(ConfigTable):
@@ -126,6 +127,24 @@ class Rotation(ConfigTable):
         return self
 
 
+class Zone(ConfigTable):
+    """A zone whose visits are counted, such as that of a spray; no bundle feels it.
+
+    Attributes
+    ----------
+    name
+        Name under which its visits are counted.
+    corners
+        Corners of a polygon [x, y], about the axis [m].
+    frame
+        Whether it stands, in the "laboratory", or turns with the "drum".
+    """
+
+    name: types.Name
+    corners: types.Points
+    frame: types.ZoneFrame = "laboratory"
+
+
 class Run(ConfigTable):
     """How long to run, what to record, when to give up."""
 
@@ -150,13 +169,22 @@ class Run(ConfigTable):
         (),
         "What is recorded on request: 'gross_work', the energy that contacts exchange, loading and unloading both "
         "counted; 'contacts', every contact; 'wall_profile', impulse, losses and wear along the outline of the drum; "
-        "'ledger_split', losses by species and part; 'discs', what each bundle received, and its flights",
+        "'ledger_split', losses by species and part; 'discs', what each bundle received, and its flights; 'fields', "
+        "density, velocity and stress in cells",
     )
     contact_floor: NonNegative = key(
         0.0, "Energy below which a contact is not listed by itself, but in one row with all of these", "J/m"
     )
     arc_bin: Positive | None = key(
         None, "Width of the bins of 'wall_profile'; a twentieth of the drum's radius unless given", "m", 0.01
+    )
+    cell: Positive | None = key(
+        None, "Side of the cells of 'fields'; the mean radius of the bundles unless given", "m", 0.01
+    )
+    zone: Annotated[tuple[Zone, ...], Field(min_length=1), _ZONES] | None = key(
+        None,
+        "Zones whose visits are counted, each a table [[run.zone]] with name, corners and frame; docs/records.md",
+        example=[{"name": "spray", "corners": [[0.0, -0.1], [0.15, 0.0], [0.1, 0.1], [-0.05, 0.0]]}],
     )
     overlap_limit: types.OpenFraction = key(
         0.5, "Greatest overlap, over the smaller radius, before the run is given up as unstable", "1"

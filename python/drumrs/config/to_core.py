@@ -113,5 +113,8 @@ def _run(run: "Run") -> dict[str, Any]:
         "record": run.record,
         "contact_floor": run.contact_floor,
         "arc_bin": run.arc_bin,
+        "cell": run.cell,
+        "zones": [zone.model_dump() for zone in run.zone or ()],
+        "sums_from": run.averaging_window[0],
         "overlap_limit": run.overlap_limit,
     }

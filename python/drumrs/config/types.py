@@ -94,8 +94,8 @@ PartName = Annotated[
     Limit("a name that begins with a small letter, then letters, digits and _, such as 'lifter'"),
 ]
 Recordings = Annotated[
-    tuple[Literal["gross_work", "contacts", "wall_profile", "ledger_split", "discs"], ...],
-    Limit("a list of any of 'gross_work', 'contacts', 'wall_profile', 'ledger_split', 'discs'"),
+    tuple[Literal["gross_work", "contacts", "wall_profile", "ledger_split", "discs", "fields"], ...],
+    Limit("a list of any of 'gross_work', 'contacts', 'wall_profile', 'ledger_split', 'discs', 'fields'"),
 ]
 
 _NAME = re.compile(r"[^\W\d_][\w-]*")
@@ -137,6 +137,7 @@ Polyline = Annotated[
     Field(min_length=2),
     Limit("a list of at least 2 points [x, y]"),
 ]
+ZoneFrame = Annotated[Literal["laboratory", "drum"], Limit("'laboratory' or 'drum'")]
 Name = Annotated[str, Field(strict=True, min_length=1, max_length=60), Limit("a name of 1 to 60 characters")]
 Repeat = Annotated[int, _COUNT, _within(1, GREATEST_COUNT), _whole(1, GREATEST_COUNT)]
 Ramp = Annotated[tuple[Real, Real], BeforeValidator(_plain), Limit("a pair [from, to] of speeds")]

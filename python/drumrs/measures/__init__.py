@@ -3,7 +3,7 @@
 - the load as a whole: `motion`, `depth`, `bed`, `species`
 - shape of the charge: `shape`, `surface`, `toe`
 - mixing and segregation: `colors`, `cells`, `segregation`, `rate`, `neighbors`
-- fields, and the flowing layer: `coarse_graining`, `profile`
+- fields, and the flowing layer: `coarse_graining`, `cell_sums`, `profile`
 - unbalance: `balance`
 - collisions and walls: `spectra`, `walls`; torque and forces over frequency: `signals`
 - washing and drying: `laundry`
@@ -23,6 +23,7 @@ from drumrs.measures.balance import (
     unbalance_vectors,
 )
 from drumrs.measures.bed import bulk_fill
+from drumrs.measures.cell_sums import recorded_fields
 from drumrs.measures.cells import entropy, lacey, mixing_curve, relative_deviation
 from drumrs.measures.coarse_graining import Fields, center_of_circulation, fields
 from drumrs.measures.colors import COLORINGS, cell_side, coloring
@@ -48,7 +49,7 @@ from drumrs.measures.species import by_species
 from drumrs.measures.spectra import collision_spectrum, enduring, impacts, sum_rule
 from drumrs.measures.surface import FreeSurface, free_surface
 from drumrs.measures.walls import finnie_f, wear, worn_outline
-from drumrs.measures.zones import Visits, zone_visits
+from drumrs.measures.zones import Visits, recorded_visits, zone_visits
 
 __all__ = [
     "COLORINGS",
@@ -100,6 +101,8 @@ __all__ = [
     "openness",
     "peak_factor",
     "radial_segregation",
+    "recorded_fields",
+    "recorded_visits",
     "regime",
     "relative_deviation",
     "shape_factor",

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from drumrs.frames import Frames
 
 # The weight is cut off at so many widths, and the grid has so many nodes in one.
-_CUT, _NODES = 3.0, 2.0
+CUT, _NODES = 3.0, 2.0
 # The bed is where the solid fraction is above half of what nine in ten nodes that discs reach stay below.
 _BED, _MOST = 0.5, 0.9
 
@@ -39,6 +39,9 @@ class Fields:
         u = Σ m v W / ρ [m/s], shape (k, k, 2); not a number where no disc comes near.
     kinetic_stress
         Σ m v′ v′ W [Pa], v′ = v − u at the place of the disc, shape (k, k, 2, 2).
+    contact_stress
+        Σ F ⊗ ∫ W along the branch of each contact [Pa], with the force on the other body; pressure is positive, shape
+        (k, k, 2, 2). `None` where the fields are made of frames, which have no forces.
     """
 
     x: Array
@@ -48,6 +51,7 @@ class Fields:
     solid_fraction: Array
     velocity: Array
     kinetic_stress: Array
+    contact_stress: Array | None = None
 
     @property
     def fluctuation(self) -> Array:
@@ -161,7 +165,7 @@ class _Grid:
 
     def __init__(self, reach: float, width: float) -> None:
         self._width, self._step = width, width / _NODES
-        self._half = math.ceil(_CUT * _NODES) + 1
+        self._half = math.ceil(CUT * _NODES) + 1
         count = math.ceil(reach / self._step) + self._half
         self.line: Array = self._step * np.arange(-count, count + 1, dtype=np.float64)
 
@@ -172,9 +176,9 @@ class _Grid:
         columns = [nearest[:, axis, np.newaxis] + offsets for axis in range(2)]
         squares = [(self.line[columns[axis]] - points[:, axis, np.newaxis]) ** 2 for axis in range(2)]
         distance = squares[0][:, :, np.newaxis] + squares[1][:, np.newaxis, :]
-        norm = 2.0 * math.pi * self._width**2 * (1.0 - math.exp(-0.5 * _CUT**2))
+        norm = 2.0 * math.pi * self._width**2 * (1.0 - math.exp(-0.5 * CUT**2))
         weight = np.exp(-0.5 * distance / self._width**2) / norm
-        weight[distance > (_CUT * self._width) ** 2] = 0.0
+        weight[distance > (CUT * self._width) ** 2] = 0.0
         nodes = columns[0][:, :, np.newaxis] * len(self.line) + columns[1][:, np.newaxis, :]
         return nodes.reshape(len(points), -1), weight.reshape(len(points), -1)
 

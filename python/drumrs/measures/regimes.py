@@ -44,7 +44,7 @@ class RegimeLimits:
     slumping
         Greatest steadiness of a load that slumps.
     cascading
-        Least S-shape.
+        Least sag of the surface.
     """
 
     centrifuging: float = 0.9
@@ -85,8 +85,8 @@ class Regime:
     steadiness
         Median over mean of the energy of the surface layer relative to the drum: about 1 where it flows all the time,
         small where it rests between avalanches.
-    s_shape
-        Greatest distance of the surface, without its ends, from its chord, over the chord.
+    sag
+        How far the surface, without its ends, hangs below its chord, over the chord: a kidney's shape.
     """
 
     name: str
@@ -98,7 +98,7 @@ class Regime:
     sticking: float
     circulation: float
     steadiness: float
-    s_shape: float
+    sag: float
 
 
 def regime(
@@ -144,7 +144,7 @@ def regime(
     if turned == 0.0:
         raise ConfigError("window", window, "one in which the drum turns: at rest there is no regime")
     surface = surface or free_surface(frames, window)
-    shape = surface.shape()
+    filling = surface.shape()["filling"]
     weights = seen.radii**2 / (seen.radii**2).sum()
     center = weights @ seen.positions.mean(axis=0, dtype=np.float64)
     found = flights(frames, window, gravity)
@@ -153,7 +153,7 @@ def regime(
     aloft = (throws["end"] - throws["start"]).to_numpy()
     energy = surface_energy(frames, window)
     froude = (turned / span) ** 2 * surface.drum_radius / gravity
-    filling = 0.0 if math.isnan(shape["filling"]) else shape["filling"]
+    filling = 0.0 if math.isnan(filling) else filling
     numbers = {
         "carried_round": _value(carried_round(frames, window)),
         "share_in_throws": float(weights[throws["particle"].to_numpy()] @ aloft) / span,
@@ -161,7 +161,7 @@ def regime(
         "sticking": _value(sticking(frames, window)),
         "circulation": _value(circulation(frames, window, center)),
         "steadiness": float(np.median(energy) / energy.mean()) if energy.any() else 1.0,
-        "s_shape": shape["s_shape"],
+        "sag": surface.sag,
     }
     return Regime(
         name=_name(numbers, limits),
@@ -181,7 +181,7 @@ def _name(numbers: dict[str, float], limits: RegimeLimits) -> str:
         "surging": slips and numbers["sticking"] > limits.surging,
         "slipping": slips,
         "slumping": numbers["steadiness"] < limits.slumping,
-        "cascading": numbers["s_shape"] > limits.cascading,
+        "cascading": numbers["sag"] > limits.cascading,
         "rolling": True,
     }
     return next(name for name, is_so in holds.items() if is_so)

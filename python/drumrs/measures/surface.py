@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 _COLUMNS = 81
 _PER_DIAMETER = 4.0
 # Frames that are plenty for a mean.
-_PLENTY = 200
+_PLENTY = 100
 # The parts of the surface, about the middle of its chord, that give its slope and its S-shape: its ends are rounded.
 _MIDDLE, _WITHOUT_ENDS = 0.5, 0.8
 
@@ -71,24 +71,40 @@ class FreeSurface:
             the chord's length;
             ``filling``, the area between rim and surface over the drum's. Not a number where there is no bed.
         """
-        height = self.heights[chosen].mean(axis=0)
-        depth = height + np.sqrt((self.drum_radius - self.bundle_radius) ** 2 - self.along**2)
-        bed = _longest_run(depth > self.bundle_radius)
-        line = np.column_stack([self.along, height])[bed]
-        middle, inner = (
-            line[np.abs(line[:, 0] - line[:, 0].mean()) <= 0.5 * share * np.ptp(line[:, 0])]
-            for share in (_MIDDLE, _WITHOUT_ENDS)
-        )
+        middle = self._middle(chosen, _MIDDLE)
         if len(middle) <= 1:
             return {"surface_slope": math.nan, "s_shape": math.nan, "filling": math.nan}
         ahead = np.linalg.svd(middle - middle.mean(axis=0))[2][0]
-        chord = inner[-1] - inner[0]
-        off = np.abs((inner - inner[0]) @ np.array([-chord[1], chord[0]])).max()
         return {
             "surface_slope": self.tilt + math.atan(ahead[1] / ahead[0]),
-            "s_shape": float(off / (chord @ chord)),
-            "filling": self._area(height) / (math.pi * self.drum_radius**2),
+            "s_shape": float(np.abs(self._above_chord(chosen)).max()),
+            "filling": self._area(self.heights[chosen].mean(axis=0)) / (math.pi * self.drum_radius**2),
         }
+
+    @property
+    def sag(self) -> float:
+        """How far the middle four fifths of the mean surface hang below their chord, over the chord's length."""
+        return abs(float(self._above_chord().min(initial=0.0)))
+
+    def _above_chord(self, chosen: slice = slice(None)) -> Array:
+        """Return how far the places of the middle four fifths are above their chord, over its length."""
+        inner = self._middle(chosen, _WITHOUT_ENDS)
+        if len(inner) <= 1:
+            return np.empty(0)
+        chord = inner[-1] - inner[0]
+        above: Array = (inner - inner[0]) @ np.array([-chord[1], chord[0]]) / (chord @ chord)
+        return above
+
+    def _middle(self, chosen: slice, share: float) -> Array:
+        """Return the middle part of the mean surface of the bed as a line along the load and up."""
+        height = self.heights[chosen].mean(axis=0)
+        depth = height + np.sqrt((self.drum_radius - self.bundle_radius) ** 2 - self.along**2)
+        line = np.column_stack([self.along, height])[_longest_run(depth > self.bundle_radius)]
+        across = line[:, 0] - line[:, 0].mean() if len(line) else line[:, 0]
+        middle: Array = line[
+            np.abs(across) <= 0.5 * share * (across.max(initial=0.0) - across.min(initial=0.0))
+        ]
+        return middle
 
     def _area(self, height: Array) -> float:
         """Return the area between rim and surface [m²]: discs reach up to one more's center, less its radius."""

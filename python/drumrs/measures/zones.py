@@ -11,6 +11,8 @@ from drumrs.errors import ConfigError
 from drumrs.measures.frame_window import within
 
 if TYPE_CHECKING:
+    import polars as pl
+
     from drumrs.frames import Frames
 
 
@@ -91,6 +93,54 @@ def zone_visits(frames: "Frames", window: tuple[float, float], zone: ArrayLike) 
     residence, cycle = float(stays.mean()) * interval, float(cycles.mean()) * interval
     off = (stays - residence / cycle * cycles) * interval
     return Visits(len(stays), residence, cycle, float(off.var()))
+
+
+def recorded_visits(table: "pl.DataFrame | None", zone: str) -> Visits:
+    """Return how the centers of the discs visited a zone of ``run.zone``, as counted every 32 steps of the run.
+
+    Parameters
+    ----------
+    table
+        ``result.zone_visits``.
+    zone
+        Name of the zone.
+
+    Returns
+    -------
+    Visits
+        Of the visits from the start of the averages' window on that were followed by another.
+
+    Raises
+    ------
+    ConfigError
+        Where no visits were recorded, there is no such zone, or no disc has come there twice.
+
+    Examples
+    --------
+    >>> import drumrs
+    >>> from drumrs.measures import recorded_visits
+    >>> right = {"name": "right", "corners": [[0.0, -0.3], [0.3, -0.3], [0.3, 0.3], [0.0, 0.3]]}
+    >>> changes = {"run.duration": 3.0, "run.window": [0.5, 3.0], "run.zone": [right]}
+    >>> result = drumrs.run(drumrs.baseline().replace(changes).softer(100.0), progress=False)
+    >>> visits = recorded_visits(result.zone_visits, "right")
+    >>> 0.0 < visits.residence < visits.cycle
+    True
+    """
+    import polars as pl
+
+    names = [] if table is None else table["zone"].unique(maintain_order=True).to_list()
+    if table is None or zone not in names:
+        problem = f"has no zone named {zone!r}: there {'are ' + ', '.join(names) if names else 'is none'}"
+        raise ConfigError("run.zone", problem=problem, hint="add a table [[run.zone]] and run again")
+    sums = table.filter(pl.col("zone") == zone).sum().row(0, named=True)
+    count = sums["cycles"]
+    if not count:
+        raise ConfigError(
+            "run.duration", problem=f"is too short: no disc has come to the zone {zone!r} twice"
+        )
+    ratio = sums["stay"] / sums["cycle"]
+    squares = sums["stay_squared"] - 2.0 * ratio * sums["stay_cycle"] + ratio**2 * sums["cycle_squared"]
+    return Visits(count, sums["stay"] / count, sums["cycle"] / count, max(squares, 0.0) / count)
 
 
 def _of_all(inside: NDArray[np.bool_]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:

@@ -13,6 +13,7 @@ from drumrs.reports.content import Picture, Play, Table, measured, value
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    import polars as pl
     from matplotlib.figure import Figure
 
     from drumrs.reports.content import Block
@@ -105,7 +106,17 @@ def circulation(of: "Material") -> "Iterator[Block]":
 
 
 def visits(of: "Material") -> "Iterator[Block]":
-    """Write how often and how alike discs come to the middle of the bed's surface, where a spray would be."""
+    """Write how often and how alike discs come to the zones of the run, or else to the middle of the bed's surface."""
+    table = of.result.zone_visits
+    if table is not None:
+        for zone in table["zone"].unique(maintain_order=True):
+            found, inside = measures.recorded_visits(table, zone), table.filter(zone=zone)["time_inside"]
+            counted = (
+                "spread of the time in the zone in this run, counted [%]",
+                value(100.0 * _spread(inside)),
+            )
+            yield _visits(found, f"The zone is {zone!r} of run.zone.", counted)
+        return
     seen = counter_clockwise(of.frames)
     surface, diameter = of.surface, 2.0 * float(of.frames.radii.mean())
     middle = np.abs(surface.along) <= _SPRAY * surface.drum_radius
@@ -114,7 +125,22 @@ def visits(of: "Material") -> "Iterator[Block]":
         diameter * np.array([-math.sin(surface.tilt), math.cos(surface.tilt)]),
     )
     found = measures.zone_visits(seen, of.span, np.concatenate([line + up, (line - 1.5 * up)[::-1]]))
-    yield Table(
+    where = (
+        f"The zone is the middle of the bed’s surface, {2.0 * _SPRAY * surface.drum_radius:.3g} m wide, and one and a "
+        "half diameters deep; one of your own is a table [[run.zone]]."
+    )
+    yield _visits(found, where)
+
+
+def _spread(times: "pl.Series") -> float:
+    """Return the standard deviation over the mean."""
+    values = times.to_numpy()
+    return float(values.std(ddof=1) / values.mean()) if len(values) > 1 else math.nan
+
+
+def _visits(found: "measures.Visits", where: str, *more: tuple[str, str]) -> Table:
+    """Return a table of visits to a zone."""
+    return Table(
         ("", "value"),
         [
             ("visits of a disc in a minute", value(60.0 / found.cycle)),
@@ -124,8 +150,8 @@ def visits(of: "Material") -> "Iterator[Block]":
                 (f"spread of the time in the zone after {name} [%]", value(100.0 * found.spread(time)))
                 for name, time in (("a minute", 60.0), ("an hour", 3600.0))
             ),
+            *more,
         ],
-        f"The zone is the middle of the bed’s surface, {2.0 * _SPRAY * surface.drum_radius:.3g} m wide, and one and a "
-        f"half diameters deep. From {found.count} visits that another one followed. Spread: standard deviation over "
+        f"{where} From {found.count} visits that another one followed. Spread: standard deviation over "
         "discs, over the mean, as the motion alone makes it; it falls as one over the root of the time.",
     )

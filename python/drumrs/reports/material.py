@@ -130,7 +130,10 @@ class Material:
 
     @cached_property
     def fields(self) -> "Fields":
-        """Fields of density and velocity."""
+        """Fields of density and velocity, from sums where these are recorded, else from frames."""
+        speed = self.config.derived.angular_velocity
+        if self.result.fields is not None and speed:
+            return measures.recorded_fields(self.result.fields, clockwise=speed < 0.0)
         return measures.fields(self.frames, self.span, self.masses)
 
     def require_speed(self) -> float:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from functools import cache, cached_property
 
 from drumrs.config import Config
-from drumrs.contact_records import COLUMNS
+from drumrs.contact_records import recorded_tables
 from drumrs.errors import ConfigError
 from drumrs.simulation import info
 
@@ -62,8 +62,8 @@ class Case:
 
     @property
     def contact_tables(self) -> tuple[str, ...]:
-        """Names of the tables of contacts that are kept: those that ``run.record`` asks for."""
-        return tuple(kind for kind in COLUMNS if kind in self.config.run.record)
+        """Names of the tables that are kept on request, by ``run.record`` and ``run.zone``."""
+        return recorded_tables(self.config.run)
 
     @cached_property
     def cost(self) -> float:

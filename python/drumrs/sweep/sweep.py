@@ -223,7 +223,7 @@ class Sweep:
 
     def measure(
         self,
-        measure: "Callable[[Result], Mapping[str, Mean | float | None]]",
+        measure: "Callable[[Result], Mapping[str, Mean | float | str | None]]",
         folder: str | Path | None = None,
     ) -> "pl.DataFrame":
         """Return the table with a column for each number that a function measures, from the files: nothing is run.
@@ -232,7 +232,7 @@ class Sweep:
         ----------
         measure
             Function from a finished case, as its run left it, to numbers by name, such as those of `drumrs.measures`.
-            A `Mean` has a column for its error, too; `None` is null.
+            A `Mean` has a column for its error, too; `None` is null; words are a column of text.
         folder
             Where the results are; that of the last `run` unless given.
 

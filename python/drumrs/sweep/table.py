@@ -59,7 +59,9 @@ def write(cases: Sequence[Case], store: Store) -> Path:
 
 
 def measured(
-    cases: Sequence[Case], store: Store, measure: "Callable[[Result], Mapping[str, Mean | float | None]]"
+    cases: Sequence[Case],
+    store: Store,
+    measure: "Callable[[Result], Mapping[str, Mean | float | str | None]]",
 ) -> "pl.DataFrame":
     """Return the table with what a function measures of each finished case; of a mean, its error is a column, too.
 
@@ -81,10 +83,11 @@ def measured(
                     rows[-1] |= {name: found.value, f"{name}_error": found.error}
                 else:
                     rows[-1][name] = found
-    names = dict.fromkeys(name for row in rows for name in row if name != "case")
+    words = {name for row in rows for name, value in row.items() if isinstance(value, str)}
+    names = {name: pl.String if name in words else pl.Float64 for row in rows for name in row}
     # A number that is none is null, as everywhere in tables; what was there by that name gives way.
-    columns = pl.DataFrame(rows, {"case": pl.String, **dict.fromkeys(names, pl.Float64)}, orient="row")
-    own = table.drop(names, strict=False)
+    columns = pl.DataFrame(rows, {"case": pl.String, **names}, orient="row")
+    own = table.drop(set(names) - {"case"}, strict=False)
     return own.join(columns.fill_nan(None), on="case", how="left", maintain_order="left")
 
 

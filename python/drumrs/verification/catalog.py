@@ -24,6 +24,7 @@ from drumrs.verification import (
     rotation,
     sliding,
     sticking,
+    stress,
     zones,
 )
 from drumrs.verification.case import Case
@@ -42,7 +43,7 @@ FAMILIES = MappingProxyType(
         "Promises": promises.CASES,
         "Measures: shape of the charge": charge.CASES,
         "Measures: mixing": mixing.CASES,
-        "Measures: fields": fields.CASES,
+        "Measures: fields": fields.CASES + stress.CASES,
         "Measures: unbalance, flight and visits": balance.CASES + flight.CASES + zones.CASES,
         "Measures: collisions and walls": contact_tables.CASES,
         "Measures: washing, and torque over frequency": laundry.CASES,

@@ -26,13 +26,13 @@ _RIDES = 3
 @case(
     "regimes",
     source="made-up loads",
-    formula="each load has the name of its motion; Fr = Ω² R/g, slip, circulation, S-shape as made",
+    formula="each load has the name of its motion; Fr = Ω² R/g, slip, circulation, sag as made",
     cost=1e7,
 )
 def regimes() -> Evidence:
     """Loads that ride, half of which ride, that fly, stay, ride and slide back, flow in avalanches, straight, in an S.
 
-    Names must be right. Numbers: round-off; the S-shape within a fifth of what was made, for the surface is a radius
+    Names must be right. Numbers: round-off; the sag within a fifth of what was made, for the surface is a radius
     above the discs. The surface of the cascading bed is A sin(π x/h) above its chord from −h to h. From −0.8 h to
     0.8 h it is A (sin u − 0.234 u) off the chord there, at most 0.660 A, at u = 1.335.
     """
@@ -51,7 +51,7 @@ def regimes() -> Evidence:
         ("share of the time that a surging bed sticks", 0.75, seen["surging"].sticking, 1e-9),
         ("slip of a surging bed", 1.0, seen["surging"].wall_slip, 1e-9),
         ("steadiness of avalanches", 0.0, seen["slumping"].steadiness, 1e-9),
-        ("S-shape of an S", _S_SHAPE_WITHOUT_ENDS, seen["cascading"].s_shape, 0.2 * _S_SHAPE_WITHOUT_ENDS),
+        ("sag of an S", _S_SHAPE_WITHOUT_ENDS, seen["cascading"].sag, 0.2 * _S_SHAPE_WITHOUT_ENDS),
     ]
     found += [Check(name, "1", expected, value, tolerance) for name, expected, value, tolerance in rows]
     trace = Trace("", [row[1] for row in rows], [row[2] for row in rows], ([0.0, 1.0], [0.0, 1.0]))

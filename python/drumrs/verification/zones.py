@@ -5,8 +5,9 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from drumrs import Frames, measures
-from drumrs.verification import made_up
+from drumrs import Frames, State, measures
+from drumrs.measures.recorded import required
+from drumrs.verification import made_up, scenes
 from drumrs.verification.case import case
 from drumrs.verification.evidence import Check, Evidence, Panel, Trace
 
@@ -67,6 +68,50 @@ def zone_visits() -> Evidence:
     return Evidence(tuple(found), Panel("time [s]", "spread", (trace,), logarithmic=True))
 
 
+@case(
+    "recorded-visits",
+    source="kinematics",
+    formula="half a turn, a turn from visit to visit, no spread; never out of a zone that turns along",
+    cost=2e5,
+)
+def recorded_visits() -> Evidence:
+    """A disc held to the rim of a drum that turns fast, without gravity, and zones whose visits the run counts.
+
+    Zones are looked at every 32 steps: one look for each end of a visit, and (2 looks)² for the variance.
+    """
+    fast, orbit, turns = 12.0, scenes.DRUM_RADIUS - scenes.RADIUS, 15
+    reach = 2.0 * scenes.DRUM_RADIUS
+    half = [[0.0, -reach], [reach, -reach], [reach, reach], [0.0, reach]]
+    zones = [
+        {"name": "standing", "corners": half},
+        {"name": "turning", "corners": [[x - 0.5 * orbit, y] for x, y in half], "frame": "drum"},
+    ]
+    changes = {
+        "rotation.rpm": fast * 60.0 / math.tau,
+        "gravity": (0.0, 0.0),
+        "run.zone": zones,
+    }
+    config = scenes.drum(changes).softer(100.0)
+    period = math.tau / fast
+    state = State([[orbit, 0.0]], [[0.0, fast * orbit]], angular_velocities=[fast])
+    run = scenes.after(config, state, turns * period, samples=6)
+    table, look = run.result().zone_visits, 32.0 * run.time_step
+    found = measures.recorded_visits(table, "standing")
+    turning = required(table, "zone_visits", "this").filter(zone="turning")
+    span = run.time - run.config.run.averaging_window[0]
+    checks = [
+        Check("whole visits", "1", turns // 3 - 1, found.count, 1.0),
+        Check("time of a visit", "s", 0.5 * period, found.residence, look),
+        Check("time from visit to visit", "s", period, found.cycle, look),
+        Check("variance", "s²", 0.0, found.variance, (2.0 * look) ** 2),
+        Check("visits to the zone that turns", "1", 0.0, float(turning["entries"].sum()), 0.0),
+        Check("time in it", "s", span, float(turning["time_inside"].sum()), 2.0 * look),
+    ]
+    rows = [check.expected for check in checks[1:3]]
+    trace = Trace("", rows, [check.measured for check in checks[1:3]], (rows, rows))
+    return Evidence(tuple(checks), Panel("expected [s]", "measured [s]", (trace,)))
+
+
 def _frames(away: Array) -> Frames:
     """Return discs that are on the left for so many frames, then on the right for a visit, again and again."""
     begins = (np.cumsum(away + _STAY, axis=1) - _STAY).astype(int)
@@ -78,4 +123,4 @@ def _frames(away: Array) -> Frames:
     return made_up.frames(np.stack([x, np.zeros_like(x)], axis=-1), 0.01)
 
 
-CASES = (zone_visits,)
+CASES = (zone_visits, recorded_visits)

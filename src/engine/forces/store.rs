@@ -8,11 +8,13 @@ use super::{Bodies, Totals};
 use crate::engine::contacts::{ContactEvent, ContactRecord, ContactTally, ListKind};
 use crate::engine::pair_list::PairList;
 use crate::engine::parallel::CHUNK;
+use crate::engine::simd::LANES;
 use crate::physics::columns::Columns;
-use crate::physics::contact::Stored;
 use crate::physics::contact::law::ContactLaw;
+use crate::physics::contact::{ContactState, Stored};
 use crate::physics::drum::RIM;
 use crate::physics::energy::SurfaceLoad;
+use crate::physics::vector::Vec2;
 
 /// Contacts of pairs, and of particles with the drum, each in the order of their lists.
 #[derive(Debug, Clone, PartialEq, Default, serde::Serialize, serde::Deserialize)]
@@ -104,6 +106,9 @@ pub trait ContactStore: Debug + Send + Sync {
     /// Tells of every contact the particles that it is of, each by its place in memory.
     fn visit_bodies(&self, visit: &mut dyn FnMut(usize));
 
+    /// Tells of every contact its bodies, whether it is with the drum, and the force on body j [N/m].
+    fn visit_forces(&self, visit: &mut dyn FnMut((u32, u32), bool, Vec2));
+
     /// All contacts.
     fn contacts(&self) -> Lists;
 
@@ -155,6 +160,17 @@ impl<L: ContactLaw> ContactStore for Pass<L> {
                 if list.kind != ListKind::Walls {
                     visit(other as usize);
                 }
+            }
+        }
+    }
+
+    fn visit_forces(&self, visit: &mut dyn FnMut((u32, u32), bool, Vec2)) {
+        for list in self.chunks.iter().flat_map(Chunk::lists) {
+            for index in 0..list.len() {
+                let (ContactState { force_x, force_y, .. }, lane) =
+                    (&list.blocks[index / LANES].state, index % LANES);
+                let force = Vec2::new(force_x[lane], force_y[lane]);
+                visit(list.key(index), list.kind == ListKind::Walls, force);
             }
         }
     }

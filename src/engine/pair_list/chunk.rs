@@ -11,7 +11,7 @@ use crate::engine::parallel::CHUNK;
 use crate::engine::simd::{ALL_LANES, F64x4, LANES, Vec2x4, greatest, lanes, vectors};
 use crate::physics::drum::RIM;
 use crate::physics::scalar::Scalar;
-use crate::physics::vector::Vec2;
+use crate::physics::vector::{Vec2, perpendicular};
 
 /// The neighbors of one chunk's particles.
 #[derive(Debug, Clone)]
@@ -95,7 +95,7 @@ impl ChunkNeighbors {
             let (particle, feature) = self.features.pairs()[place];
             let ([x, y], [u, v]) = (motion.position(offset(particle)), motion.velocity(offset(particle)));
             let (position, velocity) = (Vec2::new(x, y), Vec2::new(u, v));
-            let seen = velocity - crate::physics::vector::perpendicular(position) * inputs.angular_velocity;
+            let seen = velocity - perpendicular(position) * inputs.angular_velocity;
             let displacement = seen.norm() * time + 0.5 * self.horizon.budget();
             let distance = inputs.drum.distance_to(feature, inputs.rotation.apply_inverse(position));
             if distance * ROUND_OFF <= inputs.bodies.radius_of(particle) + displacement {

@@ -23,7 +23,9 @@ pub enum Model {
     Hertz,
     /// Hertz–Mindlin with the terms that do not go with the tangential stiffness.
     FullHertz,
-    /// `Clipped` with records; where tension is allowed, nothing is clipped.
+    /// `Bare` with records.
+    RecordedBare,
+    /// `Clipped` with records.
     RecordedClipped,
     /// `Full` with records.
     RecordedFull,
@@ -39,7 +41,8 @@ impl Model {
             (Base::Linear, false, false) if table.clips() => Self::Clipped,
             (Base::Linear, false, false) => Self::Bare,
             (Base::Linear, false, true) => Self::Full,
-            (Base::Linear, true, false) => Self::RecordedClipped,
+            (Base::Linear, true, false) if table.clips() => Self::RecordedClipped,
+            (Base::Linear, true, false) => Self::RecordedBare,
             (Base::Linear, true, true) => Self::RecordedFull,
             (Base::Hertz, false, false) => Self::Hertz,
             (Base::Hertz, false, true) => Self::FullHertz,
@@ -54,6 +57,7 @@ macro_rules! with_law {
         $crate::physics::contact::model::with_law!($model, $law => $work;
             Bare: Linear<false>, Clipped: Linear<true>, Full: (Linear<true>, Terms),
             Hertz: Hertz, FullHertz: (Hertz, Adhesion),
+            RecordedBare: WithRecords<Linear<false>>,
             RecordedClipped: WithRecords<Linear<true>>,
             RecordedFull: WithRecords<(Linear<true>, Terms)>,
             RecordedFullHertz: WithRecords<(Hertz, Adhesion)>)

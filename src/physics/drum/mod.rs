@@ -18,6 +18,7 @@ mod rounding;
 mod segment;
 mod validate;
 mod visibility;
+pub mod zone;
 
 use crate::error::Error;
 use crate::physics::vector::Vec2;

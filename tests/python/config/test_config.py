@@ -13,6 +13,7 @@ from pydantic import BaseModel
 import drumrs
 from drumrs.config import Config, Outline, PairContact, Phase, Sizes, Species
 from drumrs.config.messages import dotted_keys, table_type
+from drumrs.config.tables import Zone
 from drumrs.errors import ConfigError
 
 positive = st.floats(1e-300, 1e300)
@@ -64,6 +65,13 @@ beside_the_axis = st.lists(st.tuples(st.floats(0.1, 9.0), real), min_size=3, max
 # Keys that a file is read by; then they are gone: test_drum.py.
 READ = {"drum.liner.file", "drum.liner.units"}
 
+zone = st.fixed_dictionaries(
+    {
+        "name": st.text("ab c", min_size=1, max_size=4),
+        "corners": st.lists(st.tuples(real, real), min_size=3, max_size=5),
+        "frame": st.sampled_from(["laboratory", "drum"]),
+    }
+)
 phase = st.recursive(
     st.fixed_dictionaries(
         {"duration": positive}, optional={"name": st.text("ab c", min_size=1, max_size=4)}
@@ -129,6 +137,8 @@ VALUES = {
     "run.record": st.sampled_from([(), ("gross_work",), ("contacts", "discs")]),
     "run.contact_floor": non_negative,
     "run.arc_bin": positive,
+    "run.cell": positive,
+    "run.zone": st.lists(zone.map(lambda keys: Zone(**keys)), min_size=1, max_size=2).map(tuple),
     "run.overlap_limit": st.floats(0.01, 0.99),
 } | {
     f"contact.{kind}.{key}": strategy

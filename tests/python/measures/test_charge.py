@@ -22,6 +22,14 @@ def test_a_drum_that_turns_clockwise_has_the_measures_of_its_mirror_image():
     assert np.array_equal(ring.solid_fraction, other.solid_fraction)
 
 
+def test_a_charge_of_both_ways_is_refused():
+    ahead, back = TILTED.drum_angles[-1] + 1.0, TILTED.drum_angles[-1] + 0.5
+    angles = np.linspace(0.0, ahead, len(TILTED))
+    angles[-1] = back
+    with pytest.raises(ConfigError, match="one in which the drum turns one way"):
+        measures.charge(replace(TILTED, drum_angles=angles), WINDOW)
+
+
 def test_the_surface_is_a_radius_above_the_bed_at_its_slope():
     surface = measures.free_surface(TILTED, WINDOW)
     up = np.array([-np.sin(0.5), np.cos(0.5)])

@@ -1,12 +1,14 @@
-"""Fields of what has no bed, or turns the other way; discs that go round a center."""
+"""Fields of what has no bed, or turns the other way, from frames and from sums; discs that go round a center."""
 
 import math
 from dataclasses import replace
 
 import numpy as np
+import polars as pl
 import pytest
 
 from drumrs import measures
+from drumrs.contact_records import FIELDS
 from drumrs.errors import ConfigError
 from drumrs.verification import made_up
 
@@ -61,3 +63,49 @@ def test_the_way_of_the_drum_is_that_of_the_window():
 def test_a_load_at_rest_has_no_turn_to_count_by():
     still = made_up.frames(np.full((4, 1, 2), 0.3), 0.05, drum_angles=np.zeros(4))
     assert measures.circulation(still, WINDOW) is None
+
+
+def cells(**columns) -> pl.DataFrame:
+    """Return sums in four by four cells of side 1: nothing but what is given, as arrays by x and y."""
+    middles = np.arange(-1.5, 2.0)
+    made = {column.name: np.zeros(16) for column in FIELDS}
+    made |= {"x": np.repeat(middles, 4), "y": np.tile(middles, 4)}
+    return pl.DataFrame(made | {name: np.ravel(values) for name, values in columns.items()})
+
+
+def test_recorded_fields_of_a_clockwise_drum_are_the_mirror_image():
+    draws = np.random.default_rng(2)
+    names = [column.name for column in FIELDS[2:]]
+    table = cells(**{name: draws.uniform(1.0, 2.0, (4, 4)) for name in names})
+    mirrored = table.with_columns(
+        -pl.col(
+            "x",
+            "momentum_x",
+            "momentum_flux_xy",
+            "contact_stress_xy",
+            "contact_stress_yx",
+        )
+    ).sort("x", "y")
+    one = measures.recorded_fields(mirrored, 1.0)
+    two = measures.recorded_fields(table, 1.0, clockwise=True)
+    for field in ("density", "velocity", "kinetic_stress", "contact_stress"):
+        assert np.array_equal(getattr(one, field), getattr(two, field), equal_nan=True)
+    plain = measures.recorded_fields(table, 1.0)
+    flow, flipped = plain.velocity[3:-3, 3:-3], two.velocity[3:-3, 3:-3][::-1]
+    assert np.allclose(flow * [-1.0, 1.0], flipped)
+
+
+def test_what_trembles_in_one_cell_is_fluctuation_and_what_flows_is_not():
+    density, flux = np.zeros((4, 4)), np.zeros((4, 4))
+    density[1, 2], flux[1, 2] = 3.0, 12.0
+    alone = measures.recorded_fields(cells(density=density, momentum_flux_xx=flux), 0.0)
+    assert alone.kinetic_stress[1, 2, 0, 0] == 12.0
+    assert alone.fluctuation[1, 2] == 2.0
+    moving = cells(density=density, momentum_x=2.0 * density, momentum_flux_xx=flux)
+    assert measures.recorded_fields(moving, 0.0).kinetic_stress[1, 2, 0, 0] == 0.0
+
+
+@pytest.mark.parametrize("width", [-1.0, math.nan])
+def test_a_width_below_zero_is_refused(width):
+    with pytest.raises(ConfigError, match="width"):
+        measures.recorded_fields(cells(density=np.ones(16)), width)

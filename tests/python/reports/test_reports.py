@@ -134,6 +134,12 @@ def test_the_c_model_needs_one_speed(program):
     )
 
 
+def test_the_charge_is_told_for_either_way(program):
+    told = section(render(program, "mill"), "shape")
+    assert told.count("toe angle") == 2
+    assert "The same while the drum turns the other way, t = " in told
+
+
 def test_records_add_up(pages):
     told = section(pages["research"], "ledger")
     for record in ("contacts", "ledger_split", "discs"):

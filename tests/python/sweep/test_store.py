@@ -82,10 +82,14 @@ def test_measures_of_a_sweep_are_those_of_its_runs(tmp_path):
             "drum_power": float("nan"),
             "hits": len(result.contacts),
             "none": None,
+            "name": "rolling",
         }
 
     table = sweep.measure(measure)
-    assert table.select("arm", "arm_error", "drum_power", "none").rows() == [(0.25, None, None, None)] * 2
+    assert (
+        table.select("arm", "arm_error", "drum_power", "none", "name").rows()
+        == [(0.25, None, None, None, "rolling")] * 2
+    )
     run = drumrs.run(sweep.cases[0].config, progress=False)
     assert table["hits"][0] == len(run.contacts)
     assert results[0].dissipated == run.dissipated
