@@ -3,6 +3,7 @@
 // The markup is player.html; its parts are found by their classes, so nothing needs an id.
 
 import { GRADIENT, MODES } from "./color.js";
+import { canRecord, Film } from "./film.js";
 import { formatNumber } from "./format.js";
 
 const KEYS = {
@@ -40,6 +41,8 @@ export class Controls {
     on("corotating", "change", ({ target }) => player.show({ corotating: target.checked }));
     on("forces", "change", ({ target }) => player.show({ forces: target.checked }));
     on("occupied", "change", ({ target }) => player.show({ occupied: target.checked }));
+    on("film", "click", () => this.toggleFilm());
+    this.part("film").hidden = !canRecord();
     on("path", "change", ({ target }) => player.show({ path: Number(target.value) }));
     root.addEventListener("keydown", (event) => this.press(event), { signal });
     this.part("bar").style.background = GRADIENT;
@@ -57,6 +60,16 @@ export class Controls {
     const option = new Option(label, name);
     if (lacking) Object.assign(option, { disabled: true, title: `${label}: ${lacking}` });
     return option;
+  }
+
+  // Begin to record what is shown as a film, or end that.
+  toggleFilm() {
+    const button = this.part("film");
+    if (this.film) this.film.stop("drum");
+    else this.player.play();
+    this.film = this.film ? null : new Film(this.part("stage"), getComputedStyle(this.part("player")).backgroundColor);
+    button.textContent = this.film ? "Stop recording" : "Record";
+    button.setAttribute("aria-pressed", Boolean(this.film));
   }
 
   // Write what depends on the recording and not on the time.

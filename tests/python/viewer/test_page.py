@@ -3,8 +3,11 @@
 import base64
 import io
 import math
+import re
+import subprocess
 from dataclasses import replace
 
+import imageio_ffmpeg
 import numpy as np
 import polars as pl
 import pytest
@@ -48,6 +51,28 @@ def test_it_plays_and_pauses(show):
     assert shown.time == paused > LATER
     assert shown.pixels() != before
     assert shown.part("time").inner_text() == f"{paused:.2f} s"
+
+
+def test_what_is_shown_is_recorded_as_a_film(show, tmp_path):
+    shown = show()
+    button = shown.part("film")
+    button.click()
+    assert (button.inner_text(), button.get_attribute("aria-pressed")) == ("Stop recording", "true")
+    shown.wait(f"player.time > {LATER}")
+    with shown.page.expect_download() as saved:
+        button.click()
+    assert (button.inner_text(), button.get_attribute("aria-pressed")) == ("Record", "false")
+    path = tmp_path / saved.value.suggested_filename
+    saved.value.save_as(path)
+    assert path.stem == "drum"
+    command = [imageio_ffmpeg.get_ffmpeg_exe(), "-i", path, "-f", "image2pipe", "-c:v", "ppm", "-"]
+    pictures = subprocess.run(command, capture_output=True, check=True).stdout
+    size = re.match(rb"P6\n(\d+) (\d+)\n255\n", pictures)
+    width, height = int(size[1]), int(size[2])
+    raw = np.frombuffer(pictures, np.uint8).reshape(-1, len(size[0]) + 3 * width * height)
+    first, last = (one[len(size[0]) :].reshape(height, width, 3).astype(int) for one in (raw[0], raw[-1]))
+    assert np.abs(first - last).max() > 100, len(raw)
+    assert last[2, 2].min() > 240
 
 
 def test_time_passes_as_fast_as_chosen(show):
