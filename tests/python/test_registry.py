@@ -231,7 +231,7 @@ def test_numbers_of_a_configuration_have_units():
     plain = {
         "drum.rim drum.baffles.count drum.baffles.shape load.count load.spin_locked run.seed run.record contact.base",
         "drum.liner.file drum.liner.repeat drum.liner.mirror drum.liner.units drum.liner.rail.count",
-        "rotation.phase load.species load.share_by contact.pair contact.bundle.tension contact.drum.tension",
+        "rotation.phase load.species load.share_by contact.pair contact.bundle.tension contact.drum.tension run.zone",
     }
     without = set(" ".join(plain).split())
     for key, field in kinds:

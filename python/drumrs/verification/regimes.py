@@ -19,6 +19,8 @@ _RADIUS, _SPEED, _TURNS, _FRAMES = 0.04, 2.0, 2.0, 49
 _HALF_ANGLE, _SLOPE, _FLOW = 1.3, 0.5, 3.0
 # How far the surface of the cascading bed is off its chord, over the chord; and so its middle four fifths off theirs.
 _S_SHAPE, _S_SHAPE_WITHOUT_ENDS = 0.12, 0.096
+# Smaller discs there: a surface that discs trace is too flat where it is hollow, the more the larger they are.
+_SMALL = 0.015
 # Frames in which a bed goes with the drum, between those in which it flows or slides back.
 _RIDES = 3
 
@@ -32,14 +34,18 @@ _RIDES = 3
 def regimes() -> Evidence:
     """Loads that ride, half of which ride, that fly, stay, ride and slide back, flow in avalanches, straight, in an S.
 
-    Names must be right. Numbers: round-off; the sag within a fifth of what was made, for the surface is a radius
-    above the discs. The surface of the cascading bed is A sin(π x/h) above its chord from −h to h. From −0.8 h to
-    0.8 h it is A (sin u − 0.234 u) off the chord there, at most 0.660 A, at u = 1.335.
+    Names must be right. Numbers: round-off; the share in throws to a frame a flight; the sag within a fifth of what was
+    made, for the surface is a radius above the discs. The surface of the cascading bed is A sin(π x/h) above its chord
+    from −h to h. From −0.8 h to 0.8 h it is A (sin u − 0.234 u) off the chord there, at most 0.660 A, at u = 1.335.
     """
     made = _loads()
     seen = {name: measures.regime(load, (0.0, float(load.times[-1]))) for name, load in made.items()}
     found = [Check(f"name is {name!r}", "1", 1.0, float(one.name == name), 0.0) for name, one in seen.items()]
     ring, still = seen["centrifuging"], seen["slipping"]
+    _, orbit, speed = orbits()
+    flies, rides = orbit.flight * math.tau, math.tau - 4.0 * orbit.release
+    # A flight is seen to begin and to end to within a frame.
+    thrown, frame = flies / (flies + rides), made["cataracting"].times[1] * speed / (flies + rides)
     rows = [
         ("Froude number", _SPEED**2 / 9.81, ring.froude_number, 1e-12),
         ("carried round, all", 1.0, ring.carried_round, 1e-9),
@@ -51,6 +57,7 @@ def regimes() -> Evidence:
         ("share of the time that a surging bed sticks", 0.75, seen["surging"].sticking, 1e-9),
         ("slip of a surging bed", 1.0, seen["surging"].wall_slip, 1e-9),
         ("steadiness of avalanches", 0.0, seen["slumping"].steadiness, 1e-9),
+        ("share in throws of Davis's orbits", thrown, seen["cataracting"].share_in_throws, frame),
         ("sag of an S", _S_SHAPE_WITHOUT_ENDS, seen["cascading"].sag, 0.2 * _S_SHAPE_WITHOUT_ENDS),
     ]
     found += [Check(name, "1", expected, value, tolerance) for name, expected, value, tolerance in rows]
@@ -79,7 +86,7 @@ def _loads() -> dict[str, Frames]:
         "slipping": _frames(staying, angles),
         "surging": _frames(surging, angles),
         "slumping": _frames(slumping, angles),
-        "cascading": _frames(_bed(angles, _S_SHAPE * 2.0 * math.sin(_HALF_ANGLE)), angles),
+        "cascading": _frames(_bed(angles, _S_SHAPE * 2.0 * math.sin(_HALF_ANGLE), _SMALL), angles, _SMALL),
         "rolling": _frames(_bed(angles, 0.0), angles),
     }
 
@@ -89,22 +96,22 @@ def _at_the_rim(angles: ArrayLike) -> Array:
     return places
 
 
-def _frames(places: Array, angles: Array) -> Frames:
+def _frames(places: Array, angles: Array, radius: float = _RADIUS) -> Frames:
     made: dict[str, Any] = {
         "times": angles / _SPEED,
         "drum_angles": angles,
         "contacts": np.full(places.shape[:2], 2, dtype=np.uint16),
     }
-    return made_up.frames(places, _RADIUS, **made)
+    return made_up.frames(places, radius, **made)
 
 
-def _bed(angles: Array, bulge: float) -> Array:
+def _bed(angles: Array, bulge: float, disc: float = _RADIUS) -> Array:
     """Return a bed whose discs ride their arcs with the drum and flow back along the chord, as the drum's angle says.
 
     They fill the arcs evenly. Above the chord's middle the bed is lifted, below it lowered, all the more the higher.
     """
     level = math.cos(_HALF_ANGLE)
-    load = made_up.lattice(_RADIUS)
+    load = made_up.lattice(disc)
     load = load[load[:, 1] < -level]
     radius = np.hypot(*load.T)
     half = np.arccos(level / radius)
@@ -119,7 +126,7 @@ def _bed(angles: Array, bulge: float) -> Array:
     x = np.where(is_riding, radius * np.sin(place), width * (0.5 - share))
     y = np.where(is_riding, -radius * np.cos(place), -level)
     bottom = -np.sqrt(np.maximum(1.0 - x**2, level**2))
-    height = (y - bottom) / np.maximum(-level - bottom, _RADIUS)
+    height = (y - bottom) / np.maximum(-level - bottom, disc)
     y = y + bulge * np.sin(math.pi * x / math.sin(_HALF_ANGLE)) * height
     return np.stack([x, y], axis=-1) @ made_up.turned(_SLOPE)
 

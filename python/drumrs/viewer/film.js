@@ -30,9 +30,9 @@ export class Film {
   stop(name) {
     this.recorder.addEventListener("stop", () => {
       cancelAnimationFrame(this.request);
-      const href = URL.createObjectURL(new Blob(this.pieces, { type: this.kind }));
-      Object.assign(document.createElement("a"), { href, download: `${name}.${KINDS[this.kind]}` }).click();
-      setTimeout(() => URL.revokeObjectURL(href), 60000);
+      const url = URL.createObjectURL(new Blob(this.pieces, { type: this.kind }));
+      Object.assign(document.createElement("a"), { href: url, download: `${name}.${KINDS[this.kind]}` }).click();
+      setTimeout(() => URL.revokeObjectURL(url), 60000);
     });
     this.recorder.stop();
   }

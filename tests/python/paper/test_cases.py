@@ -80,7 +80,7 @@ def test_the_time_step_follows_the_contact_time():
 
 @pytest.mark.parametrize("scale", ["quick", "default"])
 def test_budget(scale):
-    most = {"quick": 1.9e10, "default": 8.5e11}[scale]
+    most = {"quick": 1.7e10, "default": 8.5e11}[scale]
     assert 0.8 * most < paper.cost(paper.cases(scale)) < most
 
 

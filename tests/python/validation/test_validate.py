@@ -28,7 +28,7 @@ def test_one_command_does_it_all_and_goes_on(drum, tmp_path):
     out = tmp_path / "out"
     status, printed, told = drum("validate", "--out", out, "--jobs", "1")
     assert status == 0
-    count = int(re.match(r"(\d+) cases, \S+ particle-steps to do\n", told)[1])
+    count = int(re.match(r"drumrs: (\d+) cases, \S+ particle-steps to do\n", told)[1])
     assert {path.name for path in out.iterdir()} == {
         "drumrs-validation.json",
         "README.md",
@@ -63,7 +63,7 @@ def test_one_command_does_it_all_and_goes_on(drum, tmp_path):
     (out / "runs" / f"{cases[0].id}.parquet").unlink()
     status, _, told = drum("validate", "layer", "--out", out, "--jobs", "1")
     assert status == 0
-    assert told.startswith(f"{len(cases)} cases, {len(cases) - 1} of them settled already, ")
+    assert told.startswith(f"drumrs: {len(cases)} cases, {len(cases) - 1} of them settled already, ")
     again = pl.read_parquet(out / "table.parquet")
     assert again.equals(table.filter(pl.col("drum") == "layer").select(again.columns))
 
