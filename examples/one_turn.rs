@@ -28,7 +28,7 @@ const CONFIG: &str = r#"{
     "species": 1, "pairs": [], "walls": []
   },
   "gravity": [0.0, -9.81],
-  "run": {"time_step": 3.7e-6, "sample_every": 0.002, "frame_every": 0.04, "skin": null, "record": [], "contact_floor": 0.0, "arc_bin": null, "overlap_limit": 0.5}
+  "run": {"time_step": 3.7e-6, "sample_every": 0.002, "frame_every": 0.04, "skin": null, "record": [], "contact_floor": 0.0, "arc_bin": null, "cell": null, "zones": [], "sums_from": 0.0, "overlap_limit": 0.5}
 }"#;
 
 fn main() -> Result<(), Error> {
