@@ -1,5 +1,5 @@
 //! Checkpoints: a versioned, digested snapshot of configuration and state, from which a run goes on bit for bit, with the
-//! records that nobody has taken yet.
+//! records that have not been taken yet.
 //!
 //! Layout: magic (8 bytes), version (u32, little endian), SHA-256 of the rest (32 bytes), the rest in postcard.
 

@@ -21,7 +21,7 @@ pub struct Visits {
 }
 
 impl Visits {
-    /// A look, of this number. At the first one, who is inside has not come in sight.
+    /// A look, of this number. At the first one, a particle inside has not been seen to enter.
     pub fn note(&mut self, number: u64, is_inside: bool, is_first: bool) {
         if is_inside {
             if !self.is_inside && !is_first {

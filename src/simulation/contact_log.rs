@@ -83,7 +83,7 @@ impl DiscAccount {
     }
 }
 
-/// The sums; those that nobody asked for are empty.
+/// The sums; those that are not asked for are empty.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct ContactLog {
     /// Contacts below the floor.

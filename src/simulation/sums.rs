@@ -25,7 +25,7 @@ impl Simulation {
         self.derived.zones.len() * self.state.particles.len()
     }
 
-    /// Looks who is in which zone, where that is due. The steps at which it is are fixed, so that nothing else shows in it.
+    /// Looks which particle is in which zone, where that is due. The steps at which it is are fixed, so that nothing else shows in it.
     pub(super) fn count_visits(&mut self) {
         let (step, first) = (self.state.step, self.derived.first_summed.max(1));
         if self.derived.zones.is_empty() || step < first || !step.is_multiple_of(CHECK_STEPS) {

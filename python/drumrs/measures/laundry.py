@@ -67,13 +67,13 @@ def washing(frames: "Frames", window: tuple[float, float], gravity: float = _GRA
     >>> 0.0 < found["openness"].value < 1.0
     True
     """
-    seen = counter_clockwise(within(frames, window))
-    places, interval = seen.positions.astype(np.float64), float(np.diff(seen.times).mean())
+    inside = counter_clockwise(within(frames, window))
+    places, interval = inside.positions.astype(np.float64), float(np.diff(inside.times).mean())
     ways = np.hypot(*np.moveaxis(np.diff(places, axis=0), -1, 0)) / interval
-    weights = seen.radii**2 / (seen.radii**2).sum()
-    few = [*range(0, len(seen), max(1, len(seen) // _PLENTY))]
-    flies = in_flight(seen, gravity)
-    span = seen.reach or float(np.hypot(*np.moveaxis(places, -1, 0)).max())
+    weights = inside.radii**2 / (inside.radii**2).sum()
+    few = [*range(0, len(inside), max(1, len(inside) // _PLENTY))]
+    flies = in_flight(inside, gravity)
+    span = inside.reach or float(np.hypot(*np.moveaxis(places, -1, 0)).max())
     rare = interval * (few[1] - few[0])
     return {
         "center_turning": mean_with_error(
@@ -85,10 +85,10 @@ def washing(frames: "Frames", window: tuple[float, float], gravity: float = _GRA
         "axis_distance_spread": mean_with_error(
             np.hypot(places[..., 0], places[..., 1]).std(axis=1), interval
         ),
-        "shape_factor": mean_with_error([shape_factor(places[k], seen.radii) for k in few], rare),
-        "openness": mean_with_error([openness(places[k], seen.radii, 0.5 * span) for k in few], rare),
+        "shape_factor": mean_with_error([shape_factor(places[k], inside.radii) for k in few], rare),
+        "openness": mean_with_error([openness(places[k], inside.radii, 0.5 * span) for k in few], rare),
         "curtain": mean_with_error(
-            [curtain(places[k][flies[k]], seen.radii[flies[k]], span) for k in range(len(seen))], interval
+            [curtain(places[k][flies[k]], inside.radii[flies[k]], span) for k in range(len(inside))], interval
         ),
     }
 
@@ -154,8 +154,8 @@ def openness(points: ArrayLike, radii: ArrayLike, reach: float) -> float:
     step, middle = 2.0 * math.pi / _DIRECTIONS, np.arctan2(y, x)
     first = np.ceil((middle - half) / step - _ROUND_OFF).astype(int)
     count = np.floor((middle + half) / step + _ROUND_OFF).astype(int) + 1 - first
-    seen = (distance - size <= length) & (count > 0)
-    disc, first, count = disc[seen], first[seen] % _DIRECTIONS, count[seen]
+    hides = (distance - size <= length) & (count > 0)
+    disc, first, count = disc[hides], first[hides] % _DIRECTIONS, count[hides]
     # Up by one where what is hidden begins, down where it ends; an angle goes round at most once.
     changes = np.zeros((len(places), 2 * _DIRECTIONS + 1), dtype=int)
     np.add.at(changes, (disc, first), 1)

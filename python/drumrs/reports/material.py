@@ -138,8 +138,8 @@ class Material:
         speed = self.config.derived.angular_velocity
         if self.result.fields is not None and speed:
             return measures.recorded_fields(self.result.fields, clockwise=speed < 0.0)
-        seen = within(self.frames, self.span)
-        few = seen.picked(slice(None, None, max(1, len(seen) // _PLENTY)))
+        inside = within(self.frames, self.span)
+        few = inside.picked(slice(None, None, max(1, len(inside) // _PLENTY)))
         return measures.fields(few, self.span, self.masses)
 
     def require_speed(self) -> float:

@@ -82,10 +82,10 @@ def contact_forces(config: "Config", frames: "Frames") -> ContactForces:
     reduced = radii[one] * radii[other] / (radii[one] + radii[other])
     smaller = np.minimum(radii[one], radii[other])
     forces = _springs(config, stiffness[kinds[one], kinds[other]], overlaps, reduced, smaller)
-    disc, ways = _touches(frames, places, radii)
+    disc, offsets = _touches(frames, places, radii)
     own = radii[disc]
-    at_drum = _springs(config, stiffness[kinds[disc], -1], own - np.hypot(*ways.T), own, own)
-    angles = np.arctan2(ways[:, 1], ways[:, 0])
+    at_drum = _springs(config, stiffness[kinds[disc], -1], own - np.hypot(*offsets.T), own, own)
+    angles = np.arctan2(offsets[:, 1], offsets[:, 0])
     numbers = np.column_stack([one, other]) % count
     return ContactForces(one // count, numbers, forces, disc // count, disc % count, angles, at_drum)
 
@@ -132,22 +132,22 @@ def _springs(config: "Config", stiffness: Array, overlaps: Array, reduced: Array
 
 
 def _touches(frames: "Frames", places: Array, radii: Array) -> tuple[Indices, Array]:
-    """Return which places touch the drum, and the way from each, a disc's center, to where it does, frame by frame."""
+    """Return which places touch the drum, and the offset from each, a disc's center, to where it does."""
     turned = np.repeat(np.exp(1j * frames.drum_angles), frames.count)
     # In the drum's own frame, as numbers of the complex plane: turning is a product.
-    seen = (places[:, 0] + 1j * places[:, 1]) / turned
+    in_drum = (places[:, 0] + 1j * places[:, 1]) / turned
     found = []
     if frames.drum_radius is not None:
-        at_rim = np.flatnonzero(np.abs(seen) > frames.drum_radius - radii)
-        found.append((at_rim, seen[at_rim] * (frames.drum_radius / np.abs(seen[at_rim]) - 1.0)))
+        at_rim = np.flatnonzero(np.abs(in_drum) > frames.drum_radius - radii)
+        found.append((at_rim, in_drum[at_rim] * (frames.drum_radius / np.abs(in_drum[at_rim]) - 1.0)))
     closed = [*([] if frames.shell is None else [frames.shell]), *frames.baffles]
     for line in [*(np.vstack([points, points[:1]]) for points in closed), *frames.walls]:
-        found += _touches_of_line(line[:, 0] + 1j * line[:, 1], seen, radii)
+        found += _touches_of_line(line[:, 0] + 1j * line[:, 1], in_drum, radii)
     which = np.concatenate([np.empty(0, int), *(disc for disc, _ in found)])
     order = np.argsort(which, kind="stable")
     which = which[order]
-    ways = np.concatenate([np.empty(0, complex), *(way for _, way in found)])[order] * turned[which]
-    return which, np.column_stack([ways.real, ways.imag])
+    offsets = np.concatenate([np.empty(0, complex), *(offset for _, offset in found)])[order] * turned[which]
+    return which, np.column_stack([offsets.real, offsets.imag])
 
 
 def _touches_of_line(line: Complex, places: Complex, radii: Array) -> list[tuple[Indices, Complex]]:
@@ -162,8 +162,8 @@ def _touches_of_line(line: Complex, places: Complex, radii: Array) -> list[tuple
     # A place along an edge, as a share of it, and how far to its left.
     share = (places[near, np.newaxis] - start) / along
     faces = (share.real > 0.0) & (share.real < 1.0)
-    ways = -1j * share.imag * along
-    disc, edge = np.nonzero(faces & (np.abs(ways) < radii[near, np.newaxis]))
+    offsets = -1j * share.imag * along
+    disc, edge = np.nonzero(faces & (np.abs(offsets) < radii[near, np.newaxis]))
     beside = np.zeros((len(near), len(line)), dtype=bool)
     beside[:, :-1] |= faces
     beside[:, 1:] |= faces
@@ -172,4 +172,4 @@ def _touches_of_line(line: Complex, places: Complex, radii: Array) -> list[tuple
         beside[:, -1] = True
     to_corner = line - places[near, np.newaxis]
     lonely, corner = np.nonzero(~beside & (np.abs(to_corner) < radii[near, np.newaxis]))
-    return [(near[disc], ways[disc, edge]), (near[lonely], to_corner[lonely, corner])]
+    return [(near[disc], offsets[disc, edge]), (near[lonely], to_corner[lonely, corner])]

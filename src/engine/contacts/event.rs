@@ -13,7 +13,7 @@ pub const NO_BIN: u32 = u32::MAX;
 pub struct Opening {
     /// The step at whose end the bodies touched for the first time.
     pub step: u64,
-    /// Speed at which they approached along the normal in that step, and that of slip [m/s]; not a number where nobody saw it.
+    /// Speed at which they approached along the normal in that step, and that of slip [m/s]; not a number where it was not recorded.
     pub speeds: [f64; 2],
     /// Where they touched [m], likewise.
     pub point: [f64; 2],

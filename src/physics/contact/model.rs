@@ -9,7 +9,7 @@ use super::tangential_dashpot::TangentialDashpot;
 /// The terms that act with the linear law, in this order.
 pub type Terms = (RollingResistance, (TangentialDashpot, Adhesion));
 
-/// Which law a simulation has. Chosen once: a term that is 0 for every pair costs nothing, nor does a record that nobody asked
+/// Which law a simulation has. Chosen once: a term that is 0 for every pair costs nothing, nor does a record that is not asked
 /// for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Model {
