@@ -9,6 +9,7 @@ All values are in SI units and per meter of drum depth, but for rpm and degrees 
 """
 
 import logging
+from importlib import import_module
 from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
 
@@ -28,6 +29,9 @@ from drumrs.state import State
 from drumrs.sweep import Case, Sweep
 
 if TYPE_CHECKING:
+    from drumrs.decide.compare import Comparison, compare
+    from drumrs.decide.evaluate import evaluate
+    from drumrs.decide.targets import Target
     from drumrs.exports import export, movie
     from drumrs.glossary import quantities
     from drumrs.reports import report
@@ -41,6 +45,7 @@ logging.getLogger(__name__).addHandler(logging.NullHandler())
 __all__ = [
     "Case",
     "CheckpointError",
+    "Comparison",
     "Config",
     "ConfigError",
     "DrumrsError",
@@ -52,13 +57,16 @@ __all__ = [
     "State",
     "Summary",
     "Sweep",
+    "Target",
     "Task",
     "UnstableError",
     "Verification",
     "__version__",
     "baseline",
+    "compare",
     "effective_jobs",
     "errors",
+    "evaluate",
     "export",
     "info",
     "load",
@@ -75,7 +83,11 @@ __all__ = [
 
 
 def __getattr__(name: str) -> Any:
-    """Load on demand what most scripts do without: the table of quantities, exports, reports, the verification."""
+    """Load on demand what most scripts do without: decisions, exports, reports, the verification."""
+    if name in {"Comparison", "compare"}:
+        return getattr(import_module("drumrs.decide.compare"), name)
+    if name in {"Target", "evaluate"}:
+        return getattr(import_module(f"drumrs.decide.{'targets' if name == 'Target' else name}"), name)
     if name in {"export", "movie"}:
         from drumrs import exports
 

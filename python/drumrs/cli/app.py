@@ -16,6 +16,7 @@ from cyclopts import App, CycloptsError, Group, Parameter, UnknownOptionError, U
 
 import drumrs
 from drumrs.cli.baseline import baseline
+from drumrs.cli.compare import compare
 from drumrs.cli.config import config
 from drumrs.cli.export import export
 from drumrs.cli.info import info
@@ -61,6 +62,7 @@ app = App(
         "- `drumrs movie out/case --out drum.mp4` writes it as a film\n"
         "- `drumrs report out/case --page mill` writes one page of it, for a trade\n"
         "- `drumrs sweep sweep.toml --out out/sweep` runs many cases\n"
+        "- `drumrs compare a.toml b.toml --by drum_specific_power` finds the better of two machines\n"
         "- `drumrs quantities ratio` says what is measured under a name with that word\n"
         "- `drumrs verify` holds drumrs against formulas and its own promises\n"
         "- `drumrs validate tracer` simulates a drum that others measured, and compares"
@@ -76,6 +78,7 @@ for _command in (
     baseline,
     reproduce,
     sweep,
+    compare,
     view,
     export,
     movie,
