@@ -2,11 +2,25 @@
 
 `targets` are quantities of runs and expressions of them, `readings` the single quantities, `units` their units;
 `evaluate` asks configurations for them, through the store of a sweep. `compare` finds the best of a few machines, with
-`selection`, which says where further seeds help.
+`selection`, which says where further seeds help. `scaling` tells what another size of the machine changes.
 """
 
 from drumrs.decide.compare import Comparison, Design, compare
 from drumrs.decide.evaluate import Evaluator, evaluate
+from drumrs.decide.scaling import LAWS, Group, Law, SpeedRule, groups, speed_rules
 from drumrs.decide.targets import Target
 
-__all__ = ["Comparison", "Design", "Evaluator", "Target", "compare", "evaluate"]
+__all__ = [
+    "LAWS",
+    "Comparison",
+    "Design",
+    "Evaluator",
+    "Group",
+    "Law",
+    "SpeedRule",
+    "Target",
+    "compare",
+    "evaluate",
+    "groups",
+    "speed_rules",
+]
