@@ -31,6 +31,7 @@ from drumrs.sweep import Case, Sweep
 if TYPE_CHECKING:
     from drumrs.decide.compare import Comparison, compare
     from drumrs.decide.evaluate import evaluate
+    from drumrs.decide.screen import Screening, screen
     from drumrs.decide.targets import Target
     from drumrs.exports import export, movie
     from drumrs.glossary import quantities
@@ -53,6 +54,7 @@ __all__ = [
     "Frames",
     "Quantity",
     "Result",
+    "Screening",
     "Simulation",
     "State",
     "Summary",
@@ -78,16 +80,27 @@ __all__ = [
     "report",
     "run",
     "save",
+    "screen",
     "verify",
 ]
 
 
+# Module of `drumrs.decide` by what it has.
+_DECISIONS = {
+    "Comparison": "compare",
+    "Screening": "screen",
+    "Target": "targets",
+    "compare": "compare",
+    "evaluate": "evaluate",
+    "screen": "screen",
+}
+
+
 def __getattr__(name: str) -> Any:
     """Load on demand what most scripts do without: decisions, exports, reports, the verification."""
-    if name in {"Comparison", "compare"}:
-        return getattr(import_module("drumrs.decide.compare"), name)
-    if name in {"Target", "evaluate"}:
-        return getattr(import_module(f"drumrs.decide.{'targets' if name == 'Target' else name}"), name)
+    if name in _DECISIONS:
+        # By the module's own name: the package has functions by the names of some modules.
+        return getattr(import_module(f"drumrs.decide.{_DECISIONS[name]}"), name)
     if name in {"export", "movie"}:
         from drumrs import exports
 

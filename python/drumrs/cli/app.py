@@ -29,6 +29,7 @@ from drumrs.cli.report import report
 from drumrs.cli.reproduce import reproduce
 from drumrs.cli.run import run
 from drumrs.cli.scale import scale
+from drumrs.cli.screen import screen
 from drumrs.cli.signals import Asked, like_interrupts
 from drumrs.cli.sweep import sweep
 from drumrs.cli.validate import validate
@@ -64,6 +65,7 @@ app = App(
         "- `drumrs report out/case --page mill` writes one page of it, for a trade\n"
         "- `drumrs sweep sweep.toml --out out/sweep` runs many cases\n"
         "- `drumrs compare a.toml b.toml --by drum_specific_power` finds the better of two machines\n"
+        "- `drumrs screen screen.toml --by drum_specific_power` says which keys matter\n"
         "- `drumrs scale case.toml --factor 4 --out large.toml` makes a larger machine of it\n"
         "- `drumrs quantities ratio` says what is measured under a name with that word\n"
         "- `drumrs verify` holds drumrs against formulas and its own promises\n"
@@ -82,6 +84,7 @@ for _command in (
     sweep,
     compare,
     scale,
+    screen,
     view,
     export,
     movie,
