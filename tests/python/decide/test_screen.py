@@ -147,3 +147,12 @@ def test_a_screening_is_a_command_that_says_beforehand_what_it_costs(tmp_path, c
     assert "1 keys: 12 runs for Morris's effects, then at most 16 for Sobol's indices" in said.err
     assert "rotation.rpm" in said.out
     assert (tmp_path / "out" / "table.parquet").exists()
+
+
+def test_whole_numbers_and_choices_come_equally_often():
+    plan = ScreeningPlan.read({**PLAN, "ranges": {"load.count": [10, 13]}})
+    even = plan.space.even(np.random.default_rng(1).random((3000, 2)))
+    values = [plan.space.values(point) for point in even]
+    for key, choices in (("load.count", (10, 11, 12, 13)), ("drum.baffles.count", (0, 3, 4))):
+        shares = [sum(one[key] == choice for one in values) / 3000.0 for choice in choices]
+        assert shares == pytest.approx([1.0 / len(choices)] * len(choices), abs=0.03)
