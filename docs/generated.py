@@ -1,5 +1,6 @@
-"""Pages of the site that the program writes: keys, commands, the player; and copies of pages from elsewhere."""
+"""Pages of the site that the program writes: keys, commands, the player; copies of pages; the link to the crate."""
 
+import importlib
 import shutil
 from pathlib import Path
 from typing import Any
@@ -9,6 +10,22 @@ from drumrs.cli.app import app
 
 ROOT = Path(__file__).parents[1]
 FOLDER = ROOT / "docs" / "_generated"
+# Packages and modules for users, a page each; `drumrs` itself has pages of its own.
+MODULES = (
+    "analysis",
+    "config",
+    "errors",
+    "exports",
+    "figures",
+    "measures",
+    "reports",
+    "sweep",
+    "validation",
+    "verification",
+    "viewer",
+)
+# Where `cargo doc` writes to.
+RUST = ROOT / "target" / "doc"
 # Pages that the repository shows beside the code.
 COPIES = {
     "architecture.md": "ARCHITECTURE.md",
@@ -27,12 +44,16 @@ def write() -> None:
         shutil.copy(picture, FOLDER)
     _put("commands.md", commands())
     _put("keys.md", keys())
+    _put("rust.html", _rust())
+    for name in MODULES:
+        _put(f"drumrs.{name}.rst", module(f"drumrs.{name}"))
     (ROOT / "docs" / "site" / "player.html").write_text(_player(), encoding="utf-8")
 
 
 def commands() -> str:
     """Return a page with every command and its options."""
-    return app.generate_docs()
+    _name, _, text = app.generate_docs().partition("\n")
+    return f"# Commands\n{text}"
 
 
 def keys() -> str:
@@ -47,6 +68,16 @@ def keys() -> str:
     ]
     _tables(schema, schema["$defs"], (), lines)
     return "\n".join(lines) + "\n"
+
+
+def module(name: str) -> str:
+    """Return a page with what a module offers and `drumrs` itself does not, from docstrings; constants have none."""
+    offered = getattr(importlib.import_module(name), "__all__", [])
+    elsewhere = ", ".join(sorted(set(offered) & set(drumrs.__all__)))
+    constants = [f".. autodata:: {name}.{one}\n   :no-value:\n" for one in offered if one.isupper()]
+    lines = [name, "=" * len(name), "", f".. automodule:: {name}", "   :members:"]
+    lines += [f"   :exclude-members: {elsewhere}"] if elsewhere else []
+    return "\n".join([*lines, "", *constants])
 
 
 def _tables(table: dict[str, Any], known: dict[str, Any], path: tuple[str, ...], lines: list[str]) -> None:
@@ -80,6 +111,13 @@ def _table_of(value: dict[str, Any], known: dict[str, Any]) -> dict[str, Any] | 
     names += [one["items"]["$ref"].rpartition("/")[2] for one in choices if "$ref" in one.get("items", {})]
     found = known[names[0]] if names else {}
     return found if "properties" in found else None
+
+
+def _rust() -> str:
+    """Return the link to the documentation of the crate, where `cargo doc` has made it."""
+    if RUST.is_dir():
+        return '<p><a href="../rust/drumrs/index.html">Modules, types and functions of the crate</a></p>'
+    return "<p><code>cargo doc --no-deps --open</code> shows modules, types and functions of the crate.</p>"
 
 
 def _player() -> str:

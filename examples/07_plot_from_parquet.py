@@ -1,4 +1,9 @@
-"""A figure from the table of a sweep, with polars and matplotlib alone: no simulation, no drumrs needed to read it."""
+"""
+A figure from the table of a sweep
+==================================
+
+With polars and matplotlib alone: no simulation, and no drumrs, is needed to read a table.
+"""
 
 import argparse
 from pathlib import Path
@@ -22,7 +27,7 @@ def means(table: Path) -> pl.DataFrame:
 
 def main() -> None:
     """Draw the table that examples/02_fill_sweep.py wrote, or with --small one made on the spot."""
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = argparse.ArgumentParser()
     parser.add_argument("--small", action="store_true", help="make a small table first")
     parser.add_argument(
         "--table", type=Path, default=Path("out/fill_sweep/table.parquet"), help="table of a sweep"
@@ -49,8 +54,8 @@ def small_table(folder: Path) -> Path:
     """Make a table to draw where there is none yet."""
     import drumrs
 
-    base = drumrs.baseline().replace({"run.duration": 0.1})
-    sweep = drumrs.Sweep(base, axes={"load.fill": [0.05, 0.1], "drum.baffles.count": [0, 3]}, seeds=2)
+    base = drumrs.baseline().softer(100.0).replace({"run.duration": 3.0})
+    sweep = drumrs.Sweep(base, axes={"load.fill": [0.15, 0.25, 0.35], "drum.baffles.count": [0, 3]}, seeds=2)
     sweep.run(folder)
     return sweep.write_table()
 
