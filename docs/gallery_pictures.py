@@ -37,6 +37,8 @@ def written(_block: Any, script: dict[str, Any], gallery: dict[str, Any]) -> str
         _PAGES.mkdir(parents=True, exist_ok=True)
         shutil.copy(page, _PAGES / f"{name}-{page.name}")
         source = f"../_static/gallery/{name}-{page.name}"
-        frame = f'<iframe src="{source}" title="{page.stem} of {name}" class="player" loading="lazy"></iframe>'
+        frame = (
+            f'<iframe src="{source}" title="{page.stem} of {name}" class="player" loading="lazy"></iframe>'
+        )
         text += f"\n\n.. raw:: html\n\n   {frame}\n\n"
     return text

@@ -1,6 +1,6 @@
 """
-A ball mill: where the charge lies, how hard it hits, where the liner wears
-===========================================================================
+A ball mill: charge, collisions, wear
+=====================================
 
 A mill of one meter with twelve rails, filled to 30 % with steel balls of two sizes. Contacts and what the wall feels
 are recorded on request; what they took adds up to the energy ledger.

@@ -31,7 +31,7 @@ SOLID_FRACTION = 0.82
 
 
 class Sizes(ConfigTable):
-    """A law of diameters: which share of a species is smaller than a diameter; docs/how-to/loads.md has the formulas."""
+    """A law of diameters: which share of a species is smaller than a diameter; formulas: docs/how-to/loads.md."""
 
     law: Law
     by: types.Measure
@@ -78,8 +78,8 @@ class Species(ConfigTable):
     name
         What contact laws, tables and pictures call it.
     preset
-        Name of a material whose density and contact keys it has, but for those given beside it (docs/how-to/loads.md). They
-        take its place when the configuration is validated.
+        Name of a material whose density and contact keys it has, but for those given beside it (docs/how-to/loads.md).
+        They take its place when the configuration is validated.
     share
         Its share of the load, counted by ``load.share_by``; all of it unless given.
     density

@@ -183,7 +183,7 @@ class Run(ConfigTable):
     )
     zone: Annotated[tuple[Zone, ...], Field(min_length=1), _ZONES] | None = key(
         None,
-        "Zones whose visits are counted, each a table [[run.zone]] with name, corners and frame; docs/reference/records.md",
+        "Zones whose visits are counted, tables [[run.zone]] with name, corners and frame; docs/reference/records.md",
         example=[{"name": "spray", "corners": [[0.0, -0.1], [0.15, 0.0], [0.1, 0.1], [-0.05, 0.0]]}],
     )
     overlap_limit: types.OpenFraction = key(
