@@ -26,17 +26,15 @@ def means(table: Path) -> pl.DataFrame:
 
 
 def main() -> None:
-    """Draw the table that examples/02_fill_sweep.py wrote, or with --small one made on the spot."""
+    """Draw the table that examples/02_fill_sweep.py wrote, or else a small one made on the spot."""
     parser = argparse.ArgumentParser()
-    parser.add_argument("--small", action="store_true", help="make a small table first")
+    parser.add_argument("--small", action="store_true", help="make a small table in any case")
     parser.add_argument(
         "--table", type=Path, default=Path("out/fill_sweep/table.parquet"), help="table of a sweep"
     )
     parser.add_argument("--out", type=Path, default=Path("out/plot"), help="folder of the picture")
     options = parser.parse_args()
-    table = small_table(options.out) if options.small else options.table
-    if not table.exists():
-        parser.error(f"{table} is not there: run examples/02_fill_sweep.py first, or give --table")
+    table = options.table if options.table.exists() and not options.small else small_table(options.out)
 
     options.out.mkdir(parents=True, exist_ok=True)
     figure, axes = plt.subplots(figsize=(5.0, 3.5), layout="constrained")
