@@ -16,7 +16,7 @@ from drumrs import figures, measures
 MILL = {
     "drum.diameter": 1.0,
     "drum.liner.rail": {"count": 12, "height": 0.05, "width": 0.05, "face_angle": 20.0, "back_angle": 5.0},
-    "rotation.rpm": 32.0,  # 76 % of critical
+    "rotation.rpm": 32.0,  # 74 % of critical
     "load.fill": 0.3,
     # Balls that meet at the speed of a fall through the mill overlap by a hundredth of their radius.
     "contact.bundle.normal_stiffness": 2.5e9,
