@@ -57,7 +57,7 @@ def commands() -> str:
 
 
 def keys() -> str:
-    """Return a page with every key of a configuration: its default and meaning."""
+    """Return a page with every key of a configuration: its default, limits and meaning."""
     schema = drumrs.Config.model_json_schema()
     lines = [
         "# Keys of a case file",
@@ -95,13 +95,28 @@ def _tables(table: dict[str, Any], known: dict[str, Any], path: tuple[str, ...],
             "" if default is None else f"`{str(default).lower() if isinstance(default, bool) else default}`"
         )
         meaning = value.get("description", "").replace("|", "\\|").replace("\n", " ")
-        rows.append(f"| `{prefix}{name}` | {shown} | {meaning} |")
+        rows.append(f"| `{prefix}{name}` | {shown} | {_limits(value)} | {meaning} |")
     if rows:
         lines += [f"## {prefix.removesuffix('.') or 'At the top'}", ""]
         lines += [table["description"].splitlines()[0], ""] if path and table.get("description") else []
-        lines += ["| key | default | meaning |", "|---|---|---|", *rows, ""]
+        lines += ["| key | default | limits | meaning |", "|---|---|---|---|", *rows, ""]
     for name, inner in below:
         _tables(inner, known, (*path, name), lines)
+
+
+def _limits(value: dict[str, Any]) -> str:
+    """Return what a plain value may be, beside its type: words to choose from, bounds."""
+    found = []
+    for one in (value, *value.get("anyOf", [])):
+        found += [f"`{word}`" for word in one.get("enum", [])]
+        found += [f"`{one['const']}`"] if "const" in one else []
+        bounds = [
+            f"{sign} {one[key]}"
+            for key, sign in (("gt", ">"), ("ge", "≥"), ("lt", "<"), ("le", "≤"))
+            if key in one
+        ]
+        found += [" and ".join(bounds)] if bounds else []
+    return ", ".join(found)
 
 
 def _table_of(value: dict[str, Any], known: dict[str, Any]) -> dict[str, Any] | None:
