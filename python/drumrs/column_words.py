@@ -1,16 +1,17 @@
 """Units and meanings of a parquet file's columns, where pandas, PyArrow and DuckDB look for them.
 
-A parquet file has words of its own, under any keys, and an Arrow schema, which has words on the table and on each column.
-Polars reads the former, as DuckDB does; PyArrow gives the latter, and pandas takes its `DataFrame.attrs` from there. So
-they are written to both. Polars takes such a schema from any object that can export it in Arrow's C data interface, but
-has no way to put words on its own: here they are put on it.
+A parquet file has words of its own, which polars and DuckDB read, and an Arrow schema, which has words on the table and
+on each column: those PyArrow gives, and pandas takes its `DataFrame.attrs` from them. So they are written to both.
+Polars writes the schema of any object that exports one in Arrow's C data interface, but has no way to put words on its
+own: here they are put on it.
 """
 
 import ctypes
+import io
 import json
 import struct
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     import polars as pl
@@ -19,6 +20,8 @@ if TYPE_CHECKING:
 _ON_COLUMNS = {"units": "unit", "meanings": "meaning"}
 # Where pandas keeps and finds the attributes of a table.
 _PANDAS = "PANDAS_ATTRS"
+# Under which word of a parquet file its Arrow schema stands.
+_SCHEMA = "ARROW:schema"
 
 
 class _ArrowSchema(ctypes.Structure):
@@ -41,18 +44,39 @@ _pointer_of.restype = ctypes.POINTER(_ArrowSchema)
 _pointer_of.argtypes = [ctypes.py_object, ctypes.c_char_p]
 
 
-class WithWords:
-    """A schema of polars with the words of a file on the table, and those by column on its columns."""
+def with_schema(words: Mapping[str, str], schema: "pl.Schema") -> dict[str, str]:
+    """Return the words of a file with the Arrow schema that says them, too: what polars takes as a file's metadata.
 
-    def __init__(self, schema: "pl.Schema", words: Mapping[str, str]) -> None:
+    Parameters
+    ----------
+    words
+        What the file is to carry; "units" and "meanings", JSON by column, go to the columns as well.
+    schema
+        The columns of the file.
+    """
+    import polars as pl
+
+    by_key = {key: json.loads(words[key]) for key in _ON_COLUMNS if key in words}
+    if not by_key:
+        return dict(words)
+    # A file of these columns without rows has the schema as it is written to files.
+    file = io.BytesIO()
+    pl.DataFrame(schema=schema).write_parquet(file, arrow_schema=_WithWords(schema, by_key))
+    file.seek(0)
+    return {**words, _SCHEMA: pl.read_parquet_metadata(file)[_SCHEMA]}
+
+
+class _WithWords:
+    """A schema of polars with words on the table and on its columns."""
+
+    def __init__(self, schema: "pl.Schema", by_key: Mapping[str, Mapping[str, str]]) -> None:
         self._schema = schema
-        by_column = {name: json.loads(words[key]) for key, name in _ON_COLUMNS.items() if key in words}
-        attributes = {key: json.loads(words[key]) for key in _ON_COLUMNS if key in words}
-        table = {**{key: words[key] for key in attributes}, _PANDAS: json.dumps(attributes)}
+        on_table = {key: json.dumps(told, ensure_ascii=False) for key, told in by_key.items()}
         # Polars reads them while it writes the file, so they live as long as this.
-        self._on_table = _encoded(table) if attributes else None
+        self._on_table = _encoded({**on_table, _PANDAS: json.dumps(by_key, ensure_ascii=False)})
         self._on_columns = [
-            _encoded({word: told[name] for word, told in by_column.items() if name in told}) for name in schema
+            _encoded({_ON_COLUMNS[key]: told[column] for key, told in by_key.items() if column in told})
+            for column in schema
         ]
 
     def __arrow_c_schema__(self) -> object:

@@ -11,6 +11,7 @@ import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO
 
+from drumrs.column_words import with_schema
 from drumrs.errors import ConfigError
 from drumrs.files import read_plain, replacing, write_whole
 from drumrs.frames import Frames, sink_frames
@@ -60,7 +61,8 @@ def write_sealed(
     """
     buffer = io.BytesIO()
     seal = json.dumps({**_claims(owner, content), "sha256": _BLANK})
-    table.write_parquet(buffer, compression=compression, metadata={**(metadata or {}), _KEY: seal})
+    words = {**with_schema(metadata or {}, table.schema), _KEY: seal}
+    table.write_parquet(buffer, compression=compression, metadata=words)
     data = buffer.getvalue()
     head, _, tail = data.rpartition(_BLANK.encode())
     write_whole(path, head, hashlib.sha256(data).hexdigest().encode(), tail)

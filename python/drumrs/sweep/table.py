@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from drumrs.analysis import Mean
+from drumrs.column_words import with_schema
 from drumrs.errors import ConfigError
 from drumrs.files import write_whole
 from drumrs.sweep.case import Case
@@ -109,9 +110,12 @@ def write(cases: Sequence[Case], store: Store) -> Path:
     OSError
         Where it cannot be written; the cases' files are untouched.
     """
+    import polars as pl
+
     store.require_own()
     buffer = io.BytesIO()
-    scan(cases, store).collect().write_parquet(buffer, compression="uncompressed", metadata=metadata())
+    words = with_schema(metadata(), pl.Schema(schema()))
+    scan(cases, store).collect().write_parquet(buffer, compression="uncompressed", metadata=words)
     path = store.folder / TABLE
     write_whole(path, buffer.getvalue())
     return path
