@@ -20,6 +20,7 @@ def test_words_go_to_the_columns_and_the_table():
     table = pl.DataFrame({"time": [0.0, 1.0], "drum_power": [2.0, 3.0], "count": [1, 2]})
     file = io.BytesIO()
     table.write_parquet(file, metadata=with_schema(WORDS, table.schema))
+    file.seek(0)
     assert pl.read_parquet(file).equals(table)
     file.seek(0)
     found = pl.read_parquet_metadata(file)
