@@ -144,10 +144,7 @@ def _refuse_running(store: Store) -> None:
     if running:
         case, age = min(running.items(), key=lambda entry: entry[1])
         limit = "a folder in which nobody computes"
-        problem = (
-            f"has {len(running)} cases under way, but must be {limit}: "
-            f"{case}.checkpoint.bin was written {age:.0f} s ago"
-        )
+        problem = f"has a checkpoint that was written {age:.0f} s ago, of case {case}, but must be {limit}"
         hint = (
             "wait until the sweep has ended; where it was killed, until its checkpoints are some minutes old"
         )
