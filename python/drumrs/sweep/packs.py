@@ -49,7 +49,8 @@ class Pack:
         try:
             return frozenset(pl.read_parquet(self.rows, columns=["case"], glob=False)["case"])
         except (OSError, pl.exceptions.PolarsError):
-            raise ConfigError(self.rows, problem="is damaged or no file of a pack") from None
+            problem = "is damaged or no file of a pack"
+            raise ConfigError(self.rows, hint=self._way_out(), problem=problem) from None
 
     def names(self) -> Iterable[str]:
         """Return the names of its files.
@@ -95,9 +96,21 @@ class Pack:
         """
         import polars as pl
 
-        if pl.read_parquet_schema(read_sealed(self.rows, self.rows.stem, ROWS)) != schema():
-            raise ConfigError(self.rows, problem="has the columns of another version of drumrs")
+        try:
+            rows = read_sealed(self.rows, self.rows.stem, ROWS)
+        except ConfigError as error:
+            error.hint = self._way_out()
+            raise
+        if pl.read_parquet_schema(rows) != schema():
+            problem = "has the columns of another version of drumrs"
+            raise ConfigError(
+                self.rows, hint="run the sweep again, which makes its rows anew", problem=problem
+            )
         return self.rows
+
+    def _way_out(self) -> str:
+        """Say how to get on without the rows: each case's own row is among its files."""
+        return f"unzip {self.files} -d {self.files.parents[1]}, then remove both files of this pack"
 
     @cached_property
     def _members(self) -> dict[str, _Member]:

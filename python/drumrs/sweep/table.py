@@ -35,14 +35,14 @@ def scan(cases: Sequence[Case], store: Store) -> "pl.LazyFrame":
     others = {case.id for case in cases}.difference(case.id for case in loose)
     try:
         rows = [_scan([store.row_path(case.id) for case in loose])]
-        for pack in store.packs:
-            if wanted := others & pack.ids:
-                rows.append(_scan([pack.check_rows()]).filter(_is_one_of(wanted)))
-                # Two that packed one folder at the same time may have packed the same case.
-                others -= wanted
     except ConfigError as error:
         error.hint = "run the sweep again to compute it anew"
         raise
+    for pack in store.packs:
+        if wanted := others & pack.ids:
+            rows.append(_scan([pack.check_rows()]).filter(_is_one_of(wanted)))
+            # Two that packed one folder at the same time may have packed the same case.
+            others -= wanted
     return pl.concat(rows).sort(sort_keys(), maintain_order=True)
 
 

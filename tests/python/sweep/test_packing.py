@@ -1,6 +1,7 @@
 """Packs: the files of finished cases in a few, read as before, and nothing lost wherever packing is broken off."""
 
 import os
+import re
 import shutil
 import time
 import zipfile
@@ -200,6 +201,36 @@ def test_damage_to_a_pack_costs_one_case(finished, copy):
     made.files.unlink()
     assert sweep.table(folder).collect().height == 3
     assert sweep.run(folder, progress=False).computed == 3
+
+
+def cut(data: bytes) -> bytes:
+    """Leave a file that cannot be read."""
+    return data[:-10]
+
+
+def flipped(data: bytes) -> bytes:
+    """Change a digit of the digest: the file can be read."""
+    head, mark, tail = data.rpartition(b'"sha256": "')
+    return head + mark + (b"1" if tail[:1] == b"0" else b"0") + tail[1:]
+
+
+@pytest.mark.parametrize("damaged", [cut, flipped])
+def test_damaged_rows_of_a_pack_are_no_loss(finished, copy, damaged):
+    sweep, folder = copy
+    pack(folder, progress=False)
+    [made] = Packs(folder)
+    made.rows.write_bytes(damaged(made.rows.read_bytes()))
+    # What is known of packs is kept until their folder changes.
+    os.utime(folder / "packs", (0, 0))
+    hint = re.escape(f"unzip {made.files} -d {folder}, then remove both files of this pack")
+    for use in (lambda: sweep.table(folder), lambda: scan_folder(folder)):
+        with pytest.raises(ConfigError, match=rf"{made.rows.name}' is damaged.*; {hint}"):
+            use()
+    with zipfile.ZipFile(made.files) as archive:
+        archive.extractall(folder)
+    made.files.unlink()
+    made.rows.unlink()
+    assert_same_results(sweep, folder, finished[1])
 
 
 def test_rows_of_older_columns_are_made_again_from_a_pack(copy, monkeypatch):
