@@ -25,7 +25,7 @@ def pack(out: Path, /, *, unpack_: Annotated[str | None, Parameter(name="--unpac
 
     `drumrs sweep` and `drumrs status` work on as before, finished cases are not computed again, and the table holds
     all rows. Cases that failed or are left stay as they are. It is refused while a case has a fresh checkpoint, as then
-    somebody computes there. `drumrs view`, `export`, `movie` and `report` take a case after `--unpack`.
+    somebody computes there. `drumrs view`, `export` and `movie` take a case after `--unpack`.
 
     Exit status: 0; 1, finished cases were left as they are, since they are damaged or of another version; 2, refused.
 

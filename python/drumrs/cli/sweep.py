@@ -70,7 +70,7 @@ def sweep(
         where that is there, nothing is done. Writes no table: `drumrs sweep` without it does, once all are finished.
     plan
         Run nothing, and print a line a case: its id and the keys that vary, with tabs between them. With `--out`, each
-        case's file is written as OUT/ID.toml, which spares `--case` to read the whole sweep file.
+        case's file is written as OUT/ID.toml, so that `--case` need not make all cases to find one.
     retry
         Run cases again that failed before.
     seeds
