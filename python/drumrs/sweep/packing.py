@@ -98,9 +98,9 @@ def pack(folder: str | Path, *, progress: bool = True) -> Packed:
         for made, cases in again:
             removed += _remove_packed(store, made, cases, files, left)
             task.advance(len(cases))
+        _remove_halves(store.packs.folder)
         if waiting:
             store.packs.folder.mkdir(exist_ok=True)
-            _remove_halves(store.packs.folder)
         queue = iter(waiting)
         while (new := _write_pack(store, queue, files, left, task)) is not None:
             removed += _remove_packed(store, *new, files, left)
@@ -124,6 +124,17 @@ def unpack(folder: str | Path, case: str) -> list[Path]:
         Where it is not the folder of a sweep, no packed case or more than one has such an id, or its pack is damaged.
     OSError
         Where the files cannot be written.
+
+    Examples
+    --------
+    >>> import tempfile, drumrs
+    >>> from drumrs.sweep import pack, unpack
+    >>> folder = tempfile.mkdtemp()
+    >>> sweep = drumrs.Sweep(drumrs.baseline(fill=0.05).replace({"run.duration": 0.05}))
+    >>> outcome = sweep.run(folder, progress=False)
+    >>> packed = pack(folder, progress=False)
+    >>> [path.name.partition(".")[2] for path in unpack(folder, sweep.cases[0].id)]
+    ['toml', 'series.parquet', 'frames.parquet', 'facts.json', 'parquet']
     """
     store = Store(folder)
     store.require_sweep()

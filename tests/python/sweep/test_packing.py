@@ -277,6 +277,18 @@ def test_a_folder_is_scanned_without_its_sweep(finished, copy):
         scan_folder(folder / "packs")
 
 
+def test_halves_of_packs_that_were_killed_go(copy):
+    _, folder = copy
+    pack(folder, progress=False)
+    whole = set((folder / "packs").iterdir())
+    old, young = folder / "packs" / "0.zip", folder / "packs" / ".1.zip.0badcafe.tmp"
+    for path in (old, young, *whole):
+        path.touch()
+        os.utime(path, (0, 0) if path != young else None)
+    pack(folder, progress=False)
+    assert set((folder / "packs").iterdir()) == whole | {young}
+
+
 def test_a_pack_has_a_limit(copy, monkeypatch):
     sweep, folder = copy
     monkeypatch.setattr(packing, "_MOST_CASES", 2)
