@@ -83,7 +83,8 @@ def scan_folder(folder: str | Path) -> "pl.LazyFrame":
     packed = _scan([pack.check_rows() for pack in packs])
     if loose:
         packed = packed.filter(~_is_one_of(loose))
-    if not packed.select(pl.col("case").n_unique() == pl.len()).collect().item():
+    # As above; hashes of a million ids take less memory than the ids.
+    if not packed.select(pl.col("case").hash().n_unique() == pl.len()).collect(engine="streaming").item():
         packed = packed.unique(subset="case")
     return pl.concat([packed, _scan([store.row_path(case) for case in sorted(loose)])])
 
