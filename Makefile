@@ -44,6 +44,7 @@ check-long: develop $(TOOLS) $(PROGRAMS) ## what takes hours: random loads, kill
 	$(BIN)/python tests/endurance/kill_and_resume.py
 	$(BIN)/python tests/endurance/short_cases.py
 	$(BIN)/python tests/endurance/long_run.py
+	$(BIN)/python tests/endurance/million_rows.py
 	cargo test --test contracts fuzz -- --ignored # writes fuzz/seeds/checkpoint
 	for target in checkpoint config outline rotation; do \
 	    mkdir -p fuzz/corpus/$$target; \

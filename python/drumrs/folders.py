@@ -19,6 +19,8 @@ KINDS = {
     "validation": "a validation",
     "baffle": "an inference of the baffle",
 }
+# Where a sweep's folder keeps finished cases that were packed.
+PACKS = "packs"
 # What a run's folder holds.
 RUN_FILES = (
     "config.toml",

@@ -23,11 +23,13 @@ from drumrs.cli.init import init
 from drumrs.cli.messages import complain, speaking, warn
 from drumrs.cli.movie import movie
 from drumrs.cli.options import PATH, cut_by_shell
+from drumrs.cli.pack import pack
 from drumrs.cli.quantities import quantities
 from drumrs.cli.report import report
 from drumrs.cli.reproduce import reproduce
 from drumrs.cli.run import run
 from drumrs.cli.signals import Asked, like_interrupts
+from drumrs.cli.status import status
 from drumrs.cli.sweep import sweep
 from drumrs.cli.validate import validate
 from drumrs.cli.verify import verify
@@ -60,7 +62,7 @@ app = App(
         "- `drumrs export out/case --to vtkhdf` writes it for ParaView\n"
         "- `drumrs movie out/case --out drum.mp4` writes it as a film\n"
         "- `drumrs report out/case --page mill` writes one page of it, for a trade\n"
-        "- `drumrs sweep sweep.toml --out out/sweep` runs many cases\n"
+        "- `drumrs sweep sweep.toml --out out/sweep` runs many cases; `drumrs status out/sweep` tells how far it is\n"
         "- `drumrs quantities ratio` says what is measured under a name with that word\n"
         "- `drumrs verify` holds drumrs against formulas and its own promises\n"
         "- `drumrs validate tracer` simulates a drum that others measured, and compares"
@@ -76,6 +78,8 @@ for _command in (
     baseline,
     reproduce,
     sweep,
+    status,
+    pack,
     view,
     export,
     movie,
