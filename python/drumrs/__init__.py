@@ -9,6 +9,7 @@ All values are in SI units and per meter of drum depth, but for rpm and degrees 
 """
 
 import logging
+from importlib import import_module
 from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
 
@@ -28,6 +29,10 @@ from drumrs.state import State
 from drumrs.sweep import Case, Sweep
 
 if TYPE_CHECKING:
+    from drumrs.decide.compare import Comparison, compare
+    from drumrs.decide.evaluate import evaluate
+    from drumrs.decide.screen import Screening, screen
+    from drumrs.decide.targets import Target
     from drumrs.exports import export, movie
     from drumrs.glossary import quantities
     from drumrs.reports import report
@@ -41,6 +46,7 @@ logging.getLogger(__name__).addHandler(logging.NullHandler())
 __all__ = [
     "Case",
     "CheckpointError",
+    "Comparison",
     "Config",
     "ConfigError",
     "DrumrsError",
@@ -48,17 +54,21 @@ __all__ = [
     "Frames",
     "Quantity",
     "Result",
+    "Screening",
     "Simulation",
     "State",
     "Summary",
     "Sweep",
+    "Target",
     "Task",
     "UnstableError",
     "Verification",
     "__version__",
     "baseline",
+    "compare",
     "effective_jobs",
     "errors",
+    "evaluate",
     "export",
     "info",
     "load",
@@ -70,12 +80,27 @@ __all__ = [
     "report",
     "run",
     "save",
+    "screen",
     "verify",
 ]
 
 
+# Module of `drumrs.decide` by what it has.
+_DECISIONS = {
+    "Comparison": "compare",
+    "Screening": "screen",
+    "Target": "targets",
+    "compare": "compare",
+    "evaluate": "evaluate",
+    "screen": "screen",
+}
+
+
 def __getattr__(name: str) -> Any:
-    """Load on demand what most scripts do without: the table of quantities, exports, reports, the verification."""
+    """Load on demand what most scripts do without: decisions, exports, reports, the verification."""
+    if name in _DECISIONS:
+        # By the module's own name: the package has functions by the names of some modules.
+        return getattr(import_module(f"drumrs.decide.{_DECISIONS[name]}"), name)
     if name in {"export", "movie"}:
         from drumrs import exports
 
