@@ -27,7 +27,9 @@ def test_its_errors_are_those_that_it_makes():
 
 
 def test_one_that_was_told_too_small_an_error_states_larger_ones_once_calibrated():
-    rash = Emulator.fit(points(60, 1), np.random.default_rng(1).normal(0.0, 1.0, 60), np.full(60, 0.1), RANGES)
+    rash = Emulator.fit(
+        points(60, 1), np.random.default_rng(1).normal(0.0, 1.0, 60), np.full(60, 0.1), RANGES
+    )
     assert rash.calibrated().predict(points(300, 2))[1].mean() > 0.15
 
 

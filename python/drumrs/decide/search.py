@@ -1,0 +1,275 @@
+"""The search for the best points: what the runs so far tell, where to run next, and when to stop.
+
+Knows nothing of drums: a function gives values and errors at points of a space. The first columns of the values, one
+or two, are to be minimized; of all others, which are constraints, values up to 0 are accepted.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from scipy.special import ndtr
+
+from drumrs.decide.emulator import Array, Emulator, one_thread
+from drumrs.decide.gain import Mask, expected_improvement, hypervolume, non_dominated
+from drumrs.decide.space import Space
+
+# Values and errors at points, not-a-number where a run failed; the second argument is the number of the first point.
+Evaluate = Callable[[Array, int], tuple[Array, Array]]
+
+# Points at which the expected improvement is looked at first; then, about the best of them, at smaller distances.
+_SPREAD, _KEPT, _AROUND, _DISTANCES = 1024, 8, 32, (0.1, 0.03, 0.01, 0.003)
+# Functions drawn for the chance of a gain, and points at which they are looked at beside the best candidates.
+_DRAWN, _LOOKED_AT = 256, 384
+# More is not tried once a gain beyond the tolerance is less likely than this.
+ENOUGH = 0.05
+# A point is taken to meet the constraints where that is more likely than not.
+_LIKELY = 0.5
+# What lies beyond the front counts a little, so that its ends are sought, too: part of its extent.
+_MARGIN = 0.1
+
+
+@dataclass(frozen=True, eq=False)
+class Model:
+    """What is known of objectives and constraints after some runs.
+
+    Attributes
+    ----------
+    space
+        Where points lie.
+    points
+        Those that were run, shape (n, k).
+    failed
+        Which of them gave no values; they count as the worst that was seen, so that the search keeps off.
+    emulators
+        One a column of the values.
+    objectives
+        How many columns are to be minimized.
+    """
+
+    space: Space
+    points: Array
+    failed: Mask
+    emulators: tuple[Emulator, ...]
+    objectives: int
+
+    @classmethod
+    def fit(cls, space: Space, points: Array, values: Array, errors: Array, objectives: int) -> "Model":
+        """Fit an emulator to every column of values, shape (n, columns)."""
+        failed = np.isnan(values).any(axis=1)
+        features = space.features(points)
+        emulators = []
+        for column, error in zip(values.T, errors.T, strict=True):
+            worst, scatter = np.max(column[~failed]), np.std(column[~failed])
+            known, noise = np.where(failed, worst, column), np.where(failed, scatter, error)
+            emulators.append(Emulator.fit(features, known, noise, space.feature_ranges))
+        return cls(space, points, failed, tuple(emulators), objectives)
+
+    def predict(self, points: Array) -> tuple[Array, Array]:
+        """Return means and errors of all columns at points, shape (n, columns)."""
+        found = [emulator.predict(self.space.features(points)) for emulator in self.emulators]
+        return np.array([mean for mean, _ in found]).T, np.array([error for _, error in found]).T
+
+    def feasibility(self, points: Array) -> Array:
+        """Return the probability that points meet all constraints, shape (n,)."""
+        means, errors = (both[:, self.objectives :] for both in self.predict(points))
+        found: Array = np.prod(ndtr(-means / np.maximum(errors, 1e-300)), axis=1)
+        return found
+
+    def feasible(self) -> Mask:
+        """Tell which of the points that were run are more likely than not to meet all constraints."""
+        met: Mask = (self.feasibility(self.points) >= _LIKELY) & ~self.failed
+        return met
+
+    def ranked(self) -> list[int]:
+        """Return the points that are not dominated among those that meet the constraints, the best one first.
+
+        Of one objective these are all points that meet the constraints; of two, the front, by the first objective.
+        """
+        means = self.predict(self.points)[0][:, : self.objectives]
+        there = np.flatnonzero(self.feasible())
+        if self.objectives > 1:
+            there = there[non_dominated(means[there])]
+        return [int(k) for k in there[np.argsort(means[there, 0], kind="stable")]]
+
+    def propose(self, count: int, accept: Callable[[Array], bool]) -> Array:
+        """Return the next points to run together.
+
+        Each has the greatest expected improvement over the best mean, times the probability of meeting the
+        constraints. Those after the first take it for granted that the earlier ones give what is expected of them
+        (the kriging believer of Ginsbourger, Le Riche & Carraro 2010).
+        """
+        model, chosen = self, np.zeros((0, len(self.space)))
+        with one_thread():
+            for _ in range(count):
+                best = model._candidates(accept)[:1]
+                chosen = np.vstack([chosen, best])
+                model = model._believing(best)
+        return chosen
+
+    def chance_of_gain(self, tolerance: float, accept: Callable[[Array], bool], *, relative: bool) -> float:
+        """Return the probability that some point is better than the best known by more than a tolerance.
+
+        Parameters
+        ----------
+        tolerance
+            Of one objective in its unit or, if relative, over the best value; of two over the hypervolume.
+        accept
+            Tells which points can be run.
+        relative
+            Whether the tolerance is a share.
+        """
+        best = self.ranked()
+        if not best:
+            return 1.0
+        rng = np.random.default_rng(len(self.points))
+        with one_thread():
+            near = self._candidates(accept)
+            spread = self.space.spread(_LOOKED_AT, seed=len(self.points) + 1)
+            looked = np.vstack([self.points[best], np.unique(np.vstack([near, spread]), axis=0)])
+            features = self.space.features(looked)
+            drawn = np.stack([one.sample(features, _DRAWN, rng) for one in self.emulators], axis=-1)
+        wanted, own = drawn[..., : self.objectives], len(best)
+        met = (drawn[..., self.objectives :] <= 0.0).all(axis=-1)
+        # The points known are what would be reported; that they meet the constraints is not doubted again.
+        met[:, :own] = True
+        wanted = np.where(met[..., None], wanted, np.inf)
+        if self.objectives == 1:
+            first = self.predict(self.points[best[:1]])[0][0, 0]
+            limit = tolerance * abs(first) if relative else tolerance
+            return float(np.mean(wanted[:, 0, 0] - wanted[:, :, 0].min(axis=1) > limit))
+        reference = self.reference()
+        before = np.array([hypervolume(one, reference) for one in wanted[:, :own]])
+        after = np.array([hypervolume(one, reference) for one in wanted])
+        return float(np.mean(after - before > tolerance * before))
+
+    def reference(self) -> Array:
+        """Return where the hypervolume ends: a little beyond the front that is expected; of one objective nowhere."""
+        if self.objectives == 1:
+            return np.array([np.inf])
+        points = np.vstack([self.space.spread(_SPREAD), self.points[self.ranked()]])
+        means = self.predict(points)[0][self.feasibility(points) >= _LIKELY][:, : self.objectives]
+        front = means[non_dominated(means)]
+        reference: Array = front.max(axis=0) + _MARGIN * np.ptp(front, axis=0)
+        return reference
+
+    def _candidates(self, accept: Callable[[Array], bool]) -> Array:
+        """Return promising points, the one with the greatest expected improvement first."""
+        best = self.ranked()
+        front = self.predict(self.points[best])[0][:, : self.objectives]
+        reference = self.reference() if best else np.full(self.objectives, np.inf)
+
+        def worth(points: Array) -> Array:
+            chance = self.feasibility(points)
+            if not best:
+                return chance
+            means, errors = (both[:, : self.objectives] for both in self.predict(points))
+            return chance * expected_improvement(means, errors, front, reference)
+
+        rng = np.random.default_rng(len(self.points))
+        pool = np.vstack([self.space.spread(_SPREAD, seed=len(self.points)), self.points[best[:_KEPT]]])
+        for distance in (None, *_DISTANCES):
+            if distance is not None:
+                around = np.repeat(pool, _AROUND, axis=0)
+                pool = np.vstack([pool, self.space.rounded(around + distance * rng.standard_normal(around.shape))])
+            pool = _first_accepted(np.unique(pool, axis=0), worth, accept)
+        return pool
+
+    def _believing(self, points: Array) -> "Model":
+        means = self.predict(points)[0]
+        features = self.space.features(points)
+        emulators = tuple(
+            one.with_points(features, column) for one, column in zip(self.emulators, means.T, strict=True)
+        )
+        failed = np.append(self.failed, np.zeros(len(points), dtype=bool))
+        return replace(self, points=np.vstack([self.points, points]), failed=failed, emulators=emulators)
+
+
+def _first_accepted(pool: Array, worth: Callable[[Array], Array], accept: Callable[[Array], bool]) -> Array:
+    kept: list[Array] = []
+    for k in np.argsort(-worth(pool), kind="stable"):
+        if accept(pool[k]):
+            kept.append(pool[k])
+        if len(kept) == _KEPT:
+            break
+    return np.array(kept)
+
+
+@dataclass(eq=False)
+class Search:
+    """A search under way.
+
+    Attributes
+    ----------
+    space, objectives, accept
+        Where points lie, how many objectives there are, which points can be run.
+    tolerance, relative
+        As of `Model.chance_of_gain`.
+    batches
+        The points of each batch, those of an earlier search that was broken off included.
+    values, errors
+        What was found at all points.
+    chances
+        Probability of a gain beyond the tolerance, after each batch.
+    """
+
+    space: Space
+    objectives: int = 1
+    accept: Callable[[Array], bool] = lambda _: True
+    tolerance: float = 0.01
+    relative: bool = True
+    batches: list[Array] = field(default_factory=list)
+    values: Array | None = None
+    errors: Array | None = None
+    chances: list[float] = field(default_factory=list)
+
+    @property
+    def points(self) -> Array:
+        """All points that have been run."""
+        assert self.values is not None
+        return np.vstack(self.batches)[: len(self.values)]
+
+    def model(self) -> Model:
+        """Return what the runs so far tell."""
+        assert self.values is not None
+        assert self.errors is not None
+        return Model.fit(self.space, self.points, self.values, self.errors, self.objectives)
+
+    def start(self) -> Array:
+        """Return the points to begin with: 2k + 2 of a Sobol sequence."""
+        count, spread = 2 * len(self.space) + 2, self.space.spread(1024)
+        return np.array([point for point in spread if self.accept(point)][:count])
+
+    def run(
+        self, evaluate: Evaluate, runs: int, batch: int, keep: Callable[[Sequence[Array]], None] = lambda _: None
+    ) -> Model:
+        """Search until a gain is unlikely or so many points have been run.
+
+        Parameters
+        ----------
+        evaluate
+            Gives values and errors at points.
+        runs
+            Points to run at most.
+        batch
+            Points to run together.
+        keep
+            Called with all batches before one is run, so that the search can be taken up again.
+        """
+        waiting, self.batches = self.batches or [self.start()], []
+        while True:
+            self.batches.append(waiting.pop(0))
+            keep([*self.batches, *waiting])
+            done = sum(map(len, self.batches[:-1]))
+            found = evaluate(self.batches[-1], done)
+            self.values, self.errors = (
+                new if old is None else np.vstack([old, new])
+                for old, new in zip((self.values, self.errors), found, strict=True)
+            )
+            model = self.model()
+            self.chances.append(model.chance_of_gain(self.tolerance, self.accept, relative=self.relative))
+            left = runs - len(self.values)
+            if left <= 0 or self.chances[-1] < ENOUGH:
+                return model
+            if not waiting:
+                waiting = [model.propose(min(batch, left), self.accept)]
