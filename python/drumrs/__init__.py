@@ -28,6 +28,7 @@ from drumrs.state import State
 from drumrs.sweep import Case, Sweep
 
 if TYPE_CHECKING:
+    from drumrs.decide import optimize
     from drumrs.exports import export, movie
     from drumrs.glossary import quantities
     from drumrs.reports import report
@@ -63,6 +64,7 @@ __all__ = [
     "info",
     "load",
     "movie",
+    "optimize",
     "phases",
     "player",
     "quantities",
@@ -75,7 +77,11 @@ __all__ = [
 
 
 def __getattr__(name: str) -> Any:
-    """Load on demand what most scripts do without: the table of quantities, exports, reports, the verification."""
+    """Load on demand what most scripts do without: decisions, the table of quantities, exports, reports, the verification."""
+    if name == "optimize":
+        from drumrs import decide
+
+        return getattr(decide, name)
     if name in {"export", "movie"}:
         from drumrs import exports
 

@@ -18,6 +18,8 @@ KINDS = {
     "reproduction": "a reproduction",
     "validation": "a validation",
     "baffle": "an inference of the baffle",
+    "optimization": "an optimization",
+    "calibration": "a calibration",
 }
 # What a run's folder holds.
 RUN_FILES = (

@@ -2,9 +2,16 @@
 
 `targets` are quantities of runs and expressions of them, `readings` the single quantities, `units` their units;
 `evaluate` asks configurations for them, through the store of a sweep.
+
+`optimize` finds the best values of a few keys: `problem` is what is asked, `space` where the keys may vary, `search`
+where to run next and when to stop, by what an `emulator` says of points that were not run and `gain` of what more of
+them are worth; `optimization` is what comes out.
 """
 
 from drumrs.decide.evaluate import Evaluator, evaluate
+from drumrs.decide.optimization import Optimization
+from drumrs.decide.optimize import optimize
+from drumrs.decide.problem import Problem
 from drumrs.decide.targets import Target
 
-__all__ = ["Evaluator", "Target", "evaluate"]
+__all__ = ["Evaluator", "Optimization", "Problem", "Target", "evaluate", "optimize"]

@@ -105,7 +105,8 @@ class Emulator:
         points
             Parameters of the runs, shape (n, k).
         values, errors
-            What the runs gave, and standard errors, shape (n,).
+            What the runs gave, and standard errors, shape (n,). An error that is not a number is unknown and taken for
+            the largest known one; where none is known, all are what makes the values likeliest.
         ranges
             Lower and upper end of each parameter.
         least_noise
@@ -114,18 +115,23 @@ class Emulator:
         """
         from sklearn.exceptions import ConvergenceWarning
         from sklearn.gaussian_process import GaussianProcessRegressor
-        from sklearn.gaussian_process.kernels import ConstantKernel, Matern
+        from sklearn.gaussian_process.kernels import ConstantKernel, Matern, WhiteKernel
 
         known, low = np.asarray(values, float), np.array([low for low, _ in ranges])
         span = np.array([high for _, high in ranges]) - low
         center, scale = float(known.mean()), float(known.std()) or 1.0
-        noise = np.maximum(np.asarray(errors, float) / scale, least_noise)
+        x, y = (np.asarray(points, float) - low) / span, (known - center) / scale
+        noise = np.asarray(errors, float) / scale
         kernel = ConstantKernel(1.0, _VARIANCES) * Matern([1.0] * len(low), _LENGTHS, nu=2.5)
-        process = GaussianProcessRegressor(kernel, alpha=noise**2, n_restarts_optimizer=1, random_state=1)
+        how = {"n_restarts_optimizer": 1, "random_state": 1}
         with warnings.catch_warnings(), one_thread():
             # A length at its bound is a quantity that does not depend on the parameter.
             warnings.simplefilter("ignore", ConvergenceWarning)
-            process.fit((np.asarray(points, float) - low) / span, (known - center) / scale)
+            if np.isnan(noise).all():
+                noisy = GaussianProcessRegressor(kernel + WhiteKernel(0.1, (1e-6, 1.0)), **how).fit(x, y)
+                noise[:] = np.sqrt(noisy.kernel_.k2.noise_level)
+            noise = np.maximum(np.where(np.isnan(noise), np.nanmax(noise), noise), least_noise)
+            process = GaussianProcessRegressor(kernel, alpha=noise**2, **how).fit(x, y)
         inverse = np.linalg.inv(process.L_ @ process.L_.T)
         strays = inverse @ process.y_train_ / np.sqrt(np.diag(inverse))
         return cls(process, low, span, center, scale, strays)

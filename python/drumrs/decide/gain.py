@@ -11,6 +11,8 @@ from scipy.special import ndtr
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
+_FAR = 40.0
+
 
 def non_dominated(values: Array) -> Mask:
     """Tell which points no other point is better than in one objective and as good in all, shape (n,).
@@ -34,6 +36,15 @@ def non_dominated(values: Array) -> Mask:
     found = np.zeros(len(values), dtype=bool)
     found[order] = last < best_before
     return found
+
+
+def clearly_non_dominated(values: Array, resolution: float = 1e-3) -> Mask:
+    """Tell which points are not dominated, differences below a part of the extent of all values not counting.
+
+    So a point that an emulator takes for better by a rounding error, and that is far worse else, is left out.
+    """
+    steps = resolution * np.ptp(values, axis=0) if len(values) else np.ones(values.shape[1])
+    return non_dominated(np.rint(values / np.where(steps > 0.0, steps, 1.0)))
 
 
 def hypervolume(values: Array, reference: Array) -> float:
@@ -82,8 +93,8 @@ def expected_improvement(means: Array, errors: Array, front: Array, reference: A
 
 def _expected_below(limits: Array, means: Array, errors: Array) -> Array:
     """Return the mean of max(limit − y, 0) for y normal, shape (n, limits)."""
-    errors = np.maximum(errors, 1e-300)
-    z = (limits - means) / errors
+    # So far out the density is 0 in floating point; without errors all is.
+    z = np.clip((limits - means) / np.maximum(errors, 1e-300), -_FAR, _FAR)
     density = np.exp(-0.5 * z**2) / np.sqrt(2.0 * np.pi)
     found: Array = np.maximum((limits - means) * ndtr(z) + errors * density, 0.0)
     return found

@@ -11,7 +11,7 @@ import numpy as np
 from scipy.special import ndtr
 
 from drumrs.decide.emulator import Array, Emulator, one_thread
-from drumrs.decide.gain import Mask, expected_improvement, hypervolume, non_dominated
+from drumrs.decide.gain import Mask, clearly_non_dominated, expected_improvement, hypervolume
 from drumrs.decide.space import Space
 
 # Values and errors at points, not-a-number where a run failed; the second argument is the number of the first point.
@@ -26,7 +26,7 @@ ENOUGH = 0.05
 # A point is taken to meet the constraints where that is more likely than not.
 _LIKELY = 0.5
 # What lies beyond the front counts a little, so that its ends are sought, too: part of its extent.
-_MARGIN = 0.1
+_MARGIN, _COARSE = 0.1, 0.02
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,7 +89,7 @@ class Model:
         means = self.predict(self.points)[0][:, : self.objectives]
         there = np.flatnonzero(self.feasible())
         if self.objectives > 1:
-            there = there[non_dominated(means[there])]
+            there = there[clearly_non_dominated(means[there])]
         return [int(k) for k in there[np.argsort(means[there, 0], kind="stable")]]
 
     def propose(self, count: int, accept: Callable[[Array], bool]) -> Array:
@@ -108,7 +108,7 @@ class Model:
         return chosen
 
     def chance_of_gain(self, tolerance: float, accept: Callable[[Array], bool], *, relative: bool) -> float:
-        """Return the probability that some point is better than the best known by more than a tolerance.
+        """Return the probability that a run at some further point would gain more than a tolerance.
 
         Parameters
         ----------
@@ -119,37 +119,55 @@ class Model:
         relative
             Whether the tolerance is a share.
         """
-        best = self.ranked()
+        best = self.ranked()[: 1 if self.objectives == 1 else None]
         if not best:
             return 1.0
-        rng = np.random.default_rng(len(self.points))
+        rng, own = np.random.default_rng(len(self.points)), len(best)
         with one_thread():
-            near = self._candidates(accept)
             spread = self.space.spread(_LOOKED_AT, seed=len(self.points) + 1)
-            looked = np.vstack([self.points[best], np.unique(np.vstack([near, spread]), axis=0)])
+            likely = self.promising_front()
+            looked = np.vstack([spread, self._candidates(accept), likely[:: len(likely) // _LOOKED_AT + 1]])
+            # The points known are what would be reported; a point that comes twice would make the covariance singular.
+            looked = np.vstack([self.points[best], np.unique(looked, axis=0)])
             features = self.space.features(looked)
             drawn = np.stack([one.sample(features, _DRAWN, rng) for one in self.emulators], axis=-1)
-        wanted, own = drawn[..., : self.objectives], len(best)
-        met = (drawn[..., self.objectives :] <= 0.0).all(axis=-1)
-        # The points known are what would be reported; that they meet the constraints is not doubted again.
-        met[:, :own] = True
-        wanted = np.where(met[..., None], wanted, np.inf)
-        if self.objectives == 1:
-            first = self.predict(self.points[best[:1]])[0][0, 0]
-            limit = tolerance * abs(first) if relative else tolerance
-            return float(np.mean(wanted[:, 0, 0] - wanted[:, :, 0].min(axis=1) > limit))
-        reference = self.reference()
-        before = np.array([hypervolume(one, reference) for one in wanted[:, :own]])
-        after = np.array([hypervolume(one, reference) for one in wanted])
-        return float(np.mean(after - before > tolerance * before))
+            reference, first = self.reference(), self.predict(self.points[best[:1]])[0][0, 0]
+        wanted, met = drawn[..., : self.objectives], (drawn[..., self.objectives :] <= 0.0).all(axis=-1)
+        gained = 0
+        for values, possible in zip(wanted, met, strict=True):
+            gains = expected_improvement(values, np.zeros_like(values), values[:own], reference)
+            before = abs(first) if self.objectives == 1 else hypervolume(values[:own], reference)
+            gained += (gains * possible).max() > (tolerance * before if relative else tolerance)
+        return gained / len(drawn)
+
+    def _optimistic(self, points: Array) -> Array:
+        means, errors = self.predict(points)
+        optimistic: Array = (means - errors)[:, : self.objectives]
+        return optimistic
+
+    def promising_front(self) -> Array:
+        """Return the points anywhere in the space that are not dominated if each is better by its error.
+
+        Points that are not likely to meet the constraints are left out.
+        """
+        rng = np.random.default_rng(len(self.points))
+        points = np.vstack([self.space.spread(_SPREAD), self.points[self.ranked()]])
+        for distance in (*_DISTANCES, None):
+            likely = points[self.feasibility(points) >= _LIKELY]
+            points = likely[clearly_non_dominated(self._optimistic(likely))]
+            if distance is not None:
+                around = np.repeat(points[:_SPREAD], _KEPT, axis=0)
+                steps = distance * rng.standard_normal(around.shape)
+                points = np.vstack([points, self.space.rounded(around + steps)])
+        return points
 
     def reference(self) -> Array:
-        """Return where the hypervolume ends: a little beyond the front that is expected; of one objective nowhere."""
+        """Return where the hypervolume ends: a little beyond the front that is promising; of one objective nowhere."""
         if self.objectives == 1:
             return np.array([np.inf])
-        points = np.vstack([self.space.spread(_SPREAD), self.points[self.ranked()]])
-        means = self.predict(points)[0][self.feasibility(points) >= _LIKELY][:, : self.objectives]
-        front = means[non_dominated(means)]
+        front = self._optimistic(self.promising_front())
+        # Coarsely: a point that may be better by little in one objective must not move the end of the other far out.
+        front = front[clearly_non_dominated(front, _COARSE)]
         reference: Array = front.max(axis=0) + _MARGIN * np.ptp(front, axis=0)
         return reference
 
@@ -171,7 +189,9 @@ class Model:
         for distance in (None, *_DISTANCES):
             if distance is not None:
                 around = np.repeat(pool, _AROUND, axis=0)
-                pool = np.vstack([pool, self.space.rounded(around + distance * rng.standard_normal(around.shape))])
+                pool = np.vstack(
+                    [pool, self.space.rounded(around + distance * rng.standard_normal(around.shape))]
+                )
             pool = _first_accepted(np.unique(pool, axis=0), worth, accept)
         return pool
 
@@ -207,8 +227,8 @@ class Search:
         As of `Model.chance_of_gain`.
     batches
         The points of each batch, those of an earlier search that was broken off included.
-    values, errors
-        What was found at all points.
+    found
+        Values and errors of each batch that has been run.
     chances
         Probability of a gain beyond the tolerance, after each batch.
     """
@@ -219,20 +239,26 @@ class Search:
     tolerance: float = 0.01
     relative: bool = True
     batches: list[Array] = field(default_factory=list)
-    values: Array | None = None
-    errors: Array | None = None
+    found: list[tuple[Array, Array]] = field(default_factory=list)
     chances: list[float] = field(default_factory=list)
 
     @property
     def points(self) -> Array:
         """All points that have been run."""
-        assert self.values is not None
-        return np.vstack(self.batches)[: len(self.values)]
+        return np.vstack(self.batches[: len(self.found)])
+
+    @property
+    def values(self) -> Array:
+        """What was found there, a column for each objective and constraint."""
+        return np.vstack([values for values, _ in self.found])
+
+    @property
+    def errors(self) -> Array:
+        """Errors of what was found."""
+        return np.vstack([errors for _, errors in self.found])
 
     def model(self) -> Model:
         """Return what the runs so far tell."""
-        assert self.values is not None
-        assert self.errors is not None
         return Model.fit(self.space, self.points, self.values, self.errors, self.objectives)
 
     def start(self) -> Array:
@@ -241,7 +267,11 @@ class Search:
         return np.array([point for point in spread if self.accept(point)][:count])
 
     def run(
-        self, evaluate: Evaluate, runs: int, batch: int, keep: Callable[[Sequence[Array]], None] = lambda _: None
+        self,
+        evaluate: Evaluate,
+        runs: int,
+        batch: int,
+        keep: Callable[[Sequence[Array]], None] = lambda _: None,
     ) -> Model:
         """Search until a gain is unlikely or so many points have been run.
 
@@ -261,11 +291,7 @@ class Search:
             self.batches.append(waiting.pop(0))
             keep([*self.batches, *waiting])
             done = sum(map(len, self.batches[:-1]))
-            found = evaluate(self.batches[-1], done)
-            self.values, self.errors = (
-                new if old is None else np.vstack([old, new])
-                for old, new in zip((self.values, self.errors), found, strict=True)
-            )
+            self.found.append(evaluate(self.batches[-1], done))
             model = self.model()
             self.chances.append(model.chance_of_gain(self.tolerance, self.accept, relative=self.relative))
             left = runs - len(self.values)

@@ -65,3 +65,17 @@ def test_samples_have_the_mean_and_the_error_of_the_prediction():
     mean, error = emulator.predict(new)
     assert drawn.mean(axis=0) == pytest.approx(mean, abs=0.07 * error.max())
     assert drawn.std(axis=0) == pytest.approx(error, rel=0.07)
+
+
+def test_an_error_that_no_run_knows_is_found_from_the_scatter():
+    known = points(80, 1)
+    values = smooth(known) + np.random.default_rng(1).normal(0.0, 0.1, 80)
+    emulator = Emulator.fit(known, values, np.full(80, np.nan), RANGES)
+    assert emulator.typical_error == pytest.approx(0.1, rel=0.3)
+
+
+def test_an_error_that_one_run_does_not_know_is_the_largest_of_the_others():
+    known, errors = points(20, 1), np.linspace(0.1, 0.2, 20)
+    errors[3] = np.nan
+    emulator = Emulator.fit(known, smooth(known), errors, RANGES)
+    assert np.sqrt(emulator.process.alpha[3]) * emulator.scale == pytest.approx(0.2)

@@ -1,0 +1,226 @@
+"""`Problem`: what is to be optimized, as a file or a mapping says it: keys that vary, goals, when to stop."""
+
+import hashlib
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from drumrs.analysis import Mean
+from drumrs.config import Config, anchored, read_layer
+from drumrs.config.layers import flat
+from drumrs.decide.space import Space
+from drumrs.decide.targets import Target
+from drumrs.errors import ConfigError
+from drumrs.sweep.sweep_file import read_base, table_of
+
+_TABLES = ("base", "ranges", "axes", "optimize")
+_KEYS = ("minimize", "maximize", "subject_to", "tolerance", "runs", "batch", "confirm")
+_CONSTRAINT = re.compile(r"(?P<target>.+?)\s*(?P<sign>[<>]=?)\s*(?P<limit>[-+.\deE]+)\s*(?P<unit>.*)")
+_SHARE = re.compile(r"(?P<number>[.\deE+-]+)\s*%")
+_MOST_OBJECTIVES = 2
+_MOST_RUNS = 1000
+# Runs for each key that varies, unless the file says how many.
+_RUNS_PER_KEY = 20
+
+
+@dataclass(frozen=True)
+class Goal:
+    """A target that is to be small or large, or at most or at least a limit.
+
+    Attributes
+    ----------
+    target
+        What is measured.
+    sign
+        1 where less is better, -1 where more is.
+    limit
+        Of a constraint, in the unit of the target; `None` of an objective.
+    """
+
+    target: Target
+    sign: float
+    limit: float | None = None
+
+    @classmethod
+    def constraint(cls, text: Any) -> "Goal":
+        """Read a constraint: a target, <= or >=, a number, and its unit where one wants it checked.
+
+        Raises
+        ------
+        ConfigError
+            Where the text is none, or the unit is not that of the target.
+        """
+        found = _CONSTRAINT.fullmatch(text.strip()) if isinstance(text, str) else None
+        limit = _number(found["limit"]) if found else None
+        if found is None or limit is None:
+            raise ConfigError(
+                "optimize.subject_to", text, "a target, <= or >=, and a number: 'falls_per_turn >= 0.5'"
+            )
+        target = Target.parse(found["target"])
+        if found["unit"] and found["unit"] != target.unit:
+            raise ConfigError("optimize.subject_to", text, f"in the unit of {target}, {target.unit}")
+        return cls(target, 1.0 if found["sign"].startswith("<") else -1.0, limit)
+
+    def __str__(self) -> str:
+        """Return it as one writes it."""
+        if self.limit is None:
+            return f"{'least' if self.sign > 0.0 else 'greatest'} {self.target.title}"
+        return f"{self.target} {'<=' if self.sign > 0.0 else '>='} {self.limit:g}"
+
+    def signed(self, value: float) -> float:
+        """Return what is to be minimized, or to be at most 0 of a constraint."""
+        return self.sign * (value - (self.limit or 0.0))
+
+    def unsigned(self, value: float) -> float:
+        """Return the target's own value."""
+        return self.sign * value + (self.limit or 0.0)
+
+    def signed_mean(self, mean: Mean) -> tuple[float, float]:
+        """Return signed value and error; not a number where there is none."""
+        return self.signed(mean.value), float("nan") if mean.error is None else mean.error
+
+
+@dataclass(frozen=True)
+class Problem:
+    """What is to be optimized.
+
+    Attributes
+    ----------
+    base
+        What all runs share.
+    space
+        The keys that vary.
+    objectives, constraints
+        The goals.
+    tolerance, relative
+        Gain that is not worth another run: a share where `relative`, of the best value or of the hypervolume.
+    runs
+        Runs at most.
+    batch
+        Runs that are planned together; 0 for as many as run at once.
+    confirm
+        Fresh seeds for what is best.
+    """
+
+    base: Config
+    space: Space
+    objectives: tuple[Goal, ...]
+    constraints: tuple[Goal, ...]
+    tolerance: float
+    relative: bool
+    runs: int
+    batch: int
+    confirm: int
+
+    @classmethod
+    def read(cls, source: "str | Path | Mapping[str, Any]") -> "Problem":
+        """Read a problem.
+
+        Parameters
+        ----------
+        source
+            TOML file with the tables ``[base]``, ``[ranges]``, ``[axes]`` and ``[optimize]``, or a mapping of the same
+            form, whose ``base`` may be a `Config`.
+
+        Raises
+        ------
+        ConfigError
+            Where the file cannot be read, or a key or value is not accepted.
+
+        Examples
+        --------
+        >>> from drumrs.decide.problem import Problem
+        >>> goal = {"minimize": "drum_specific_power", "subject_to": "dissipation_ratio >= 1.2"}
+        >>> problem = Problem.read({"ranges": {"rotation.rpm": [30, 60]}, "optimize": goal})
+        >>> str(problem.objectives[0]), str(problem.constraints[0]), problem.runs
+        ('least drum specific power', 'dissipation_ratio >= 1.2', 20)
+        """
+        content, folder = (
+            (source, Path()) if isinstance(source, Mapping) else (read_layer(source), Path(source).parent)
+        )
+        _refuse_unknown(content, _TABLES, "")
+        base = content.get("base")
+        base = base if isinstance(base, Config) else read_base(content, folder)
+        tables = {key: table_of(content, key) or {} for key in _TABLES[1:]}
+        ranges, axes = (flat(anchored(tables[key], folder)) for key in ("ranges", "axes"))
+        space, wanted = Space.read(ranges, axes), tables["optimize"]
+        space.check(base)
+        _refuse_unknown(wanted, _KEYS, "optimize.")
+        objectives = [
+            Goal(Target.parse(text), sign)
+            for key, sign in (("minimize", 1.0), ("maximize", -1.0))
+            for text in _texts(wanted, key)
+        ]
+        if not 1 <= len(objectives) <= _MOST_OBJECTIVES:
+            limit = "one or two targets in optimize.minimize and optimize.maximize together"
+            raise ConfigError("optimize", [str(goal) for goal in objectives], limit)
+        tolerance, relative = _tolerance(wanted.get("tolerance", "1 %"))
+        if len(objectives) > 1 and not relative:
+            limit = "a share such as '1 %' where there are two objectives: of the hypervolume of their front"
+            raise ConfigError("optimize.tolerance", tolerance, limit)
+        return cls(
+            base,
+            space,
+            tuple(objectives),
+            tuple(Goal.constraint(text) for text in _texts(wanted, "subject_to")),
+            tolerance,
+            relative,
+            _whole(wanted, "runs", _RUNS_PER_KEY * len(space), 2 * len(space) + 2),
+            _whole(wanted, "batch", 0, 0),
+            _whole(wanted, "confirm", 4, 2),
+        )
+
+    @property
+    def goals(self) -> tuple[Goal, ...]:
+        """Objectives, then constraints."""
+        return (*self.objectives, *self.constraints)
+
+    @property
+    def digest(self) -> str:
+        """What tells searches apart that go other ways: all but when to stop and how to confirm."""
+        words = repr((self.base.digest, self.space, [(str(goal), goal.target.text) for goal in self.goals]))
+        return hashlib.sha256(words.encode()).hexdigest()[:20]
+
+
+def _refuse_unknown(table: Mapping[str, Any], known: tuple[str, ...], at: str) -> None:
+    for key in table:
+        if key not in known:
+            hint = (
+                "each run has a seed of its own"
+                if key == "seeds"
+                else f"the keys there are {', '.join(known)}"
+            )
+            raise ConfigError(f"{at}{key}", table[key], problem="is not a key of an optimization", hint=hint)
+
+
+def _texts(table: Mapping[str, Any], key: str) -> list[Any]:
+    value = table.get(key, [])
+    return list(value) if isinstance(value, (list, tuple)) else [value]
+
+
+def _whole(table: Mapping[str, Any], key: str, default: int, least: int) -> int:
+    value = table.get(key, default)
+    if isinstance(value, bool) or not isinstance(value, int) or not least <= value <= _MOST_RUNS:
+        raise ConfigError(
+            f"optimize.{key}", value, f"a whole number from {least} to {_MOST_RUNS}", bound=least
+        )
+    return value
+
+
+def _tolerance(value: Any) -> tuple[float, bool]:
+    found = _SHARE.fullmatch(value.strip()) if isinstance(value, str) else None
+    number = 0.01 * (_number(found["number"]) or 0.0) if found else value
+    if isinstance(number, bool) or not isinstance(number, (int, float)) or not number > 0.0:
+        raise ConfigError(
+            "optimize.tolerance", value, "a share such as '1 %', or a number in the unit of the objective"
+        )
+    return float(number), found is not None
+
+
+def _number(text: str) -> float | None:
+    try:
+        return float(text)
+    except ValueError:
+        return None
