@@ -9,6 +9,7 @@ All values are in SI units and per meter of drum depth, but for rpm and degrees 
 """
 
 import logging
+from importlib import import_module
 from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
 
@@ -28,7 +29,10 @@ from drumrs.state import State
 from drumrs.sweep import Case, Sweep
 
 if TYPE_CHECKING:
-    from drumrs.decide import optimize
+    from drumrs.decide.compare import Comparison, compare
+    from drumrs.decide.evaluate import evaluate
+    from drumrs.decide.optimize import optimize
+    from drumrs.decide.targets import Target
     from drumrs.exports import export, movie
     from drumrs.glossary import quantities
     from drumrs.reports import report
@@ -42,6 +46,7 @@ logging.getLogger(__name__).addHandler(logging.NullHandler())
 __all__ = [
     "Case",
     "CheckpointError",
+    "Comparison",
     "Config",
     "ConfigError",
     "DrumrsError",
@@ -53,13 +58,16 @@ __all__ = [
     "State",
     "Summary",
     "Sweep",
+    "Target",
     "Task",
     "UnstableError",
     "Verification",
     "__version__",
     "baseline",
+    "compare",
     "effective_jobs",
     "errors",
+    "evaluate",
     "export",
     "info",
     "load",
@@ -76,26 +84,24 @@ __all__ = [
 ]
 
 
+# What most scripts do without, and where it is.
+_ON_DEMAND = {
+    "Comparison": "decide.compare",
+    "Target": "decide.targets",
+    "Verification": "verification",
+    "compare": "decide.compare",
+    "evaluate": "decide.evaluate",
+    "export": "exports",
+    "movie": "exports",
+    "optimize": "decide.optimize",
+    "quantities": "glossary",
+    "report": "reports",
+    "verify": "verification",
+}
+
+
 def __getattr__(name: str) -> Any:
-    """Load on demand what most scripts do without: decisions, the table of quantities, exports, reports, the verification."""
-    if name == "optimize":
-        from drumrs import decide
-
-        return getattr(decide, name)
-    if name in {"export", "movie"}:
-        from drumrs import exports
-
-        return getattr(exports, name)
-    if name == "quantities":
-        from drumrs import glossary
-
-        return glossary.quantities
-    if name == "report":
-        from drumrs import reports
-
-        return reports.report
-    if name in {"Verification", "verify"}:
-        from drumrs import verification
-
-        return verification.verify if name == "verify" else verification.Verification
+    """Load what is loaded on demand."""
+    if name in _ON_DEMAND:
+        return getattr(import_module(f"drumrs.{_ON_DEMAND[name]}"), name)
     raise AttributeError(f"module 'drumrs' has no attribute {name!r}")

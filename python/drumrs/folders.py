@@ -15,6 +15,7 @@ KINDS = {
     "run": "a run",
     "baseline": "a comparison",
     "sweep": "a sweep",
+    "compare": "a comparison of designs",
     "reproduction": "a reproduction",
     "validation": "a validation",
     "baffle": "an inference of the baffle",

@@ -16,12 +16,14 @@ from cyclopts import App, CycloptsError, Group, Parameter, UnknownOptionError, U
 
 import drumrs
 from drumrs.cli.baseline import baseline
+from drumrs.cli.compare import compare
 from drumrs.cli.config import config
 from drumrs.cli.export import export
 from drumrs.cli.info import info
 from drumrs.cli.init import init
 from drumrs.cli.messages import complain, speaking, warn
 from drumrs.cli.movie import movie
+from drumrs.cli.optimize import optimize
 from drumrs.cli.options import PATH, cut_by_shell
 from drumrs.cli.quantities import quantities
 from drumrs.cli.report import report
@@ -61,6 +63,8 @@ app = App(
         "- `drumrs movie out/case --out drum.mp4` writes it as a film\n"
         "- `drumrs report out/case --page mill` writes one page of it, for a trade\n"
         "- `drumrs sweep sweep.toml --out out/sweep` runs many cases\n"
+        "- `drumrs compare a.toml b.toml --by drum_specific_power` finds the better of two machines\n"
+        "- `drumrs optimize search.toml` finds the best values of a few keys\n"
         "- `drumrs quantities ratio` says what is measured under a name with that word\n"
         "- `drumrs verify` holds drumrs against formulas and its own promises\n"
         "- `drumrs validate tracer` simulates a drum that others measured, and compares"
@@ -76,6 +80,8 @@ for _command in (
     baseline,
     reproduce,
     sweep,
+    compare,
+    optimize,
     view,
     export,
     movie,

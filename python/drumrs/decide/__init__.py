@@ -1,17 +1,29 @@
 """From runs to decisions: what is asked of runs, and which runs answer it.
 
 `targets` are quantities of runs and expressions of them, `readings` the single quantities, `units` their units;
-`evaluate` asks configurations for them, through the store of a sweep.
+`evaluate` asks configurations for them, through the store of a sweep. `compare` finds the best of a few machines, with
+`selection`, which says where further seeds help.
 
 `optimize` finds the best values of a few keys: `problem` is what is asked, `space` where the keys may vary, `search`
 where to run next and when to stop, by what an `emulator` says of points that were not run and `gain` of what more of
 them are worth; `optimization` is what comes out.
 """
 
+from drumrs.decide.compare import Comparison, Design, compare
 from drumrs.decide.evaluate import Evaluator, evaluate
 from drumrs.decide.optimization import Optimization
 from drumrs.decide.optimize import optimize
 from drumrs.decide.problem import Problem
 from drumrs.decide.targets import Target
 
-__all__ = ["Evaluator", "Optimization", "Problem", "Target", "evaluate", "optimize"]
+__all__ = [
+    "Comparison",
+    "Design",
+    "Evaluator",
+    "Optimization",
+    "Problem",
+    "Target",
+    "compare",
+    "evaluate",
+    "optimize",
+]

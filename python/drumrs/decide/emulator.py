@@ -159,7 +159,10 @@ class Emulator:
 
     def predict(self, points: ArrayLike) -> tuple[Array, Array]:
         """Return mean and standard error of the quantity itself, without the noise of a run, shape (n,) each."""
-        mean, error = self.process.predict(self._scaled(points), return_std=True)
+        scaled = self._scaled(points)
+        if not len(scaled):
+            return np.zeros(0), np.zeros(0)
+        mean, error = self.process.predict(scaled, return_std=True)
         return self.center + self.scale * mean, self.calibration * self.scale * error
 
     def sample(self, points: ArrayLike, count: int, rng: np.random.Generator) -> Array:

@@ -215,9 +215,8 @@ def evaluate(  # noqa: PLR0913 - what, where, with which seeds, and by whom
     Examples
     --------
     >>> import tempfile, drumrs
-    >>> from drumrs.decide import evaluate
     >>> configs = [drumrs.baseline(fill).replace({"run.duration": 0.2}) for fill in (0.05, 0.1)]
-    >>> found = evaluate(configs, ["drum_power"], out=tempfile.mkdtemp(), seeds=[1, 2], progress=False)
+    >>> found = drumrs.evaluate(configs, ["drum_power"], out=tempfile.mkdtemp(), seeds=[1, 2], progress=False)
     >>> len(found), found[0][0].mean < found[1][0].mean
     (2, True)
     """

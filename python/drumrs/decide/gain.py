@@ -6,7 +6,6 @@ the reference.
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.special import ndtr
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -93,8 +92,10 @@ def expected_improvement(means: Array, errors: Array, front: Array, reference: A
 
 def _expected_below(limits: Array, means: Array, errors: Array) -> Array:
     """Return the mean of max(limit − y, 0) for y normal, shape (n, limits)."""
+    from scipy.special import ndtr
+
     # So far out the density is 0 in floating point; without errors all is.
-    z = np.clip((limits - means) / np.maximum(errors, 1e-300), -_FAR, _FAR)
+    z = np.clip((limits - means) / np.maximum(errors, 1e-100), -_FAR, _FAR)
     density = np.exp(-0.5 * z**2) / np.sqrt(2.0 * np.pi)
     found: Array = np.maximum((limits - means) * ndtr(z) + errors * density, 0.0)
     return found

@@ -1,6 +1,6 @@
 """`Optimization`: what a search has found, as a table, a figure and a sentence."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from io import BytesIO
@@ -56,12 +56,12 @@ class Confirmed:
         return float("inf") if np.isnan(value) else value
 
     def misses(self, problem: Problem) -> list[str]:
-        """Return the constraints that it misses on fresh seeds, in words."""
+        """Return the constraints that it misses on fresh seeds, in words: no part of the interval meets them."""
         goals = zip(problem.goals, self.fresh, strict=True)
         return [
             f"{goal} (it is {_number(goal, found.mean, found.error)})"
             for goal, found in goals
-            if goal.limit is not None and not goal.signed(found.mean) <= 0.0
+            if goal.limit is not None and not goal.signed(found.mean) <= found.interval().half_width
         ]
 
     def __str__(self) -> str:
@@ -223,19 +223,18 @@ class Optimization:
 
     def _end_sentence(self) -> str:
         chance, runs = self.search.chances[-1], len(self.model.points)
-        share = (
-            f"{100.0 * self.problem.tolerance:g} %"
-            if self.problem.relative
-            else f"{self.problem.tolerance:g}"
-        )
-        what = "of the hypervolume " if self.model.objectives > 1 else ""
+        if self.model.objectives > 1:
+            share = f"{100.0 * self.problem.tolerance.amount:g} % of the hypervolume"
+        else:
+            goal, best = self.problem.objectives[0], self.model.points[self.model.ranked()[:1]]
+            share = self.problem.tolerance.text(self.model.predict(best)[0][0, 0], goal.target.unit)
         if chance < ENOUGH:
             return (
-                f"The search ended after {runs} runs: the chance that another gains more than {share} {what}"
+                f"The search ended after {runs} runs: the chance that another gains more than {share} "
                 f"is {chance:.0%}."
             )
         return (
-            f"The search used up its {runs} runs: the chance that another gains more than {share} {what}is "
+            f"The search used up its {runs} runs: the chance that another gains more than {share} is "
             f"{chance:.0%}; a larger optimize.runs goes on from here."
         )
 
@@ -243,18 +242,3 @@ class Optimization:
 def _number(goal: Goal, value: float, error: float) -> str:
     unit = "" if goal.target.unit == "1" else f" {goal.target.unit}"
     return f"{with_error(value, error if np.isfinite(error) else None)}{unit}"
-
-
-def summary_rows(found: Optimization) -> Sequence[Sequence[str]]:
-    """Return what was confirmed as rows of text: the values, then for each goal what was expected and what came out."""
-    return [
-        [
-            *(str(value) for value in one.values.values()),
-            *(
-                text
-                for (mean, error), fresh in zip(one.expected, one.fresh, strict=True)
-                for text in (with_error(mean, error), with_error(fresh.mean, fresh.error))
-            ),
-        ]
-        for one in found.confirmed
-    ]

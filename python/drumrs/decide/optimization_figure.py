@@ -85,7 +85,8 @@ def _front(axes: "Axes", found: "Optimization") -> None:
     axes.plot(*(found.table[name].to_numpy() for name in names), ".", color="0.6", label="runs")
     front = found.front
     axes.errorbar(
-        *(front[name].to_numpy() for name in names),
+        front[names[0]].to_numpy(),
+        front[names[1]].to_numpy(),
         xerr=_BAND * front[f"{names[0]}_error"].to_numpy(),
         yerr=_BAND * front[f"{names[1]}_error"].to_numpy(),
         fmt="o",
@@ -97,7 +98,8 @@ def _front(axes: "Axes", found: "Optimization") -> None:
     errors = np.array([[one.fresh[k].error for k in range(2)] for one in found.confirmed])
     errors = np.where(np.isfinite(errors), errors, 0.0)
     axes.errorbar(
-        *fresh.T,
+        fresh[:, 0],
+        fresh[:, 1],
         xerr=_BAND * errors[:, 0],
         yerr=_BAND * errors[:, 1],
         fmt="s",

@@ -97,8 +97,8 @@ def optimize(
         wanted.space,
         len(wanted.objectives),
         lambda point: wanted.space.config(wanted.base, point) is not None,
-        wanted.tolerance,
-        wanted.relative,
+        wanted.tolerance.amount,
+        wanted.tolerance.is_relative,
         log.batches,
     )
     with Task("optimization", wanted.runs, detail="0 runs", show=progress) as task:

@@ -10,6 +10,7 @@ from typing import Any
 from drumrs.analysis import Mean
 from drumrs.config import Config, anchored, read_layer
 from drumrs.config.layers import flat
+from drumrs.decide.compare import Difference
 from drumrs.decide.space import Space
 from drumrs.decide.targets import Target
 from drumrs.errors import ConfigError
@@ -18,7 +19,6 @@ from drumrs.sweep.sweep_file import read_base, table_of
 _TABLES = ("base", "ranges", "axes", "optimize")
 _KEYS = ("minimize", "maximize", "subject_to", "tolerance", "runs", "batch", "confirm")
 _CONSTRAINT = re.compile(r"(?P<target>.+?)\s*(?P<sign>[<>]=?)\s*(?P<limit>[-+.\deE]+)\s*(?P<unit>.*)")
-_SHARE = re.compile(r"(?P<number>[.\deE+-]+)\s*%")
 _MOST_OBJECTIVES = 2
 _MOST_RUNS = 1000
 # Runs for each key that varies, unless the file says how many.
@@ -94,8 +94,8 @@ class Problem:
         The keys that vary.
     objectives, constraints
         The goals.
-    tolerance, relative
-        Gain that is not worth another run: a share where `relative`, of the best value or of the hypervolume.
+    tolerance
+        Gain that is not worth another run; of two objectives a share of the hypervolume.
     runs
         Runs at most.
     batch
@@ -108,8 +108,7 @@ class Problem:
     space: Space
     objectives: tuple[Goal, ...]
     constraints: tuple[Goal, ...]
-    tolerance: float
-    relative: bool
+    tolerance: Difference
     runs: int
     batch: int
     confirm: int
@@ -156,17 +155,16 @@ class Problem:
         if not 1 <= len(objectives) <= _MOST_OBJECTIVES:
             limit = "one or two targets in optimize.minimize and optimize.maximize together"
             raise ConfigError("optimize", [str(goal) for goal in objectives], limit)
-        tolerance, relative = _tolerance(wanted.get("tolerance", "1 %"))
-        if len(objectives) > 1 and not relative:
+        tolerance = _tolerance(wanted.get("tolerance", "1 %"), objectives[0].target.unit)
+        if len(objectives) > 1 and not tolerance.is_relative:
             limit = "a share such as '1 %' where there are two objectives: of the hypervolume of their front"
-            raise ConfigError("optimize.tolerance", tolerance, limit)
+            raise ConfigError("optimize.tolerance", wanted["tolerance"], limit)
         return cls(
             base,
             space,
             tuple(objectives),
             tuple(Goal.constraint(text) for text in _texts(wanted, "subject_to")),
             tolerance,
-            relative,
             _whole(wanted, "runs", _RUNS_PER_KEY * len(space), 2 * len(space) + 2),
             _whole(wanted, "batch", 0, 0),
             _whole(wanted, "confirm", 4, 2),
@@ -209,14 +207,12 @@ def _whole(table: Mapping[str, Any], key: str, default: int, least: int) -> int:
     return value
 
 
-def _tolerance(value: Any) -> tuple[float, bool]:
-    found = _SHARE.fullmatch(value.strip()) if isinstance(value, str) else None
-    number = 0.01 * (_number(found["number"]) or 0.0) if found else value
-    if isinstance(number, bool) or not isinstance(number, (int, float)) or not number > 0.0:
-        raise ConfigError(
-            "optimize.tolerance", value, "a share such as '1 %', or a number in the unit of the objective"
-        )
-    return float(number), found is not None
+def _tolerance(value: Any, unit: str) -> Difference:
+    try:
+        return Difference.parse(value, unit)
+    except ConfigError as error:
+        error.key = "optimize.tolerance"
+        raise
 
 
 def _number(text: str) -> float | None:

@@ -8,7 +8,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
-from scipy.special import ndtr
 
 from drumrs.decide.emulator import Array, Emulator, one_thread
 from drumrs.decide.gain import Mask, clearly_non_dominated, expected_improvement, hypervolume
@@ -56,7 +55,7 @@ class Model:
     @classmethod
     def fit(cls, space: Space, points: Array, values: Array, errors: Array, objectives: int) -> "Model":
         """Fit an emulator to every column of values, shape (n, columns)."""
-        failed = np.isnan(values).any(axis=1)
+        failed: Mask = np.isnan(values).sum(axis=1) > 0
         features = space.features(points)
         emulators = []
         for column, error in zip(values.T, errors.T, strict=True):
@@ -72,8 +71,10 @@ class Model:
 
     def feasibility(self, points: Array) -> Array:
         """Return the probability that points meet all constraints, shape (n,)."""
+        from scipy.special import ndtr
+
         means, errors = (both[:, self.objectives :] for both in self.predict(points))
-        found: Array = np.prod(ndtr(-means / np.maximum(errors, 1e-300)), axis=1)
+        found: Array = np.prod(ndtr(-means / np.maximum(errors, 1e-100)), axis=1)
         return found
 
     def feasible(self) -> Mask:
@@ -105,7 +106,7 @@ class Model:
                 best = model._candidates(accept)[:1]
                 chosen = np.vstack([chosen, best])
                 model = model._believing(best)
-        return chosen
+        return self.space.exact(chosen)
 
     def chance_of_gain(self, tolerance: float, accept: Callable[[Array], bool], *, relative: bool) -> float:
         """Return the probability that a run at some further point would gain more than a tolerance.
@@ -132,7 +133,8 @@ class Model:
             features = self.space.features(looked)
             drawn = np.stack([one.sample(features, _DRAWN, rng) for one in self.emulators], axis=-1)
             reference, first = self.reference(), self.predict(self.points[best[:1]])[0][0, 0]
-        wanted, met = drawn[..., : self.objectives], (drawn[..., self.objectives :] <= 0.0).all(axis=-1)
+        wanted = drawn[..., : self.objectives]
+        met: Mask = (drawn[..., self.objectives :] > 0.0).sum(axis=-1) == 0
         gained = 0
         for values, possible in zip(wanted, met, strict=True):
             gains = expected_improvement(values, np.zeros_like(values), values[:own], reference)
@@ -153,8 +155,8 @@ class Model:
         rng = np.random.default_rng(len(self.points))
         points = np.vstack([self.space.spread(_SPREAD), self.points[self.ranked()]])
         for distance in (*_DISTANCES, None):
-            likely = points[self.feasibility(points) >= _LIKELY]
-            points = likely[clearly_non_dominated(self._optimistic(likely))]
+            points = points[self.feasibility(points) >= _LIKELY]
+            points = points[clearly_non_dominated(self._optimistic(points))]
             if distance is not None:
                 around = np.repeat(points[:_SPREAD], _KEPT, axis=0)
                 steps = distance * rng.standard_normal(around.shape)
@@ -264,7 +266,7 @@ class Search:
     def start(self) -> Array:
         """Return the points to begin with: 2k + 2 of a Sobol sequence."""
         count, spread = 2 * len(self.space) + 2, self.space.spread(1024)
-        return np.array([point for point in spread if self.accept(point)][:count])
+        return self.space.exact(np.array([point for point in spread if self.accept(point)][:count]))
 
     def run(
         self,

@@ -1,7 +1,7 @@
 """`Space`: the keys that may vary, each within a range or among choices, and points in it as rows from 0 to 1."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -195,6 +195,10 @@ class Space:
         """Return the point with these values by key."""
         return np.array([one.place(values[one.key]) for one in self.parameters])
 
+    def exact(self, points: Array) -> Array:
+        """Return points exactly as their values give them: what is kept as values comes back the same, to the bit."""
+        return np.array([self.place(self.values(point)) for point in points])
+
     def config(self, base: Config, point: Array) -> Config | None:
         """Return the configuration of a point, `None` where its values do not go together."""
         try:
@@ -210,6 +214,6 @@ class Space:
         ConfigError
             The configuration's own sentence.
         """
-        tried: Sequence[Array] = self.spread(16)
+        tried = self.spread(16)
         if not any(self.config(base, point) for point in tried):
             base.replace(self.values(tried[0]))

@@ -4,7 +4,7 @@ import ast
 import math
 import operator
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -73,7 +73,7 @@ class Target:
     text: str
     names: tuple[Name, ...]
     unit: str
-    _tree: ast.expr
+    _tree: ast.expr = field(repr=False, compare=False)
 
     @classmethod
     def parse(cls, text: "str | Target") -> "Target":

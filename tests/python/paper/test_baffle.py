@@ -317,7 +317,9 @@ def test_the_kept_page_says_what_is_called_inferred():
 
 def test_a_missing_library_is_named_before_anything_runs(monkeypatch, tmp_path):
     monkeypatch.setattr("drumrs.decide.emulator.find_spec", lambda _: None)
-    with pytest.raises(ConfigError, match=r"needs the package sklearn, which is not installed.*drumrs\[decide\]"):
+    with pytest.raises(
+        ConfigError, match=r"needs the package sklearn, which is not installed.*drumrs\[decide\]"
+    ):
         paper.infer_baffle(tmp_path / "new")
     assert not (tmp_path / "new").exists()
 
