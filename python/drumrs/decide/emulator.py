@@ -159,11 +159,17 @@ class Emulator:
 
     def predict(self, points: ArrayLike) -> tuple[Array, Array]:
         """Return mean and standard error of the quantity itself, without the noise of a run, shape (n,) each."""
-        scaled = self._scaled(points)
+        from scipy.linalg import solve_triangular
+
+        # As the process itself predicts, without its checks, which take ten times as long for a few points.
+        process, scaled = self.process, self._scaled(points)
         if not len(scaled):
             return np.zeros(0), np.zeros(0)
-        mean, error = self.process.predict(scaled, return_std=True)
-        return self.center + self.scale * mean, self.calibration * self.scale * error
+        cross = process.kernel_(scaled, process.X_train_)
+        explained = solve_triangular(process.L_, cross.T, lower=True, check_finite=False)
+        variance = process.kernel_.diag(scaled) - np.sum(explained**2, axis=0)
+        error = np.sqrt(np.maximum(variance, 0.0))
+        return self.center + self.scale * (cross @ process.alpha_), self.calibration * self.scale * error
 
     def sample(self, points: ArrayLike, count: int, rng: np.random.Generator) -> Array:
         """Draw functions that the runs allow, at points: shape (count, n)."""

@@ -16,6 +16,7 @@ from drumrs.decide.targets import Target
 from drumrs.errors import ConfigError
 from drumrs.sweep.sweep_file import read_base, table_of
 
+_WHAT = "an optimization"
 _TABLES = ("base", "ranges", "axes", "optimize")
 _KEYS = ("minimize", "maximize", "subject_to", "tolerance", "runs", "batch", "confirm")
 _CONSTRAINT = re.compile(r"(?P<target>.+?)\s*(?P<sign>[<>]=?)\s*(?P<limit>[-+.\deE]+)\s*(?P<unit>.*)")
@@ -139,14 +140,14 @@ class Problem:
         content, folder = (
             (source, Path()) if isinstance(source, Mapping) else (read_layer(source), Path(source).parent)
         )
-        _refuse_unknown(content, _TABLES, "")
+        refuse_unknown(content, _TABLES, "", _WHAT)
         base = content.get("base")
         base = base if isinstance(base, Config) else read_base(content, folder)
         tables = {key: table_of(content, key) or {} for key in _TABLES[1:]}
         ranges, axes = (flat(anchored(tables[key], folder)) for key in ("ranges", "axes"))
         space, wanted = Space.read(ranges, axes), tables["optimize"]
         space.check(base)
-        _refuse_unknown(wanted, _KEYS, "optimize.")
+        refuse_unknown(wanted, _KEYS, "optimize.", _WHAT)
         objectives = [
             Goal(Target.parse(text), sign)
             for key, sign in (("minimize", 1.0), ("maximize", -1.0))
@@ -155,7 +156,7 @@ class Problem:
         if not 1 <= len(objectives) <= _MOST_OBJECTIVES:
             limit = "one or two targets in optimize.minimize and optimize.maximize together"
             raise ConfigError("optimize", [str(goal) for goal in objectives], limit)
-        tolerance = _tolerance(wanted.get("tolerance", "1 %"), objectives[0].target.unit)
+        tolerance = share(wanted.get("tolerance", "1 %"), objectives[0].target.unit, "optimize.tolerance")
         if len(objectives) > 1 and not tolerance.is_relative:
             limit = "a share such as '1 %' where there are two objectives: of the hypervolume of their front"
             raise ConfigError("optimize.tolerance", wanted["tolerance"], limit)
@@ -165,9 +166,9 @@ class Problem:
             tuple(objectives),
             tuple(Goal.constraint(text) for text in _texts(wanted, "subject_to")),
             tolerance,
-            _whole(wanted, "runs", _RUNS_PER_KEY * len(space), 2 * len(space) + 2),
-            _whole(wanted, "batch", 0, 0),
-            _whole(wanted, "confirm", 4, 2),
+            whole(wanted, "runs", "optimize", _RUNS_PER_KEY * len(space), 2 * len(space) + 2),
+            whole(wanted, "batch", "optimize", 0, 0),
+            whole(wanted, "confirm", "optimize", 4, 2),
         )
 
     @property
@@ -182,7 +183,14 @@ class Problem:
         return hashlib.sha256(words.encode()).hexdigest()[:20]
 
 
-def _refuse_unknown(table: Mapping[str, Any], known: tuple[str, ...], at: str) -> None:
+def refuse_unknown(table: Mapping[str, Any], known: tuple[str, ...], at: str, what: str) -> None:
+    """Refuse keys that a table cannot have.
+
+    Raises
+    ------
+    ConfigError
+        Where there is one; the sentence lists the keys there are.
+    """
     for key in table:
         if key not in known:
             hint = (
@@ -190,29 +198,41 @@ def _refuse_unknown(table: Mapping[str, Any], known: tuple[str, ...], at: str) -
                 if key == "seeds"
                 else f"the keys there are {', '.join(known)}"
             )
-            raise ConfigError(f"{at}{key}", table[key], problem="is not a key of an optimization", hint=hint)
+            raise ConfigError(f"{at}{key}", table[key], problem=f"is not a key of {what}", hint=hint)
+
+
+def whole(table: Mapping[str, Any], key: str, at: str, default: int, least: int) -> int:
+    """Read a whole number.
+
+    Raises
+    ------
+    ConfigError
+        Where it is none, or out of its limits.
+    """
+    value = table.get(key, default)
+    if isinstance(value, bool) or not isinstance(value, int) or not least <= value <= _MOST_RUNS:
+        raise ConfigError(f"{at}.{key}", value, f"a whole number from {least} to {_MOST_RUNS}", bound=least)
+    return value
+
+
+def share(value: Any, unit: str, key: str) -> Difference:
+    """Read a percentage, or a number in a unit.
+
+    Raises
+    ------
+    ConfigError
+        Where it is neither.
+    """
+    try:
+        return Difference.parse(value, unit)
+    except ConfigError as error:
+        error.key = key
+        raise
 
 
 def _texts(table: Mapping[str, Any], key: str) -> list[Any]:
     value = table.get(key, [])
     return list(value) if isinstance(value, (list, tuple)) else [value]
-
-
-def _whole(table: Mapping[str, Any], key: str, default: int, least: int) -> int:
-    value = table.get(key, default)
-    if isinstance(value, bool) or not isinstance(value, int) or not least <= value <= _MOST_RUNS:
-        raise ConfigError(
-            f"optimize.{key}", value, f"a whole number from {least} to {_MOST_RUNS}", bound=least
-        )
-    return value
-
-
-def _tolerance(value: Any, unit: str) -> Difference:
-    try:
-        return Difference.parse(value, unit)
-    except ConfigError as error:
-        error.key = "optimize.tolerance"
-        raise
 
 
 def _number(text: str) -> float | None:

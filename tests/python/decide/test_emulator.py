@@ -79,3 +79,13 @@ def test_an_error_that_one_run_does_not_know_is_the_largest_of_the_others():
     errors[3] = np.nan
     emulator = Emulator.fit(known, smooth(known), errors, RANGES)
     assert np.sqrt(emulator.process.alpha[3]) * emulator.scale == pytest.approx(0.2)
+
+
+def test_it_predicts_what_the_process_of_the_library_does():
+    known, new = points(30, 1), points(50, 2)
+    emulator = Emulator.fit(known, smooth(known), np.full(30, 0.05), RANGES)
+    scaled = (new - emulator.low) / emulator.span
+    mean, error = emulator.process.predict(scaled, return_std=True)
+    found = emulator.predict(new)
+    assert found[0] == pytest.approx(emulator.center + emulator.scale * mean, rel=1e-9)
+    assert found[1] == pytest.approx(emulator.scale * error, rel=1e-6)

@@ -1,0 +1,71 @@
+"""The figure of a calibration: each parameter's probability, pair by pair, and what was measured beside the model."""
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from drumrs.figures import INK, drumrs_style, line_colors, new_figure
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from drumrs.decide.calibration import Calibration
+
+_PANEL, _BINS = 2.4, 30
+# Parts of the probability within the lines about the likeliest pairs.
+_LEVELS = (0.9, 0.5)
+
+
+def draw(found: "Calibration") -> "Figure":
+    """Draw a calibration: a corner plot, and below it how far the model is from each measurement."""
+    keys = found.posterior.space.keys
+    count = len(keys)
+    samples = found.samples.to_numpy()
+    ends = [(one.low, one.high) for one in found.posterior.space.parameters]
+    with drumrs_style():
+        figure = new_figure(max(4.5, _PANEL * count), _PANEL * count + 0.4 * len(found.experiment.measured) + 0.9)
+        heights = [_PANEL] * count + [0.4 * len(found.experiment.measured) + 0.5]
+        grid = figure.add_gridspec(count + 1, count, height_ratios=heights)
+        for row in range(count):
+            for column in range(row + 1):
+                axes = figure.add_subplot(grid[row, column])
+                if row == column:
+                    axes.hist(samples[:, row], _BINS, range=ends[row], color=line_colors()[0], density=True)
+                    axes.set_yticks([])
+                else:
+                    _pair(axes, samples[:, column], samples[:, row], (ends[column], ends[row]))
+                axes.set_xlim(ends[column])
+                if row == count - 1:
+                    axes.set_xlabel(keys[column])
+                if column == 0 and row > 0:
+                    axes.set_ylabel(keys[row])
+        _fits(figure.add_subplot(grid[count, :]), found)
+    return figure
+
+
+def _pair(axes: "Axes", x: np.ndarray, y: np.ndarray, ends: tuple[tuple[float, float], tuple[float, float]]) -> None:
+    share, x_edges, y_edges = np.histogram2d(x, y, _BINS, range=ends)
+    axes.pcolormesh(x_edges, y_edges, share.T, cmap="Blues")
+    ordered = np.sort(share.ravel())[::-1]
+    within = np.cumsum(ordered) / share.sum()
+    levels = sorted({float(ordered[np.searchsorted(within, level)]) for level in _LEVELS})
+    centers = (0.5 * (edges[1:] + edges[:-1]) for edges in (x_edges, y_edges))
+    axes.contour(*centers, share.T, levels, colors=INK, linewidths=0.8)
+    axes.set_ylim(ends[1])
+
+
+def _fits(axes: "Axes", found: "Calibration") -> None:
+    """Draw, for each measurement, the model's mean and scatter over the error of the measurement."""
+    names, off = [], []
+    for k, one in enumerate(found.experiment.measured):
+        mean, scatter, own = found.posterior.predict(k)
+        error = found.posterior.errors[k]
+        off.append(((mean - found.posterior.values[k]) / error, np.hypot(scatter, own) / error))
+        names.append(str(one))
+    places = np.arange(len(names))
+    axes.axvspan(-1.0, 1.0, color="0.9")
+    axes.axvline(0.0, color=INK, linewidth=0.8)
+    axes.errorbar([x for x, _ in off], places, xerr=[error for _, error in off], fmt="o", color=line_colors()[1])
+    axes.set(yticks=places, yticklabels=names, xlabel="model less measurement, over its error")
+    axes.set_ylim(len(names) - 0.5, -0.5)
