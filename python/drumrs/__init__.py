@@ -29,9 +29,11 @@ from drumrs.state import State
 from drumrs.sweep import Case, Sweep
 
 if TYPE_CHECKING:
+    from drumrs.decide.calibrate import calibrate
     from drumrs.decide.compare import Comparison, compare
     from drumrs.decide.evaluate import evaluate
     from drumrs.decide.optimize import optimize
+    from drumrs.decide.screen import Screening, screen
     from drumrs.decide.targets import Target
     from drumrs.exports import export, movie
     from drumrs.glossary import quantities
@@ -54,6 +56,7 @@ __all__ = [
     "Frames",
     "Quantity",
     "Result",
+    "Screening",
     "Simulation",
     "State",
     "Summary",
@@ -64,6 +67,7 @@ __all__ = [
     "Verification",
     "__version__",
     "baseline",
+    "calibrate",
     "compare",
     "effective_jobs",
     "errors",
@@ -80,15 +84,18 @@ __all__ = [
     "report",
     "run",
     "save",
+    "screen",
     "verify",
 ]
 
 
-# What most scripts do without, and where it is.
+# What most scripts do without, and the module that has it.
 _ON_DEMAND = {
     "Comparison": "decide.compare",
+    "Screening": "decide.screen",
     "Target": "decide.targets",
     "Verification": "verification",
+    "calibrate": "decide.calibrate",
     "compare": "decide.compare",
     "evaluate": "decide.evaluate",
     "export": "exports",
@@ -96,6 +103,7 @@ _ON_DEMAND = {
     "optimize": "decide.optimize",
     "quantities": "glossary",
     "report": "reports",
+    "screen": "decide.screen",
     "verify": "verification",
 }
 
@@ -103,5 +111,6 @@ _ON_DEMAND = {
 def __getattr__(name: str) -> Any:
     """Load what is loaded on demand."""
     if name in _ON_DEMAND:
+        # By the module's own name: packages have functions by the names of some modules.
         return getattr(import_module(f"drumrs.{_ON_DEMAND[name]}"), name)
     raise AttributeError(f"module 'drumrs' has no attribute {name!r}")

@@ -16,6 +16,7 @@ KINDS = {
     "baseline": "a comparison",
     "sweep": "a sweep",
     "compare": "a comparison of designs",
+    "screen": "a screening",
     "reproduction": "a reproduction",
     "validation": "a validation",
     "baffle": "an inference of the baffle",

@@ -16,6 +16,7 @@ from cyclopts import App, CycloptsError, Group, Parameter, UnknownOptionError, U
 
 import drumrs
 from drumrs.cli.baseline import baseline
+from drumrs.cli.calibrate import calibrate
 from drumrs.cli.compare import compare
 from drumrs.cli.config import config
 from drumrs.cli.export import export
@@ -29,6 +30,8 @@ from drumrs.cli.quantities import quantities
 from drumrs.cli.report import report
 from drumrs.cli.reproduce import reproduce
 from drumrs.cli.run import run
+from drumrs.cli.scale import scale
+from drumrs.cli.screen import screen
 from drumrs.cli.signals import Asked, like_interrupts
 from drumrs.cli.sweep import sweep
 from drumrs.cli.validate import validate
@@ -65,6 +68,9 @@ app = App(
         "- `drumrs sweep sweep.toml --out out/sweep` runs many cases\n"
         "- `drumrs compare a.toml b.toml --by drum_specific_power` finds the better of two machines\n"
         "- `drumrs optimize search.toml` finds the best values of a few keys\n"
+        "- `drumrs calibrate data.toml` finds what friction makes a measured drum come out right\n"
+        "- `drumrs screen screen.toml --by drum_specific_power` says which keys matter\n"
+        "- `drumrs scale case.toml --factor 4 --out large.toml` makes a larger machine of it\n"
         "- `drumrs quantities ratio` says what is measured under a name with that word\n"
         "- `drumrs verify` holds drumrs against formulas and its own promises\n"
         "- `drumrs validate tracer` simulates a drum that others measured, and compares"
@@ -82,6 +88,9 @@ for _command in (
     sweep,
     compare,
     optimize,
+    calibrate,
+    scale,
+    screen,
     view,
     export,
     movie,

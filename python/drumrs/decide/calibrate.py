@@ -87,7 +87,11 @@ def calibrate(
         def evaluate(points: Array, first: int) -> tuple[Array, Array]:
             configs = [
                 wanted.base.replace(
-                    {**dict(settings), **wanted.space.values(point), "run.seed": wanted.base.run.seed + first + k}
+                    {
+                        **dict(settings),
+                        **wanted.space.values(point),
+                        "run.seed": wanted.base.run.seed + first + k,
+                    }
                 )
                 for k, point in enumerate(points)
                 for settings in drums

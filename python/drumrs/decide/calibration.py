@@ -43,8 +43,13 @@ class Calibration:
         """Parameters drawn with their probability, a column each."""
         import polars as pl
 
-        low, high = (np.array([getattr(one, end) for one in self.posterior.space.parameters]) for end in ("low", "high"))
-        return pl.DataFrame(low + (high - low) * self.posterior.samples, schema=self.posterior.space.keys, orient="row")
+        low, high = (
+            np.array([getattr(one, end) for one in self.posterior.space.parameters])
+            for end in ("low", "high")
+        )
+        return pl.DataFrame(
+            low + (high - low) * self.posterior.samples, schema=self.posterior.space.keys, orient="row"
+        )
 
     @property
     def table(self) -> "pl.DataFrame":
@@ -77,7 +82,9 @@ class Calibration:
         first, found = len(self.experiment.measured), []
         for k, one in enumerate(self.experiment.candidates):
             discrepancy = self.experiment.discrepancy * abs(self.posterior.predict(first + k)[0])
-            found.append((one, self.posterior.information(first + k, float(np.hypot(one.error, discrepancy)))))
+            found.append(
+                (one, self.posterior.information(first + k, float(np.hypot(one.error, discrepancy))))
+            )
         return sorted(found, key=lambda pair: -pair[1])
 
     @property
@@ -101,10 +108,16 @@ class Calibration:
 
     def _ridges(self) -> Iterator[str]:
         """Name the pairs that trade off: along a ridge of parameters that fit alike neither is known alone."""
-        keys, narrowing, correlation = self.posterior.space.keys, self.posterior.narrowing(), self.posterior.correlation()
+        keys, narrowing, correlation = (
+            self.posterior.space.keys,
+            self.posterior.narrowing(),
+            self.posterior.correlation(),
+        )
         for first, second in self.ridges:
             i, j = keys.index(first), keys.index(second)
-            how = "more of one goes with less of the other" if correlation[i, j] < 0.0 else "both rise together"
+            how = (
+                "more of one goes with less of the other" if correlation[i, j] < 0.0 else "both rise together"
+            )
             is_open = max(narrowing[i], narrowing[j]) > _FOUND
             what = "are not told apart, a ridge and not a point" if is_open else "are correlated"
             yield f"{first} and {second} {what}: {how} (rank correlation {correlation[i, j]:.2f})."
@@ -128,5 +141,7 @@ class Calibration:
         one, bits = self.next[0]
         again = ", once more," if one in self.experiment.measured else ""
         if bits < _WORTH:
-            return f"None of the further measurements would tell much: {one}{again} the most, {bits:.1f} bits."
+            return (
+                f"None of the further measurements would tell much: {one}{again} the most, {bits:.1f} bits."
+            )
         return f"Of further measurements {one}{again} would tell most, {bits:.1f} bits."

@@ -24,7 +24,9 @@ def draw(found: "Calibration") -> "Figure":
     samples = found.samples.to_numpy()
     ends = [(one.low, one.high) for one in found.posterior.space.parameters]
     with drumrs_style():
-        figure = new_figure(max(4.5, _PANEL * count), _PANEL * count + 0.4 * len(found.experiment.measured) + 0.9)
+        figure = new_figure(
+            max(4.5, _PANEL * count), _PANEL * count + 0.4 * len(found.experiment.measured) + 0.9
+        )
         heights = [_PANEL] * count + [0.4 * len(found.experiment.measured) + 0.5]
         grid = figure.add_gridspec(count + 1, count, height_ratios=heights)
         for row in range(count):
@@ -44,7 +46,9 @@ def draw(found: "Calibration") -> "Figure":
     return figure
 
 
-def _pair(axes: "Axes", x: np.ndarray, y: np.ndarray, ends: tuple[tuple[float, float], tuple[float, float]]) -> None:
+def _pair(
+    axes: "Axes", x: np.ndarray, y: np.ndarray, ends: tuple[tuple[float, float], tuple[float, float]]
+) -> None:
     share, x_edges, y_edges = np.histogram2d(x, y, _BINS, range=ends)
     axes.pcolormesh(x_edges, y_edges, share.T, cmap="Blues")
     ordered = np.sort(share.ravel())[::-1]
@@ -66,6 +70,8 @@ def _fits(axes: "Axes", found: "Calibration") -> None:
     places = np.arange(len(names))
     axes.axvspan(-1.0, 1.0, color="0.9")
     axes.axvline(0.0, color=INK, linewidth=0.8)
-    axes.errorbar([x for x, _ in off], places, xerr=[error for _, error in off], fmt="o", color=line_colors()[1])
+    axes.errorbar(
+        [x for x, _ in off], places, xerr=[error for _, error in off], fmt="o", color=line_colors()[1]
+    )
     axes.set(yticks=places, yticklabels=names, xlabel="model less measurement, over its error")
     axes.set_ylim(len(names) - 0.5, -0.5)

@@ -117,8 +117,10 @@ class Space:
     parameters: tuple[Parameter, ...]
 
     @classmethod
-    def read(cls, ranges: Mapping[str, Any], choices: Mapping[str, Any] | None = None) -> "Space":
-        """Make a space of ranges, and of choices, by dotted key.
+    def read(
+        cls, ranges: Mapping[str, Any], choices: Mapping[str, Any] | None = None, most: int = MOST_KEYS
+    ) -> "Space":
+        """Make a space of ranges, and of choices, by dotted key; of at most so many keys.
 
         Raises
         ------
@@ -131,9 +133,9 @@ class Space:
                 raise ConfigError(key, problem="has a range and choices, but may have one of them only")
         found = [Parameter.within(key, ends) for key, ends in ranges.items()]
         found += [Parameter.among(key, listed) for key, listed in choices.items()]
-        if not 1 <= len(found) <= MOST_KEYS:
-            limit = f"1 to {MOST_KEYS} keys with [low, high], or in [axes] with choices"
-            raise ConfigError("ranges", [one.key for one in found], limit, bound=MOST_KEYS)
+        if not 1 <= len(found) <= most:
+            limit = f"1 to {most} keys with [low, high], or in [axes] with choices"
+            raise ConfigError("ranges", [one.key for one in found], limit, bound=most)
         return cls(tuple(found))
 
     def __len__(self) -> int:
@@ -149,7 +151,13 @@ class Space:
         """Return points spread evenly, rounded: a Sobol sequence, of which fewer are the first of more."""
         from scipy.stats import qmc
 
-        points = qmc.Sobol(len(self), rng=seed).random_base2(max(0, math.ceil(math.log2(count))))[:count]
+        return self.even(
+            qmc.Sobol(len(self), rng=seed).random_base2(max(0, math.ceil(math.log2(count))))[:count]
+        )
+
+    def even(self, points: Array) -> Array:
+        """Return points spread over 0 … 1 as points of this space: rounded, whole numbers and choices equally often."""
+        points = points.copy()
         for column, one in enumerate(self.parameters):
             if one.step >= 1.0:
                 # Whole numbers and choices all come equally often, those at the ends as well.
