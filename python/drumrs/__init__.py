@@ -29,10 +29,10 @@ from drumrs.state import State
 from drumrs.sweep import Case, Sweep
 
 if TYPE_CHECKING:
-    from drumrs.decide.calibrate import calibrate
+    from drumrs.decide.calibrate import Calibration, calibrate
     from drumrs.decide.compare import Comparison, compare
     from drumrs.decide.evaluate import evaluate
-    from drumrs.decide.optimize import optimize
+    from drumrs.decide.optimize import Optimization, optimize
     from drumrs.decide.screen import Screening, screen
     from drumrs.decide.targets import Target
     from drumrs.exports import export, movie
@@ -46,6 +46,7 @@ __version__ = version("drumrs")
 logging.getLogger(__name__).addHandler(logging.NullHandler())
 
 __all__ = [
+    "Calibration",
     "Case",
     "CheckpointError",
     "Comparison",
@@ -54,6 +55,7 @@ __all__ = [
     "DrumrsError",
     "DrumrsWarning",
     "Frames",
+    "Optimization",
     "Quantity",
     "Result",
     "Screening",
@@ -91,7 +93,9 @@ __all__ = [
 
 # What most scripts do without, and the module that has it.
 _ON_DEMAND = {
+    "Calibration": "decide.calibrate",
     "Comparison": "decide.compare",
+    "Optimization": "decide.optimize",
     "Screening": "decide.screen",
     "Target": "decide.targets",
     "Verification": "verification",

@@ -24,10 +24,10 @@ def calibrate(
     """Find out which parameters measured numbers leave, and how sure that is.
 
     The file has `[base]` as that of `drumrs sweep`; `[ranges]`, parameters with `[low, high]` each, all values between
-    being equally likely beforehand; a table `[[measured]]` for each number that was measured, with `target` (as
-    `drumrs compare --by` takes it), `value`, `error` (its standard error), and `set`, the keys in which its drum differs
-    from the base; a table `[[candidate]]` of the same form, without `value`, for each number that may be measured next;
-    and `[calibrate]`: `runs`, how many points of the ranges are simulated, and `discrepancy`, what the model itself may
+    being equally likely beforehand; and a table `[[measured]]` for each number that was measured: `target`, as
+    `drumrs compare --by` takes it, `value`, `error`, its standard error, and `set`, the keys in which its drum differs
+    from the base. A table `[[candidate]]` of the same form, without `value`, is a number that may be measured next.
+    `[calibrate]` has `runs`, how many points of the ranges are simulated, and `discrepancy`, what the model itself may
     be off by (`"3 %"`).
 
     The same command goes on after Ctrl-C or a power cut; what is finished is not simulated again.

@@ -43,12 +43,8 @@ class Calibration:
         """Parameters drawn with their probability, a column each."""
         import polars as pl
 
-        low, high = (
-            np.array([getattr(one, end) for one in self.posterior.space.parameters])
-            for end in ("low", "high")
-        )
         return pl.DataFrame(
-            low + (high - low) * self.posterior.samples, schema=self.posterior.space.keys, orient="row"
+            self.posterior.in_units(self.posterior.samples), schema=self.posterior.space.keys, orient="row"
         )
 
     @property

@@ -147,18 +147,20 @@ def _measurements(content: Mapping[str, Any], name: str, base: Config) -> tuple[
 def _measurement(table: Mapping[str, Any], at: str, base: Config) -> Measurement:
     refuse_unknown(table, ("target", "value", "error", "set"), f"{at}.", _WHAT)
     target = Target.parse(table.get("target", ""))
-    is_candidate = at.startswith("candidate")
-    value, error = table.get("value"), table.get("error")
-    for key, number in (("value", value), ("error", error)):
-        is_number = isinstance(number, (int, float)) and not isinstance(number, bool)
-        if not (is_number and (key == "value" or number > 0.0)) and not (is_candidate and key == "value"):
-            limit = "a number" if key == "value" else "a positive number, the standard error"
-            raise ConfigError(f"{at}.{key}", number, f"{limit} in {target.unit}")
+    value = None if at.startswith("candidate") else _number(table, "value", at, target)
+    error = _number(table, "error", at, target)
+    if not error > 0.0:
+        raise ConfigError(f"{at}.error", error, f"positive, the standard error in {target.unit}")
     settings = table.get("set", {})
     if not isinstance(settings, Mapping):
         raise ConfigError(f"{at}.set", settings, "a table of keys, such as { rotation.rpm = 30 }")
     dotted = flat(settings)
     base.replace(dotted)
-    return Measurement(
-        target, None if is_candidate else float(value), float(error), tuple(sorted(dotted.items()))
-    )
+    return Measurement(target, value, error, tuple(sorted(dotted.items())))
+
+
+def _number(table: Mapping[str, Any], key: str, at: str, target: Target) -> float:
+    value = table.get(key)
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        raise ConfigError(f"{at}.{key}", value, f"a number in {target.unit}")
+    return float(value)

@@ -110,7 +110,7 @@ class Optimization:
         """
         import polars as pl
 
-        points, ranked = self.model.points, self.model.ranked()
+        points, ranked = self.model.points, self.model.ranked
         count = len(points)
         batch = [k for k, each in enumerate(self.search.batches) for _ in each][:count]
         first = self.problem.base.run.seed
@@ -226,7 +226,7 @@ class Optimization:
         if self.model.objectives > 1:
             share = f"{100.0 * self.problem.tolerance.amount:g} % of the hypervolume"
         else:
-            goal, best = self.problem.objectives[0], self.model.points[self.model.ranked()[:1]]
+            goal, best = self.problem.objectives[0], self.model.points[self.model.ranked[:1]]
             share = self.problem.tolerance.text(self.model.predict(best)[0][0, 0], goal.target.unit)
         if chance < ENOUGH:
             return (

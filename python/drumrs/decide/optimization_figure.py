@@ -50,7 +50,7 @@ def _convergence(axes: "Axes", found: "Optimization") -> None:
     """Draw the best that was known after each run, as all runs together say now."""
     model, colors, count = found.model, line_colors(), len(found.model.points)
     means, runs = model.predict(model.points)[0], np.arange(1, count + 1)
-    feasible = model.feasible()
+    feasible = model.feasible
     if model.objectives == 1:
         goal = found.problem.objectives[0]
         seen = np.vectorize(goal.unsigned)(found.search.values[:, 0])
@@ -70,7 +70,7 @@ def _convergence(axes: "Axes", found: "Optimization") -> None:
         )
         axes.set(ylabel=goal.target.label)
     else:
-        reference, wanted = model.reference(), means[:, : model.objectives]
+        reference, wanted = model.reference, means[:, : model.objectives]
         grown = [hypervolume(wanted[:k][feasible[:k]], reference) for k in runs]
         axes.step(runs, grown, where="post", color=colors[0], label="hypervolume of the front")
         axes.set(ylabel="hypervolume")

@@ -112,7 +112,7 @@ def optimize(
         model = search.run(evaluate, wanted.runs, log.batch, log.write)
     found = Optimization(wanted, search, model, ())
     found.write_table(folder / "history.parquet")
-    if not model.ranked():
+    if not model.ranked:
         raise found.nothing_feasible()
     found = Optimization(wanted, search, model, _confirm(wanted, ask, model))
     write_whole(folder / "best.toml", found.config.to_toml().encode())
@@ -163,7 +163,7 @@ def _confirm(problem: Problem, ask: Evaluator, model: Model) -> tuple[Confirmed,
 
 
 def _chosen(model: Model) -> list[int]:
-    ranked = model.ranked()
+    ranked = model.ranked
     if model.objectives > 1:
         places = np.linspace(0, len(ranked) - 1, min(_MOST_CONFIRMED, len(ranked)))
         return [ranked[round(place)] for place in places.tolist()]

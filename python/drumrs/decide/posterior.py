@@ -80,10 +80,14 @@ class Posterior:
 
     def quantiles(self, levels: tuple[float, ...] = (0.05, 0.5, 0.95)) -> Array:
         """Return quantiles of each parameter in its unit, shape (levels, k)."""
-        low, span = (
+        return self.in_units(np.quantile(self.samples, levels, axis=0))
+
+    def in_units(self, points: Array) -> Array:
+        """Return the parameters' values at points."""
+        low, high = (
             np.array([getattr(one, end) for one in self.space.parameters]) for end in ("low", "high")
         )
-        found: Array = low + (span - low) * np.quantile(self.samples, levels, axis=0)
+        found: Array = low + (high - low) * points
         return found
 
     def narrowing(self) -> Array:

@@ -6,6 +6,7 @@ or two, are to be minimized; of all others, which are constraints, values up to 
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -13,13 +14,14 @@ from drumrs.decide.emulator import Array, Emulator, one_thread
 from drumrs.decide.gain import Mask, clearly_non_dominated, expected_improvement, hypervolume
 from drumrs.decide.space import Space
 
+Accept = Callable[[Array], bool]
 # Values and errors at points, not-a-number where a run failed; the second argument is the number of the first point.
 Evaluate = Callable[[Array, int], tuple[Array, Array]]
 
 # Points at which the expected improvement is looked at first; then, about the best of them, at smaller distances.
-_SPREAD, _KEPT, _AROUND, _DISTANCES = 1024, 8, 32, (0.1, 0.03, 0.01, 0.003)
+_SPREAD, _KEPT, _AROUND, _DISTANCES = 512, 8, 24, (0.1, 0.03, 0.01, 0.003)
 # Functions drawn for the chance of a gain, and points at which they are looked at beside the best candidates.
-_DRAWN, _LOOKED_AT = 256, 384
+_DRAWN, _LOOKED_AT = 256, 192
 # More is not tried once a gain beyond the tolerance is less likely than this.
 ENOUGH = 0.05
 # A point is taken to meet the constraints where that is more likely than not.
@@ -44,6 +46,8 @@ class Model:
         One a column of the values.
     objectives
         How many columns are to be minimized.
+    accept
+        Tells which points can be run.
     """
 
     space: Space
@@ -51,10 +55,19 @@ class Model:
     failed: Mask
     emulators: tuple[Emulator, ...]
     objectives: int
+    accept: Accept
 
     @classmethod
-    def fit(cls, space: Space, points: Array, values: Array, errors: Array, objectives: int) -> "Model":
-        """Fit an emulator to every column of values, shape (n, columns)."""
+    def fit(
+        cls,
+        space: Space,
+        points: Array,
+        found: tuple[Array, Array],
+        objectives: int,
+        accept: Accept = lambda _: True,
+    ) -> "Model":
+        """Fit an emulator to every column of the values and errors that were found, shape (n, columns) each."""
+        values, errors = found
         failed: Mask = np.isnan(values).sum(axis=1) > 0
         features = space.features(points)
         emulators = []
@@ -62,7 +75,7 @@ class Model:
             worst, scatter = np.max(column[~failed]), np.std(column[~failed])
             known, noise = np.where(failed, worst, column), np.where(failed, scatter, error)
             emulators.append(Emulator.fit(features, known, noise, space.feature_ranges))
-        return cls(space, points, failed, tuple(emulators), objectives)
+        return cls(space, points, failed, tuple(emulators), objectives, accept)
 
     def predict(self, points: Array) -> tuple[Array, Array]:
         """Return means and errors of all columns at points, shape (n, columns)."""
@@ -77,23 +90,25 @@ class Model:
         found: Array = np.prod(ndtr(-means / np.maximum(errors, 1e-100)), axis=1)
         return found
 
+    @cached_property
     def feasible(self) -> Mask:
         """Tell which of the points that were run are more likely than not to meet all constraints."""
         met: Mask = (self.feasibility(self.points) >= _LIKELY) & ~self.failed
         return met
 
+    @cached_property
     def ranked(self) -> list[int]:
         """Return the points that are not dominated among those that meet the constraints, the best one first.
 
         Of one objective these are all points that meet the constraints; of two, the front, by the first objective.
         """
         means = self.predict(self.points)[0][:, : self.objectives]
-        there = np.flatnonzero(self.feasible())
+        there = np.flatnonzero(self.feasible)
         if self.objectives > 1:
             there = there[clearly_non_dominated(means[there])]
         return [int(k) for k in there[np.argsort(means[there, 0], kind="stable")]]
 
-    def propose(self, count: int, accept: Callable[[Array], bool]) -> Array:
+    def propose(self, count: int) -> Array:
         """Return the next points to run together.
 
         Each has the greatest expected improvement over the best mean, times the probability of meeting the
@@ -103,36 +118,34 @@ class Model:
         model, chosen = self, np.zeros((0, len(self.space)))
         with one_thread():
             for _ in range(count):
-                best = model._candidates(accept)[:1]
+                best = model._candidates[:1]
                 chosen = np.vstack([chosen, best])
                 model = model._believing(best)
         return self.space.exact(chosen)
 
-    def chance_of_gain(self, tolerance: float, accept: Callable[[Array], bool], *, relative: bool) -> float:
+    def chance_of_gain(self, tolerance: float, *, relative: bool) -> float:
         """Return the probability that a run at some further point would gain more than a tolerance.
 
         Parameters
         ----------
         tolerance
             Of one objective in its unit or, if relative, over the best value; of two over the hypervolume.
-        accept
-            Tells which points can be run.
         relative
             Whether the tolerance is a share.
         """
-        best = self.ranked()[: 1 if self.objectives == 1 else None]
+        best = self.ranked[: 1 if self.objectives == 1 else None]
         if not best:
             return 1.0
         rng, own = np.random.default_rng(len(self.points)), len(best)
         with one_thread():
             spread = self.space.spread(_LOOKED_AT, seed=len(self.points) + 1)
-            likely = self.promising_front()
-            looked = np.vstack([spread, self._candidates(accept), likely[:: len(likely) // _LOOKED_AT + 1]])
+            likely = self.promising_front
+            looked = np.vstack([spread, self._candidates, likely[:: len(likely) // _LOOKED_AT + 1]])
             # The points known are what would be reported; a point that comes twice would make the covariance singular.
             looked = np.vstack([self.points[best], np.unique(looked, axis=0)])
             features = self.space.features(looked)
             drawn = np.stack([one.sample(features, _DRAWN, rng) for one in self.emulators], axis=-1)
-            reference, first = self.reference(), self.predict(self.points[best[:1]])[0][0, 0]
+            reference, first = self.reference, self.predict(self.points[best[:1]])[0][0, 0]
         wanted = drawn[..., : self.objectives]
         met: Mask = (drawn[..., self.objectives :] > 0.0).sum(axis=-1) == 0
         gained = 0
@@ -147,13 +160,14 @@ class Model:
         optimistic: Array = (means - errors)[:, : self.objectives]
         return optimistic
 
+    @cached_property
     def promising_front(self) -> Array:
         """Return the points anywhere in the space that are not dominated if each is better by its error.
 
         Points that are not likely to meet the constraints are left out.
         """
         rng = np.random.default_rng(len(self.points))
-        points = np.vstack([self.space.spread(_SPREAD), self.points[self.ranked()]])
+        points = np.vstack([self.space.spread(_SPREAD), self.points[self.ranked]])
         for distance in (*_DISTANCES, None):
             points = points[self.feasibility(points) >= _LIKELY]
             points = points[clearly_non_dominated(self._optimistic(points))]
@@ -163,21 +177,23 @@ class Model:
                 points = np.vstack([points, self.space.rounded(around + steps)])
         return points
 
+    @cached_property
     def reference(self) -> Array:
         """Return where the hypervolume ends: a little beyond the front that is promising; of one objective nowhere."""
         if self.objectives == 1:
             return np.array([np.inf])
-        front = self._optimistic(self.promising_front())
+        front = self._optimistic(self.promising_front)
         # Coarsely: a point that may be better by little in one objective must not move the end of the other far out.
         front = front[clearly_non_dominated(front, _COARSE)]
         reference: Array = front.max(axis=0) + _MARGIN * np.ptp(front, axis=0)
         return reference
 
-    def _candidates(self, accept: Callable[[Array], bool]) -> Array:
+    @cached_property
+    def _candidates(self) -> Array:
         """Return promising points, the one with the greatest expected improvement first."""
-        best = self.ranked()
+        best = self.ranked
         front = self.predict(self.points[best])[0][:, : self.objectives]
-        reference = self.reference() if best else np.full(self.objectives, np.inf)
+        reference = self.reference if best else np.full(self.objectives, np.inf)
 
         def worth(points: Array) -> Array:
             chance = self.feasibility(points)
@@ -194,7 +210,7 @@ class Model:
                 pool = np.vstack(
                     [pool, self.space.rounded(around + distance * rng.standard_normal(around.shape))]
                 )
-            pool = _first_accepted(np.unique(pool, axis=0), worth, accept)
+            pool = _first_accepted(np.unique(pool, axis=0), worth, self.accept)
         return pool
 
     def _believing(self, points: Array) -> "Model":
@@ -207,7 +223,7 @@ class Model:
         return replace(self, points=np.vstack([self.points, points]), failed=failed, emulators=emulators)
 
 
-def _first_accepted(pool: Array, worth: Callable[[Array], Array], accept: Callable[[Array], bool]) -> Array:
+def _first_accepted(pool: Array, worth: Callable[[Array], Array], accept: Accept) -> Array:
     kept: list[Array] = []
     for k in np.argsort(-worth(pool), kind="stable"):
         if accept(pool[k]):
@@ -237,7 +253,7 @@ class Search:
 
     space: Space
     objectives: int = 1
-    accept: Callable[[Array], bool] = lambda _: True
+    accept: Accept = lambda _: True
     tolerance: float = 0.01
     relative: bool = True
     batches: list[Array] = field(default_factory=list)
@@ -261,7 +277,7 @@ class Search:
 
     def model(self) -> Model:
         """Return what the runs so far tell."""
-        return Model.fit(self.space, self.points, self.values, self.errors, self.objectives)
+        return Model.fit(self.space, self.points, (self.values, self.errors), self.objectives, self.accept)
 
     def start(self) -> Array:
         """Return the points to begin with: 2k + 2 of a Sobol sequence."""
@@ -295,9 +311,9 @@ class Search:
             done = sum(map(len, self.batches[:-1]))
             self.found.append(evaluate(self.batches[-1], done))
             model = self.model()
-            self.chances.append(model.chance_of_gain(self.tolerance, self.accept, relative=self.relative))
+            self.chances.append(model.chance_of_gain(self.tolerance, relative=self.relative))
             left = runs - len(self.values)
             if left <= 0 or self.chances[-1] < ENOUGH:
                 return model
             if not waiting:
-                waiting = [model.propose(min(batch, left), self.accept)]
+                waiting = [model.propose(min(batch, left))]
