@@ -1,6 +1,9 @@
 """`drumrs calibrate`: files, sentences, what is refused; runs are made up, but for one small calibration."""
 
+import re
+import tomllib
 from importlib import import_module
+from pathlib import Path
 
 import numpy as np
 import polars as pl
@@ -9,6 +12,7 @@ import pytest
 import drumrs
 from drumrs.analysis import Mean
 from drumrs.cli import main
+from drumrs.decide import Experiment
 from drumrs.errors import ConfigError
 
 CALIBRATE = import_module("drumrs.decide.calibrate")
@@ -169,3 +173,10 @@ def test_a_real_drum_gives_its_friction_back_on_the_command_line(tmp_path, capsy
     assert samples.quantile(0.02) < friction < samples.quantile(0.98)
     assert samples.quantile(0.98) - samples.quantile(0.02) < 0.45
     assert "contact.drum.friction is " in told
+
+
+def test_the_example_of_the_page_is_an_experiment():
+    page = (Path(__file__).parents[3] / "docs" / "decisions" / "calibrate.md").read_text(encoding="utf-8")
+    experiment = Experiment.read(tomllib.loads(re.search(r"```toml\n(.*?)```", page, re.DOTALL)[1]))
+    assert [len(part) for part in (experiment.measured, experiment.candidates, experiment.drums)] == [3, 1, 3]
+    assert experiment.discrepancy == pytest.approx(0.03)

@@ -1,8 +1,10 @@
 """`drumrs optimize`: files, sentences, what is confirmed, what is refused; runs are made up, but for one search."""
 
 import json
+import re
 import tomllib
 from importlib import import_module
+from pathlib import Path
 
 import numpy as np
 import polars as pl
@@ -11,6 +13,7 @@ import pytest
 import drumrs
 from drumrs.analysis import Mean, estimate
 from drumrs.cli import main
+from drumrs.decide import Problem
 from drumrs.errors import ConfigError
 
 OPTIMIZE = import_module("drumrs.decide.optimize")
@@ -221,3 +224,14 @@ def test_a_real_search_on_the_command_line(tmp_path, capsys):
     once = len(told) // 2
     assert told[:once] == told[once:]
     assert len(list((tmp_path / "out" / "runs").glob("*.facts.json"))) <= 8 + 4
+
+
+def test_the_example_of_the_page_is_a_problem():
+    page = (Path(__file__).parents[3] / "docs" / "decisions" / "optimize.md").read_text(encoding="utf-8")
+    problem = Problem.read(tomllib.loads(re.search(r"```toml\n(.*?)```", page, re.DOTALL)[1]))
+    assert [str(goal) for goal in problem.goals] == [
+        "least drum specific power",
+        "greatest falls per turn",
+        "share_in_flight >= 0.05",
+    ]
+    assert problem.space.keys == ["rotation.rpm", "drum.baffles.height", "drum.baffles.count"]
