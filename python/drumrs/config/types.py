@@ -19,7 +19,8 @@ class Limit:
 
 def _plain(value: Any) -> Any:
     """Turn NumPy scalars and arrays into Python's own, so that a study may feed either."""
-    if isinstance(value, bool):
+    # Nearly all values; asking for abstract classes takes a quarter of the time of a validation.
+    if type(value) in (bool, int, float, str):
         return value
     if isinstance(value, numbers.Integral):
         return int(value)

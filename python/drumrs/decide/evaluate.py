@@ -11,6 +11,7 @@ from drumrs.analysis import Estimate, Mean
 from drumrs.decide.readings import Readings
 from drumrs.decide.targets import Target
 from drumrs.errors import ConfigError, DrumrsWarning
+from drumrs.progress import Task
 from drumrs.sweep import Case, Sweep
 from drumrs.sweep.store import Store
 
@@ -162,12 +163,14 @@ class Evaluator:
         outcome = sweep.run(self._store.folder, executor, jobs, retry=self._retry, progress=self._progress)
         failed = {failure.case.id for failure in outcome.failures}
         _tell(outcome.failures, len(cases))
-        for case in cases:
-            if case.id in failed:
-                self._known[case.id] = (_NOTHING,) * len(self.targets)
-            else:
-                readings = Readings(self._store.result(case))
-                self._known[case.id] = tuple(target.mean(readings) for target in self.targets)
+        with Task("measuring", len(cases), "runs", show=self._progress) as task:
+            for case in cases:
+                if case.id in failed:
+                    self._known[case.id] = (_NOTHING,) * len(self.targets)
+                else:
+                    readings = Readings(self._store.result(case))
+                    self._known[case.id] = tuple(target.mean(readings) for target in self.targets)
+                task.advance()
 
 
 def evaluate(  # noqa: PLR0913 - what, where, with which seeds, and by whom

@@ -1,7 +1,6 @@
 """Single quantities of a run, over its window or in the phases of its program: a mean with its error for each name.
 
-The series tells most of them. Measures of frames and of what is recorded on request are rows of `_MEASURES`: the names
-that a function returns, and what it needs.
+The series tells most of them. Measures of frames are rows of `_MEASURES`: a function and the names that it returns.
 """
 
 import difflib
@@ -35,11 +34,10 @@ _NOT_ASKED = {
 
 
 class _Measured(NamedTuple):
-    """What a function measures by name, and which record of `run.record` it needs; frames without one."""
+    """What a function measures on frames, by name."""
 
     names: tuple[str, ...]
     of: "Callable[[Result, Window], Means]"
-    record: str = ""
 
 
 def _one(
@@ -134,16 +132,12 @@ def find(name: str) -> registry.Quantity:
 
 def record_of(name: str) -> tuple[str, ...]:
     """Return what `run.record` must have for a quantity."""
-    if name in _OF_GROSS_WORK:
-        return ("gross_work",)
-    measured = _MEASURE_OF.get(name)
-    return (measured.record,) if measured is not None and measured.record else ()
+    return ("gross_work",) if name in _OF_GROSS_WORK else ()
 
 
 def needs_frames(name: str) -> bool:
     """Tell whether a quantity is measured on frames."""
-    measured = _MEASURE_OF.get(name)
-    return measured is not None and not measured.record
+    return name in _MEASURE_OF
 
 
 def _meant(name: str) -> str:
@@ -187,6 +181,10 @@ class Readings:
         ConfigError
             Where the run has no such phase, or not recorded what the quantity is made of.
         """
+        for record in record_of(name):
+            if record not in self._result.config.run.record:
+                problem = f"lacks {record!r}, which {name} is made of"
+                raise ConfigError("run.record", problem=problem, hint=f"add {record!r} to it and run again")
         if name in _FACTS:
             return self._fact(name)
         if phase is None:

@@ -61,6 +61,9 @@ def cases(scale: str | Scale = "default") -> list[Config]:
     always = {"sample_every": _SAMPLE_EVERY, "record": ["gross_work"]}
     half_full = [BARE.config(fill) for fill in HALF_FULL] if scale.half_full_seeds else []
     ends = list(_ends(scale)) if scale.end_seeds else []
+    # Frames follow each other closely where the motion is looked at; elsewhere there are the first and the last.
+    drums = (BARE, BAFFLED, TRIANGLES) if scale.softer == 1.0 else ()
+    watched = [drum.config(fill) for drum in drums for fill in WATCHED_FILLS]
     found: dict[str, Config] = {}
     for point in _points(scale):
         seeds, duration, end = scale.seeds, scale.duration, scale.window[1]
@@ -71,9 +74,10 @@ def cases(scale: str | Scale = "default") -> list[Config]:
             seeds = scale.end_seeds
             duration = end = scale.end_duration
         run = {**always, "duration": duration, "window": (scale.window[0], end)}
+        run["frame_every"] = _FRAME_EVERY if point in watched else scale.duration
+        cheaper = _cheaper(point, scale)
         for seed in seeds:
-            changes = {**run, "frame_every": _pause(point, scale), "seed": seed}
-            config = _cheaper(point, scale).replace({"run": changes})
+            config = cheaper.replace({"run": {**run, "seed": seed}})
             found.setdefault(config.digest, config)
     beside = cases(scale.beside) if scale.beside else []
     return [*found.values(), *beside]
@@ -142,14 +146,6 @@ def _size(ratio: float) -> dict[str, Any]:
 
 def _of_both(key: str, value: float) -> dict[str, float]:
     return {f"contact.bundle.{key}": value, f"contact.drum.{key}": value}
-
-
-def _pause(point: Config, scale: Scale) -> float:
-    """Return the time between frames: short where the motion is looked at, else first and last alone."""
-    watched = scale.softer == 1.0 and any(
-        point == drum.config(fill) for fill in WATCHED_FILLS for drum in (BARE, BAFFLED, TRIANGLES)
-    )
-    return _FRAME_EVERY if watched else scale.duration
 
 
 def percent(fill: float) -> str:

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
@@ -164,6 +164,8 @@ class Results:
     steady_only: bool = False
     baffled: Drum = BAFFLED
     ratio: str = RATIOS[0]
+    # Claims, figures and thumbnails ask for the same curves again and again: what `replace` makes shares them.
+    _curves: dict[tuple[Any, ...], Curve] = field(default_factory=dict, repr=False)
 
     @property
     def drums(self) -> tuple[Drum, Drum]:
@@ -202,6 +204,13 @@ class Results:
         Curve
             With no points where the table has none.
         """
+        wanted = (axis, column, drum, fill, softer)
+        key = (self.steady_only, *wanted)
+        if key not in self._curves:
+            self._curves[key] = self._curve(*wanted)
+        return self._curves[key]
+
+    def _curve(self, axis: str, column: str, drum: Drum, fill: float | None, softer: float | None) -> Curve:
         label = drum.name if fill is None else f"{percent(fill)} fill"
         if column not in self.table.columns:
             return Curve(label, (), axis, column)

@@ -28,7 +28,7 @@ class Drum:
     """
 
     name: str
-    changes: Mapping[str, str | float] = field(default_factory=lambda: MappingProxyType({}))
+    changes: Mapping[str, str | float] = field(default_factory=lambda: MappingProxyType({}), hash=False)
 
     def config(self, fill: float = 0.25) -> Config:
         """Return Table 1 with this drum."""

@@ -1,9 +1,11 @@
 """The table that figures and claims read: cases, summaries, and what series and frames tell beyond them."""
 
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from drumrs import analysis, measures
+from drumrs.jobs import effective_jobs
 
 if TYPE_CHECKING:
     import polars as pl
@@ -11,7 +13,7 @@ if TYPE_CHECKING:
     from drumrs.analysis import Mean
     from drumrs.config import Config
     from drumrs.frames import Frames
-    from drumrs.sweep import Sweep
+    from drumrs.sweep import Case, Sweep
 
 _DEPTHS = ("surface_speed", "middle_speed", "deep_speed")
 _MOTIONS = ("along_the_rim", "carried_round", "mixed_in_a_turn", *_DEPTHS)
@@ -40,17 +42,17 @@ def measure(sweep: "Sweep", folder: str | Path | None = None) -> "pl.DataFrame":
     # What is measured here takes the place of what a finished case wrote, perhaps by an earlier method.
     table = sweep.table(folder).drop(set(_schema()) - {"case"}, strict=False).collect()
     finished = set(table["case"])
-    rows = [
-        {"case": case.id, **_measures(case.config, sweep.series(case, folder), _frames(sweep, case, folder))}
-        for case in sweep.cases
-        if case.id in finished
-    ]
+
+    def row(case: "Case") -> dict[str, Any]:
+        frames = sweep.frames(case, folder) if case.wants_frames else None
+        return {"case": case.id, **_measures(case.config, sweep.series(case, folder), frames)}
+
+    # Most of the time is taken by reading and by searching neighbors, in compiled code that other threads need not
+    # wait for.
+    with ThreadPoolExecutor(effective_jobs()) as threads:
+        rows = list(threads.map(row, (case for case in sweep.cases if case.id in finished)))
     measures = pl.DataFrame(rows, schema=_schema(), orient="row")
     return table.join(measures, on="case", how="left", maintain_order="left")
-
-
-def _frames(sweep: "Sweep", case: Any, folder: str | Path | None) -> "Frames | None":
-    return sweep.frames(case, folder) if case.wants_frames else None
 
 
 def _measures(config: "Config", series: "pl.DataFrame", frames: "Frames | None") -> dict[str, Any]:

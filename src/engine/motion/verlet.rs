@@ -136,10 +136,11 @@ impl Verlet {
                 let (position, velocity, force) =
                     (&mut position[quad], &mut velocity[quad], &mut force[quad]);
                 let constants = constants(quad);
-                let squares = [0, 1].map(|row| {
+                // Calls one by one: `array::map` is not always inlined.
+                let mut advance = |row: usize| {
                     let start = LANES * row;
-                    let [f, v, x] =
-                        [&*force, velocity, position].map(|values| F64x4::new(from(values, start)));
+                    let four = |values| F64x4::new(from(values, start));
+                    let (f, v, x) = (four(force), four(velocity), four(position));
                     let kick = f * constants.half_per_mass[row] + gravity;
                     let (x, v) = kick_and_drift::<_, PART>(x, v, kick, step);
                     put(velocity, start, v);
@@ -149,8 +150,8 @@ impl Verlet {
                     }
                     moments += x * constants.weights[row];
                     kick * kick
-                });
-                let squares = Vec2x4::from_rows(squares);
+                };
+                let squares = Vec2x4::from_rows([advance(0), advance(1)]);
                 greatest_square = (squares.x + squares.y).larger(greatest_square);
                 let kick = F64x4::new(torque[quad]) * constants.half_per_inertia;
                 let (a, w) =

@@ -68,6 +68,8 @@ def _draw(figure: PaperFigure, data: StudyData, folder: Path) -> Picture:
             return Picture(figure, reason=f"Missing: {missing}.")
         for path in paths:
             figures.write(drawn, path)
+            # One arrangement serves both files, and takes longer than drawing.
+            drawn.set_layout_engine("none")
         return Picture(figure, embedded(paths))
     return Picture(figure, reason=f"{made.failure}.")
 
