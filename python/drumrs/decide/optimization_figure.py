@@ -116,13 +116,15 @@ def _response(axes: "Axes", found: "Optimization", objective: int, key: int) -> 
     space, goal, colors = found.problem.space, found.problem.objectives[objective], line_colors()
     one = space.parameters[key]
     best = space.place(found.best)
-    count = round(one.high - one.low) + 1 if one.step >= 1.0 else _PLACES
+    steps = round(one.high - one.low) + 1
+    is_discrete = steps <= _PLACES and (one.is_whole or bool(one.choices))
+    count = steps if is_discrete else _PLACES
     places = np.tile(best, (count, 1))
     places[:, key] = np.linspace(0.0, 1.0, count)
     means, errors = (both[:, objective] for both in found.model.predict(places))
     low, mean, high = (np.vectorize(goal.unsigned)(means + share * errors) for share in (-_BAND, 0.0, _BAND))
     x = places[:, key] if one.choices else one.low + (one.high - one.low) * places[:, key]
-    if one.step >= 1.0:
+    if is_discrete:
         axes.errorbar(x, mean, np.abs(np.array([low, high]) - mean), fmt="o", color=colors[0], markersize=4)
     else:
         axes.fill_between(
