@@ -95,8 +95,11 @@ class Calibration:
         return draw(self)
 
     def _parameters(self) -> Iterator[str]:
+        on_ridge = {key for pair in self.ridges for key in pair}
         for key, median, low, high, narrowing in self.table.iter_rows():
-            if narrowing > _OPEN:
+            if narrowing > _OPEN and key in on_ridge:
+                yield f"{key} alone stays open, {low:.3g} to {high:.3g} with 90 %."
+            elif narrowing > _OPEN:
                 yield f"The measurements say nothing of {key}."
             else:
                 extent = "" if narrowing <= _FOUND else ", still a good part of its range"

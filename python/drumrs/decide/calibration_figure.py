@@ -1,5 +1,6 @@
 """The figure of a calibration: each parameter's probability, pair by pair, and what was measured beside the model."""
 
+import textwrap
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -12,7 +13,8 @@ if TYPE_CHECKING:
 
     from drumrs.decide.calibration import Calibration
 
-_PANEL, _BINS = 2.4, 30
+_PANEL, _BINS = 2.6, 30
+_LONGEST_NAME = 24
 # Parts of the probability within the lines about the likeliest pairs.
 _LEVELS = (0.9, 0.5)
 
@@ -24,14 +26,16 @@ def draw(found: "Calibration") -> "Figure":
     samples = found.samples.to_numpy()
     ends = [(one.low, one.high) for one in found.posterior.space.parameters]
     with drumrs_style():
-        figure = new_figure(
-            max(4.5, _PANEL * count), _PANEL * count + 0.4 * len(found.experiment.measured) + 0.9
-        )
-        heights = [_PANEL] * count + [0.4 * len(found.experiment.measured) + 0.5]
-        grid = figure.add_gridspec(count + 1, count, height_ratios=heights)
+        below = 0.4 * len(found.experiment.measured) + 0.8
+        figure = new_figure(max(5.0, _PANEL * count), _PANEL * count + below)
+        corner, fits = figure.subfigures(2, 1, height_ratios=[_PANEL * count, below])
+        panels = corner.subplots(count, count, squeeze=False)
         for row in range(count):
-            for column in range(row + 1):
-                axes = figure.add_subplot(grid[row, column])
+            for column in range(count):
+                axes = panels[row, column]
+                if column > row:
+                    axes.set_axis_off()
+                    continue
                 if row == column:
                     axes.hist(samples[:, row], _BINS, range=ends[row], color=line_colors()[0], density=True)
                     axes.set_yticks([])
@@ -39,11 +43,16 @@ def draw(found: "Calibration") -> "Figure":
                     _pair(axes, samples[:, column], samples[:, row], (ends[column], ends[row]))
                 axes.set_xlim(ends[column])
                 if row == count - 1:
-                    axes.set_xlabel(keys[column])
+                    axes.set_xlabel(_two_lines(keys[column]))
                 if column == 0 and row > 0:
-                    axes.set_ylabel(keys[row])
-        _fits(figure.add_subplot(grid[count, :]), found)
+                    axes.set_ylabel(_two_lines(keys[row]))
+        _fits(fits.subplots(), found)
     return figure
+
+
+def _two_lines(key: str) -> str:
+    table, _, name = key.rpartition(".")
+    return f"{table}.\n{name}"
 
 
 def _pair(
@@ -66,7 +75,7 @@ def _fits(axes: "Axes", found: "Calibration") -> None:
         mean, scatter, own = found.posterior.predict(k)
         error = found.posterior.errors[k]
         off.append(((mean - found.posterior.values[k]) / error, np.hypot(scatter, own) / error))
-        names.append(str(one))
+        names.append(textwrap.fill(str(one), _LONGEST_NAME))
     places = np.arange(len(names))
     axes.axvspan(-1.0, 1.0, color="0.9")
     axes.axvline(0.0, color=INK, linewidth=0.8)
