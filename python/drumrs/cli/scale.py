@@ -18,6 +18,7 @@ _WIDE = 120
 
 def scale(
     case: Annotated[Path | None, PATH] = None,
+    /,
     *,
     factor: Annotated[float, NUMBER],
     keep: Literal["groups", "bundle"] = "groups",

@@ -20,6 +20,7 @@ _WIDE = 120
 
 def screen(
     file: Annotated[Path, PATH],
+    /,
     *,
     by: Annotated[list[str] | None, Parameter(negative="")] = None,
     trajectories: Annotated[int | None, WHOLE] = None,

@@ -50,6 +50,7 @@ def _gravity(result: "Result") -> float:
     return math.hypot(*result.config.plane_gravity)
 
 
+_DEPTHS = ("surface_speed", "middle_speed", "deep_speed")
 _MEASURES = (
     _Measured(
         ("toe_angle", "shoulder_angle", "center_slope", "surface_slope", "s_shape", "filling", "arm"),
@@ -67,6 +68,10 @@ _MEASURES = (
         lambda result, window: measures.unbalance(
             result.frames, window, measures.disc_masses(result.config, result.frames)
         ),
+    ),
+    _Measured(
+        _DEPTHS,
+        lambda result, window: dict(zip(_DEPTHS, measures.depth_profile(result.frames, window), strict=True)),
     ),
     _Measured(*_one("circulation", measures.circulation)),
     _Measured(*_one("wall_slip", measures.wall_slip)),
