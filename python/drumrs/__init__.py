@@ -29,10 +29,12 @@ from drumrs.state import State
 from drumrs.sweep import Case, Sweep
 
 if TYPE_CHECKING:
-    from drumrs.decide.calibrate import Calibration, calibrate
+    from drumrs.decide.calibrate import calibrate
+    from drumrs.decide.calibration import Calibration
     from drumrs.decide.compare import Comparison, compare
     from drumrs.decide.evaluate import evaluate
-    from drumrs.decide.optimize import Optimization, optimize
+    from drumrs.decide.optimization import Optimization
+    from drumrs.decide.optimize import optimize
     from drumrs.decide.screen import Screening, screen
     from drumrs.decide.targets import Target
     from drumrs.exports import export, movie
@@ -93,9 +95,9 @@ __all__ = [
 
 # What most scripts do without, and the module that has it.
 _ON_DEMAND = {
-    "Calibration": "decide.calibrate",
+    "Calibration": "decide.calibration",
     "Comparison": "decide.compare",
-    "Optimization": "decide.optimize",
+    "Optimization": "decide.optimization",
     "Screening": "decide.screen",
     "Target": "decide.targets",
     "Verification": "verification",

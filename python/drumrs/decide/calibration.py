@@ -92,7 +92,7 @@ class Calibration:
         """Draw the parameters' probability, alone and pair by pair, and what was measured beside the model."""
         from drumrs.decide.calibration_figure import draw
 
-        return draw(self)
+        return draw(self.experiment, self.posterior)
 
     def _parameters(self) -> Iterator[str]:
         on_ridge = {key for pair in self.ridges for key in pair}

@@ -11,7 +11,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from drumrs.decide.calibration import Calibration
+    from drumrs.decide.measurement import Experiment
+    from drumrs.decide.posterior import Posterior
 
 _PANEL, _BINS = 2.6, 30
 _LONGEST_NAME = 24
@@ -19,16 +20,16 @@ _LONGEST_NAME = 24
 _LEVELS = (0.9, 0.5)
 
 
-def draw(found: "Calibration") -> "Figure":
+def draw(experiment: "Experiment", posterior: "Posterior") -> "Figure":
     """Draw a calibration: a corner plot, and below it how far the model is from each measurement."""
-    keys = found.posterior.space.keys
+    keys = posterior.space.keys
     count = len(keys)
-    samples = found.samples.to_numpy()
-    ends = [(one.low, one.high) for one in found.posterior.space.parameters]
+    samples = posterior.in_units(posterior.samples)
+    ends = [(one.low, one.high) for one in posterior.space.parameters]
     with drumrs_style():
-        below = 0.4 * len(found.experiment.measured) + 0.8
+        below = 0.4 * len(experiment.measured) + 0.8
         figure = new_figure(max(5.0, _PANEL * count), _PANEL * count + below)
-        corner, fits = figure.subfigures(2, 1, height_ratios=[_PANEL * count, below])
+        corner, fits = figure.subfigures(2, 1, squeeze=False, height_ratios=[_PANEL * count, below])[:, 0]
         panels = corner.subplots(count, count, squeeze=False)
         for row in range(count):
             for column in range(count):
@@ -46,7 +47,7 @@ def draw(found: "Calibration") -> "Figure":
                     axes.set_xlabel(_two_lines(keys[column]))
                 if column == 0 and row > 0:
                     axes.set_ylabel(_two_lines(keys[row]))
-        _fits(fits.subplots(), found)
+        _fits(fits.subplots(), experiment, posterior)
     return figure
 
 
@@ -68,13 +69,13 @@ def _pair(
     axes.set_ylim(ends[1])
 
 
-def _fits(axes: "Axes", found: "Calibration") -> None:
+def _fits(axes: "Axes", experiment: "Experiment", posterior: "Posterior") -> None:
     """Draw, for each measurement, the model's mean and scatter over the error of the measurement."""
     names, off = [], []
-    for k, one in enumerate(found.experiment.measured):
-        mean, scatter, own = found.posterior.predict(k)
-        error = found.posterior.errors[k]
-        off.append(((mean - found.posterior.values[k]) / error, np.hypot(scatter, own) / error))
+    for k, one in enumerate(experiment.measured):
+        mean, scatter, own = posterior.predict(k)
+        error = posterior.errors[k]
+        off.append(((mean - posterior.values[k]) / error, np.hypot(scatter, own) / error))
         names.append(textwrap.fill(str(one), _LONGEST_NAME))
     places = np.arange(len(names))
     axes.axvspan(-1.0, 1.0, color="0.9")

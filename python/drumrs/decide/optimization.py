@@ -1,6 +1,5 @@
 """`Optimization`: what a search has found, as a table, a figure and a sentence."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from io import BytesIO
@@ -9,64 +8,16 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from drumrs.analysis import Estimate
 from drumrs.config import Config
-from drumrs.decide.problem import Goal, Problem
+from drumrs.decide.confirmed import Confirmed, number_of
+from drumrs.decide.problem import Problem
 from drumrs.decide.search import ENOUGH, Model, Search
 from drumrs.errors import ConfigError
 from drumrs.files import write_whole
-from drumrs.result import with_error
 
 if TYPE_CHECKING:
     import polars as pl
     from matplotlib.figure import Figure
-
-
-@dataclass(frozen=True)
-class Confirmed:
-    """A point of the search, run again with fresh seeds.
-
-    Attributes
-    ----------
-    values
-        Its values by key.
-    expected
-        Mean and standard error of each goal's target as the search left them.
-    fresh
-        What the fresh seeds say.
-    """
-
-    values: Mapping[str, Any]
-    expected: tuple[tuple[float, float], ...]
-    fresh: tuple[Estimate, ...]
-
-    @classmethod
-    def of(cls, problem: Problem, model: Model, place: int, fresh: tuple[Estimate, ...]) -> "Confirmed":
-        """Make it of a point that was run."""
-        means, errors = model.predict(model.points[[place]])
-        expected = [
-            (goal.unsigned(mean), error)
-            for goal, mean, error in zip(problem.goals, means[0], errors[0], strict=True)
-        ]
-        return cls(problem.space.values(model.points[place]), tuple(expected), fresh)
-
-    def signed(self, problem: Problem) -> float:
-        """Return the first objective on fresh seeds, to be minimized; infinite where there is none."""
-        value = problem.goals[0].signed(self.fresh[0].mean)
-        return float("inf") if np.isnan(value) else value
-
-    def misses(self, problem: Problem) -> list[str]:
-        """Return the constraints that it misses on fresh seeds, in words: no part of the interval meets them."""
-        goals = zip(problem.goals, self.fresh, strict=True)
-        return [
-            f"{goal} (it is {_number(goal, found.mean, found.error)})"
-            for goal, found in goals
-            if goal.limit is not None and not goal.signed(found.mean) <= found.interval().half_width
-        ]
-
-    def __str__(self) -> str:
-        """Return the values as one writes them."""
-        return ", ".join(f"{key} = {value}" for key, value in self.values.items())
 
 
 @dataclass(frozen=True, eq=False)
@@ -151,7 +102,7 @@ class Optimization:
         """
         from drumrs.decide.optimization_figure import draw
 
-        return draw(self)
+        return draw(self.problem, self.search, self.model, self.confirmed, self.table, self.best)
 
     def write_table(self, path: Path) -> None:
         """Write the table as a Parquet file.
@@ -184,8 +135,9 @@ class Optimization:
         goal, winner, seeds = self.problem.objectives[0], self.confirmed[0], self.problem.confirm
         fresh, (expected, error) = winner.fresh[0], winner.expected[0]
         told = (
-            f"The {goal} is {_number(goal, fresh.mean, fresh.error)} at {winner}, on {seeds} fresh seeds; the search, "
-            f"which picks the luckiest of {len(self.model.points)} runs, had expected {_number(goal, expected, error)}."
+            f"The {goal} is {number_of(goal, fresh.mean, fresh.error)} at {winner}, on {seeds} fresh seeds; "
+            f"the search, which picks the luckiest of {len(self.model.points)} runs, had expected "
+            f"{number_of(goal, expected, error)}."
         )
         missed = winner.misses(self.problem)
         if missed:
@@ -195,16 +147,14 @@ class Optimization:
             lead = (second - fresh).interval()
             is_clear = lead.low > 0.0 or lead.high < 0.0
             verdict = "clearly behind" if is_clear else "not told apart from it"
-            told += (
-                f" Second is {self.confirmed[1]} with {_number(goal, second.mean, second.error)}, {verdict}."
-            )
+            told += f" Second is {self.confirmed[1]} with {number_of(goal, second.mean, second.error)}, {verdict}."
         return told
 
     def _front_sentence(self) -> str:
         ends = [self.confirmed[0], self.confirmed[-1]]
         told = " to ".join(
             " and ".join(
-                f"{goal.target.title} {_number(goal, found.mean, found.error)}"
+                f"{goal.target.title} {number_of(goal, found.mean, found.error)}"
                 for goal, found in zip(self.problem.objectives, one.fresh, strict=False)
             )
             + f" at {one}"
@@ -237,8 +187,3 @@ class Optimization:
             f"The search used up its {runs} runs: the chance that another gains more than {share} is "
             f"{chance:.0%}; a larger optimize.runs goes on from here."
         )
-
-
-def _number(goal: Goal, value: float, error: float) -> str:
-    unit = "" if goal.target.unit == "1" else f" {goal.target.unit}"
-    return f"{with_error(value, error if np.isfinite(error) else None)}{unit}"

@@ -9,11 +9,17 @@ from drumrs.decide.gain import hypervolume
 from drumrs.figures import INK, drumrs_style, line_colors, new_figure
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+    from typing import Any
+
+    import polars as pl
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+    from drumrs.decide.confirmed import Confirmed
     from drumrs.decide.emulator import Array
-    from drumrs.decide.optimization import Optimization
+    from drumrs.decide.problem import Problem
+    from drumrs.decide.search import Model, Search
 
 _COLUMNS = 3
 _PANEL = (3.4, 2.7)
@@ -21,43 +27,50 @@ _PANEL = (3.4, 2.7)
 _PLACES, _BAND = 101, 2.0
 
 
-def draw(found: "Optimization") -> "Figure":
+def draw(
+    problem: "Problem",
+    search: "Search",
+    model: "Model",
+    confirmed: "Sequence[Confirmed]",
+    table: "pl.DataFrame",
+    best: "Mapping[str, Any]",
+) -> "Figure":
     """Draw an optimization.
 
     Parameters
     ----------
-    found
-        The optimization, with something confirmed.
+    problem, search, model, confirmed, table, best
+        As of `Optimization`, with something confirmed.
     """
-    keys, objectives = len(found.problem.space), len(found.problem.objectives)
+    keys, objectives = len(problem.space), len(problem.objectives)
     count = 1 + keys * objectives + (objectives > 1)
     rows = math.ceil(count / _COLUMNS)
     with drumrs_style():
         figure = new_figure(_PANEL[0] * min(count, _COLUMNS), _PANEL[1] * rows)
         panels = list(np.ravel(figure.subplots(rows, min(count, _COLUMNS), squeeze=False)))
-        _convergence(panels.pop(0), found)
+        _convergence(panels.pop(0), problem, search, model)
         if objectives > 1:
-            _front(panels.pop(0), found)
+            _front(panels.pop(0), problem, confirmed, table)
         for objective in range(objectives):
             for key in range(keys):
-                _response(panels.pop(0), found, objective, key)
+                _response(panels.pop(0), problem, model, best, (objective, key))
         for axes in panels:
             axes.set_axis_off()
     return figure
 
 
-def _convergence(axes: "Axes", found: "Optimization") -> None:
+def _convergence(axes: "Axes", problem: "Problem", search: "Search", model: "Model") -> None:
     """Draw the best that was known after each run, as all runs together say now."""
-    model, colors, count = found.model, line_colors(), len(found.model.points)
+    colors, count = line_colors(), len(model.points)
     means, runs = model.predict(model.points)[0], np.arange(1, count + 1)
     feasible = model.feasible
     if model.objectives == 1:
-        goal = found.problem.objectives[0]
-        seen = np.vectorize(goal.unsigned)(found.search.values[:, 0])
+        goal = problem.objectives[0]
+        seen = np.vectorize(goal.unsigned)(search.values[:, 0])
         axes.errorbar(
             runs,
             seen,
-            np.nan_to_num(found.search.errors[:, 0]),
+            np.nan_to_num(search.errors[:, 0]),
             fmt=".",
             color="0.6",
             elinewidth=0.8,
@@ -78,12 +91,12 @@ def _convergence(axes: "Axes", found: "Optimization") -> None:
     axes.legend(loc="best", fontsize="small")
 
 
-def _front(axes: "Axes", found: "Optimization") -> None:
+def _front(axes: "Axes", problem: "Problem", confirmed: "Sequence[Confirmed]", table: "pl.DataFrame") -> None:
     colors = line_colors()
-    goals = found.problem.objectives
+    goals = problem.objectives
     names = [f"{goal.target.text}_expected" for goal in goals]
-    axes.plot(*(found.table[name].to_numpy() for name in names), ".", color="0.6", label="runs")
-    front = found.front
+    axes.plot(*(table[name].to_numpy() for name in names), ".", color="0.6", label="runs")
+    front = table.filter("front")
     axes.errorbar(
         front[names[0]].to_numpy(),
         front[names[1]].to_numpy(),
@@ -94,8 +107,8 @@ def _front(axes: "Axes", found: "Optimization") -> None:
         markersize=4,
         label="front, ± two standard errors",
     )
-    fresh = np.array([[one.fresh[k].mean for k in range(2)] for one in found.confirmed])
-    errors = np.array([[one.fresh[k].error for k in range(2)] for one in found.confirmed])
+    fresh = np.array([[one.fresh[k].mean for k in range(2)] for one in confirmed])
+    errors = np.array([[one.fresh[k].error for k in range(2)] for one in confirmed])
     errors = np.where(np.isfinite(errors), errors, 0.0)
     axes.errorbar(
         fresh[:, 0],
@@ -111,17 +124,20 @@ def _front(axes: "Axes", found: "Optimization") -> None:
     axes.legend(loc="best", fontsize="small")
 
 
-def _response(axes: "Axes", found: "Optimization", objective: int, key: int) -> None:
+def _response(
+    axes: "Axes", problem: "Problem", model: "Model", values: "Mapping[str, Any]", which: tuple[int, int]
+) -> None:
     """Draw what is expected along a key, the others being those of the best point."""
-    space, goal, colors = found.problem.space, found.problem.objectives[objective], line_colors()
+    objective, key = which
+    space, goal, colors = problem.space, problem.objectives[objective], line_colors()
     one = space.parameters[key]
-    best = space.place(found.best)
+    best = space.place(values)
     steps = round(one.high - one.low) + 1
     is_discrete = steps <= _PLACES and (one.is_whole or bool(one.choices))
     count = steps if is_discrete else _PLACES
     places = np.tile(best, (count, 1))
     places[:, key] = np.linspace(0.0, 1.0, count)
-    means, errors = (both[:, objective] for both in found.model.predict(places))
+    means, errors = (both[:, objective] for both in model.predict(places))
     low, mean, high = (np.vectorize(goal.unsigned)(means + share * errors) for share in (-_BAND, 0.0, _BAND))
     x = places[:, key] if one.choices else one.low + (one.high - one.low) * places[:, key]
     if is_discrete:

@@ -8,9 +8,10 @@ from typing import Any
 
 import numpy as np
 
+from drumrs.decide.confirmed import Confirmed
 from drumrs.decide.emulator import Array, require_packages
 from drumrs.decide.evaluate import Evaluator
-from drumrs.decide.optimization import Confirmed, Optimization
+from drumrs.decide.optimization import Optimization
 from drumrs.decide.problem import Problem
 from drumrs.decide.search import Model, Search
 from drumrs.errors import ConfigError
