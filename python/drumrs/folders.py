@@ -20,6 +20,8 @@ KINDS = {
     "reproduction": "a reproduction",
     "validation": "a validation",
     "baffle": "an inference of the baffle",
+    "optimization": "an optimization",
+    "calibration": "a calibration",
 }
 # Where a sweep's folder keeps finished cases that were packed.
 PACKS = "packs"

@@ -16,6 +16,7 @@ from cyclopts import App, CycloptsError, Group, Parameter, UnknownOptionError, U
 
 import drumrs
 from drumrs.cli.baseline import baseline
+from drumrs.cli.calibrate import calibrate
 from drumrs.cli.compare import compare
 from drumrs.cli.config import config
 from drumrs.cli.export import export
@@ -23,6 +24,7 @@ from drumrs.cli.info import info
 from drumrs.cli.init import init
 from drumrs.cli.messages import complain, speaking, warn
 from drumrs.cli.movie import movie
+from drumrs.cli.optimize import optimize
 from drumrs.cli.options import PATH, cut_by_shell
 from drumrs.cli.pack import pack
 from drumrs.cli.quantities import quantities
@@ -67,6 +69,8 @@ app = App(
         "- `drumrs report out/case --page mill` writes one page of it, for a trade\n"
         "- `drumrs sweep sweep.toml --out out/sweep` runs many cases; `drumrs status out/sweep` tells how far it is\n"
         "- `drumrs compare a.toml b.toml --by drum_specific_power` finds the better of two machines\n"
+        "- `drumrs optimize search.toml` finds the best values of a few keys\n"
+        "- `drumrs calibrate data.toml` finds what friction makes a measured drum come out right\n"
         "- `drumrs screen screen.toml --by drum_specific_power` says which keys matter\n"
         "- `drumrs scale case.toml --factor 4 --out large.toml` makes a larger machine of it\n"
         "- `drumrs quantities ratio` says what is measured under a name with that word\n"
@@ -87,6 +91,8 @@ for _command in (
     status,
     pack,
     compare,
+    optimize,
+    calibrate,
     scale,
     screen,
     view,
