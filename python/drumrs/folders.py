@@ -20,7 +20,11 @@ KINDS = {
     "reproduction": "a reproduction",
     "validation": "a validation",
     "baffle": "an inference of the baffle",
+    "optimization": "an optimization",
+    "calibration": "a calibration",
 }
+# Where a sweep's folder keeps finished cases that were packed.
+PACKS = "packs"
 # What a run's folder holds.
 RUN_FILES = (
     "config.toml",

@@ -33,6 +33,8 @@ class Parameter:
         What values are rounded to: 1 for whole numbers.
     choices
         The values, where it is one of a list.
+    is_whole
+        Whether values are whole numbers.
     """
 
     key: str
@@ -40,6 +42,7 @@ class Parameter:
     high: float
     step: float
     choices: tuple[Any, ...] = ()
+    is_whole: bool = False
 
     @classmethod
     def within(cls, key: str, ends: Any) -> "Parameter":
@@ -61,7 +64,7 @@ class Parameter:
             raise ConfigError(f"ranges.{key}", ends, "[low, high], two numbers with low < high", hint=hint)
         is_whole = key in schema() and schema()[key].is_integer()
         step = 1.0 if is_whole else 10.0 ** math.floor(math.log10((pair[1] - pair[0]) / _LEAST_STEPS))
-        return cls(key, float(pair[0]), float(pair[1]), step)
+        return cls(key, float(pair[0]), float(pair[1]), step, is_whole=is_whole)
 
     @classmethod
     def among(cls, key: str, choices: Any) -> "Parameter":
@@ -89,7 +92,7 @@ class Parameter:
             return self.choices[round(steps)]
         rounded = round(self.low / self.step + steps) * self.step
         clipped = min(max(rounded, self.low), self.high)
-        return round(clipped) if self.step >= 1.0 and self.low.is_integer() else float(f"{clipped:.10g}")
+        return round(clipped) if self.is_whole else float(f"{clipped:.10g}")
 
     def place(self, value: Any) -> float:
         """Return the place of a value, from 0 to 1."""
@@ -159,7 +162,7 @@ class Space:
         """Return points spread over 0 … 1 as points of this space: rounded, whole numbers and choices equally often."""
         points = points.copy()
         for column, one in enumerate(self.parameters):
-            if one.step >= 1.0:
+            if one.is_whole or one.choices:
                 # Whole numbers and choices all come equally often, those at the ends as well.
                 steps = one.high - one.low
                 points[:, column] = np.minimum(np.floor(points[:, column] * (steps + 1.0)), steps) / steps
