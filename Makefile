@@ -77,6 +77,7 @@ bench: ## measure the speed of a step
 	cargo bench
 
 docs: develop $(TOOLS) ## build the documentation site, out/docs/index.html
+	RUSTDOCFLAGS="-D warnings" cargo doc --no-deps --quiet
 	$(BIN)/python -m sphinx --fail-on-warning --keep-going -b html docs $(OUT)/docs
 
 wheel: ## build the wheel for this machine into dist/, check it, and try it where there is no Rust
