@@ -44,6 +44,7 @@ check-long: develop $(TOOLS) $(PROGRAMS) ## what takes hours: random loads, kill
 	$(BIN)/python tests/endurance/kill_and_resume.py
 	$(BIN)/python tests/endurance/short_cases.py
 	$(BIN)/python tests/endurance/long_run.py
+	$(BIN)/python tests/endurance/million_rows.py
 	cargo test --test contracts fuzz -- --ignored # writes fuzz/seeds/checkpoint
 	for target in checkpoint config outline rotation; do \
 	    mkdir -p fuzz/corpus/$$target; \
@@ -76,6 +77,7 @@ bench: ## measure the speed of a step
 	cargo bench
 
 docs: develop $(TOOLS) ## build the documentation site, out/docs/index.html
+	RUSTDOCFLAGS="-D warnings" cargo doc --no-deps --quiet
 	$(BIN)/python -m sphinx --fail-on-warning --keep-going -b html docs $(OUT)/docs
 
 wheel: ## build the wheel for this machine into dist/, check it, and try it where there is no Rust

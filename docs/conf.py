@@ -2,6 +2,7 @@
 
 import importlib.metadata
 import re
+import shutil
 import sys
 from pathlib import Path
 
@@ -26,11 +27,16 @@ extensions = [
     "numpydoc",
     "sphinx_copybutton",
     "sphinx_design",
+    "sphinx_gallery.gen_gallery",
 ]
-# A table without a title, which the page above it links to.
-exclude_patterns = ["verification/peers.md"]
+# What other pages include; a table without a title, which the page above it links to.
+exclude_patterns = ["_generated/commands.md", "_generated/keys.md", "verification/peers.md"]
 root_doc = "index"
 nitpicky = False
+# What docstrings quote once is code.
+default_role = "code"
+toc_object_entries_show_parents = "hide"
+templates_path = ["templates"]
 
 # Pages are written for reading in the repository, too: plain Markdown with a little more.
 myst_enable_extensions = ["dollarmath", "amsmath", "colon_fence", "deflist"]
@@ -39,12 +45,34 @@ myst_links_external_new_tab = True
 # Tables of the registry and of the study begin at the second level.
 suppress_warnings = ["myst.header"]
 
+# The gallery runs what makes pictures, in small, and again only where the script has changed.
+sphinx_gallery_conf = {
+    "examples_dirs": "../examples",
+    "gallery_dirs": "gallery",
+    "filename_pattern": r"/(01|02|06|07|09|1\d)_",
+    "reset_argv": "gallery_pictures.arguments",
+    "image_scrapers": ("gallery_pictures.written",),
+    "default_thumb_file": str(DOCS / "site" / "script.svg"),
+    "capture_repr": (),
+    "within_subsection_order": "FileNameSortKey",
+    "abort_on_example_error": True,
+    "copyfile_regex": "",
+    "download_all_examples": False,
+    "notebook_extensions": set(),
+    "remove_config_comments": True,
+    "show_signature": False,
+    "min_reported_time": 1e9,
+    "write_computation_times": False,
+}
+
 autosummary_generate = True
 autodoc_member_order = "bysource"
 autodoc_typehints = "none"
 numpydoc_show_class_members = False
 numpydoc_xref_param_type = False
 
+# Output that is shown has no language.
+highlight_language = "none"
 html_math_renderer = "mathml"
 html_context = {"default_mode": "auto"}
 html_theme = "pydata_sphinx_theme"
@@ -55,6 +83,7 @@ html_js_files = ["site.js"]
 html_show_sourcelink = False
 html_theme_options = {
     "navbar_align": "left",
+    "header_links_before_dropdown": 9,
     "show_toc_level": 2,
     "show_prev_next": True,
     "secondary_sidebar_items": ["page-toc"],
@@ -76,6 +105,8 @@ def only_links_within_the_site(app: Sphinx, docname: str, source: list[str]) -> 
     In the repository each of them leads somewhere; the site has no sources beside it.
     """
     page = Path(app.env.doc2path(docname))
+    if page.suffix != ".md":
+        return
     copies = {ROOT / original: copy for copy, original in generated.COPIES.items()}
     original = generated.COPIES.get(page.name) if page.parent == generated.FOLDER else None
     base = (ROOT / original).parent if original else page.parent
@@ -97,6 +128,12 @@ def only_links_within_the_site(app: Sphinx, docname: str, source: list[str]) -> 
         return f"[{words}]({up}{path.relative_to(DOCS).as_posix()}{anchor})"
 
     source[0] = _LINK.sub(resolved, source[0])
+
+
+def add_rust(app: Sphinx, error: Exception | None) -> None:
+    """Put what `cargo doc` has made beside the pages, where it is there."""
+    if error is None and app.builder.name == "html" and generated.RUST.is_dir():
+        shutil.copytree(generated.RUST, app.outdir / "rust", dirs_exist_ok=True)
 
 
 def bars_are_bars(
@@ -122,4 +159,5 @@ def setup(app: Sphinx) -> None:
     app.add_html_math_renderer("mathml", (write_math, None), (write_math, None))
     app.connect("autodoc-process-docstring", bars_are_bars, priority=400)
     app.connect("builder-inited", lambda _: generated.write())
+    app.connect("build-finished", add_rust)
     app.connect("source-read", only_links_within_the_site)

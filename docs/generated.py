@@ -1,5 +1,6 @@
-"""Pages of the site that the program writes: keys, commands, the player; and copies of pages from elsewhere."""
+"""Pages of the site that the program writes: keys, commands, the player; copies of pages; the link to the crate."""
 
+import importlib
 import shutil
 from pathlib import Path
 from typing import Any
@@ -9,6 +10,22 @@ from drumrs.cli.app import app
 
 ROOT = Path(__file__).parents[1]
 FOLDER = ROOT / "docs" / "_generated"
+# Packages and modules for users, a page each; `drumrs` itself has pages of its own.
+MODULES = (
+    "analysis",
+    "config",
+    "errors",
+    "exports",
+    "figures",
+    "measures",
+    "reports",
+    "sweep",
+    "validation",
+    "verification",
+    "viewer",
+)
+# Where `cargo doc` writes to.
+RUST = ROOT / "target" / "doc"
 # Pages that the repository shows beside the code.
 COPIES = {
     "architecture.md": "ARCHITECTURE.md",
@@ -27,26 +44,33 @@ def write() -> None:
         shutil.copy(picture, FOLDER)
     _put("commands.md", commands())
     _put("keys.md", keys())
+    _put("rust.html", _rust())
+    for name in MODULES:
+        _put(f"drumrs.{name}.rst", module(f"drumrs.{name}"))
     (ROOT / "docs" / "site" / "player.html").write_text(_player(), encoding="utf-8")
 
 
 def commands() -> str:
-    """Return a page with every command and its options."""
-    return app.generate_docs()
+    """Return every command and its options, for the page that has a title."""
+    return app.generate_docs().partition("\n")[2]
 
 
 def keys() -> str:
-    """Return a page with every key of a configuration: its default and meaning."""
+    """Return every key of a configuration, with its default, limits and meaning, for the page that has a title."""
     schema = drumrs.Config.model_json_schema()
-    lines = [
-        "# Keys of a case file",
-        "",
-        "Every key that a case file, `--set` and `Config.replace` take. `drumrs config` prints them as a file to start",
-        "from, `drumrs config --schema` as the schema by which editors complete them.",
-        "",
-    ]
+    lines: list[str] = []
     _tables(schema, schema["$defs"], (), lines)
     return "\n".join(lines) + "\n"
+
+
+def module(name: str) -> str:
+    """Return a page with what a module offers and `drumrs` itself does not, from docstrings; constants have none."""
+    offered = getattr(importlib.import_module(name), "__all__", [])
+    elsewhere = ", ".join(sorted(set(offered) & set(drumrs.__all__)))
+    constants = [f".. autodata:: {name}.{one}\n   :no-value:\n" for one in offered if one.isupper()]
+    lines = [name, "=" * len(name), "", f".. automodule:: {name}", "   :members:"]
+    lines += [f"   :exclude-members: {elsewhere}"] if elsewhere else []
+    return "\n".join([*lines, "", *constants])
 
 
 def _tables(table: dict[str, Any], known: dict[str, Any], path: tuple[str, ...], lines: list[str]) -> None:
@@ -64,13 +88,28 @@ def _tables(table: dict[str, Any], known: dict[str, Any], path: tuple[str, ...],
             "" if default is None else f"`{str(default).lower() if isinstance(default, bool) else default}`"
         )
         meaning = value.get("description", "").replace("|", "\\|").replace("\n", " ")
-        rows.append(f"| `{prefix}{name}` | {shown} | {meaning} |")
+        rows.append(f"| `{prefix}{name}` | {shown} | {_limits(value)} | {meaning} |")
     if rows:
         lines += [f"## {prefix.removesuffix('.') or 'At the top'}", ""]
         lines += [table["description"].splitlines()[0], ""] if path and table.get("description") else []
-        lines += ["| key | default | meaning |", "|---|---|---|", *rows, ""]
+        lines += ["| key | default | limits | meaning |", "|---|---|---|---|", *rows, ""]
     for name, inner in below:
         _tables(inner, known, (*path, name), lines)
+
+
+def _limits(value: dict[str, Any]) -> str:
+    """Return what a plain value may be, beside its type: words to choose from, bounds."""
+    found = []
+    for one in (value, *value.get("anyOf", [])):
+        found += [f"`{word}`" for word in one.get("enum", [])]
+        found += [f"`{one['const']}`"] if "const" in one else []
+        bounds = [
+            f"{sign} {one[key]}"
+            for key, sign in (("gt", ">"), ("ge", "≥"), ("lt", "<"), ("le", "≤"))
+            if key in one
+        ]
+        found += [" and ".join(bounds)] if bounds else []
+    return ", ".join(found)
 
 
 def _table_of(value: dict[str, Any], known: dict[str, Any]) -> dict[str, Any] | None:
@@ -80,6 +119,13 @@ def _table_of(value: dict[str, Any], known: dict[str, Any]) -> dict[str, Any] | 
     names += [one["items"]["$ref"].rpartition("/")[2] for one in choices if "$ref" in one.get("items", {})]
     found = known[names[0]] if names else {}
     return found if "properties" in found else None
+
+
+def _rust() -> str:
+    """Return the link to the documentation of the crate, where `cargo doc` has made it."""
+    if RUST.is_dir():
+        return '<p><a href="../rust/drumrs/index.html">Modules, types and functions of the crate</a></p>'
+    return "<p><code>cargo doc --no-deps --open</code> shows modules, types and functions of the crate.</p>"
 
 
 def _player() -> str:

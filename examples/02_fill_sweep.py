@@ -1,8 +1,13 @@
-"""What a drum draws from 10 to 70 % fill, without and with baffles, on all cores; the results are one parquet table.
+"""
+A sweep over fill and baffles
+=============================
+
+What a drum draws from 10 to 70 % fill, without and with baffles, on all cores; the results are one parquet table.
 
 Stop it with Ctrl-C and start it again: it goes on where it was.
 """
 
+# sphinx_gallery_thumbnail_path = "tutorials/sweep.png"
 import argparse
 from pathlib import Path
 
@@ -14,13 +19,15 @@ from drumrs.analysis import student
 
 def main() -> None:
     """Run the sweep and print specific powers, means over seeds with intervals of 95 %."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--small", action="store_true", help="two fills, for a moment each")
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--small", action="store_true", help="three fills, short runs with softer springs")
     parser.add_argument("--out", type=Path, default=Path("out/fill_sweep"), help="folder of the results")
     options = parser.parse_args()
 
-    base = drumrs.baseline().replace({"run.duration": 0.1 if options.small else 30.0})
-    fills = [0.05, 0.1] if options.small else [0.1, 0.2, 0.3, 0.4, 0.45, 0.5, 0.6, 0.7]
+    base = drumrs.baseline()
+    if options.small:
+        base = base.softer(100.0).replace({"run.duration": 3.0})
+    fills = [0.1, 0.2, 0.3] if options.small else [0.1, 0.2, 0.3, 0.4, 0.45, 0.5, 0.6, 0.7]
     sweep = drumrs.Sweep(base, axes={"load.fill": fills, "drum.baffles.count": [0, 3]}, seeds=range(3))
     outcome = sweep.run(options.out)
     for failure in outcome.failures:

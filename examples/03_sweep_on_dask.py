@@ -1,6 +1,10 @@
-"""A sweep on Dask: here two worker processes of this machine, on a cluster whatever Dask starts there.
+"""
+A sweep on Dask
+===============
 
-Needs `pip install 'drumrs[cluster]'`. The folder of the results has to be reached by all workers under one name.
+Here two worker processes of this machine, on a cluster whatever Dask starts there.
+
+Needs ``pip install 'drumrs[cluster]'``. The folder of the results has to be reached by all workers under one name.
 """
 
 import argparse
@@ -13,7 +17,7 @@ import drumrs
 
 def main() -> None:
     """Start a cluster, lend it to a sweep, say what came of it."""
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = argparse.ArgumentParser()
     parser.add_argument("--small", action="store_true", help="a moment of each case only")
     parser.add_argument("--out", type=Path, default=Path("out/dask"), help="folder of the results")
     options = parser.parse_args()

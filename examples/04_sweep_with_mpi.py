@@ -1,10 +1,14 @@
-"""A sweep under MPI: one rank hands out the cases, all others simulate.
+"""
+A sweep under MPI
+=================
+
+One rank hands out the cases, all others simulate::
 
     mpiexec -n 17 python -m mpi4py.futures examples/04_sweep_with_mpi.py --out results
 
-runs 16 cases at once. Without mpiexec the script starts two ranks of its own. Needs `pip install 'drumrs[mpi]'` and an
-MPI: that of the cluster, or `pip install mpich`. MPI starts ranks with the first mpiexec on the path, so activate the
-environment: the mpiexec of another MPI may wait for ever.
+runs 16 cases at once. Without mpiexec the script starts two ranks of its own. Needs ``pip install 'drumrs[mpi]'`` and
+an MPI: that of the cluster, or ``pip install mpich``. MPI starts ranks with the first mpiexec on the path, so activate
+the environment: the mpiexec of another MPI may wait for ever.
 """
 
 import argparse
@@ -17,9 +21,7 @@ import drumrs
 
 def main() -> None:
     """Lend the ranks to a sweep and say what came of it."""
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
+    parser = argparse.ArgumentParser()
     parser.add_argument("--small", action="store_true", help="a moment of each case only")
     parser.add_argument(
         "--out", type=Path, default=Path("out/mpi"), help="folder of the results, seen by all ranks"

@@ -1,13 +1,15 @@
-"""Which of fill, friction, speed and restitution matters most? A Latin hypercube asks with a few random cases.
+"""
+Which parameter matters most: a Latin hypercube
+===============================================
 
-With --sobol the cases are those of a Sobol sequence, which fills the ranges more evenly still.
-
-The hypercube is SciPy's.
+Which of fill, friction, speed and restitution matters most for the power? A Latin hypercube, SciPy's, asks with a few
+random cases. With ``--sobol`` the cases are those of a Sobol sequence, which fills the ranges more evenly still.
 """
 
 import argparse
 from pathlib import Path
 
+import matplotlib.pyplot as plt
 import polars as pl
 from scipy.stats import qmc
 
@@ -36,17 +38,16 @@ def design(count: int, *, sobol: bool) -> pl.DataFrame:
 
 def main() -> None:
     """Run the design and print the rank correlation of every parameter with the specific power."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--small", action="store_true", help="eight small cases, for a moment each")
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--small", action="store_true", help="sixteen short runs with softer springs")
     parser.add_argument("--sobol", action="store_true", help="take the cases from a Sobol sequence")
     parser.add_argument("--out", type=Path, default=Path("out/latin_hypercube"), help="folder of the results")
     options = parser.parse_args()
 
-    rows = design(8 if options.small else 64, sobol=options.sobol)
-    base = drumrs.baseline().replace({"run.duration": 30.0})
+    rows = design(16 if options.small else 64, sobol=options.sobol)
+    base = drumrs.baseline()
     if options.small:
-        base = base.replace({"run.duration": 0.1})
-        rows = rows.with_columns(pl.col("load.fill") / 5.0)
+        base = base.softer(100.0).replace({"run.duration": 3.0})
     sweep = drumrs.Sweep.from_rows(base, rows, seeds=[1])
     sweep.run(options.out)
 
@@ -58,6 +59,14 @@ def main() -> None:
     for key in RANGES:
         print(f"  {key:28} {strengths[key].item():+.2f}")
     print(f"wrote {sweep.write_table()}")
+
+    figure, panels = plt.subplots(1, len(RANGES), figsize=(10.0, 3.0), sharey=True, layout="constrained")
+    table = sweep.table().collect()
+    for axes, key in zip(panels, RANGES, strict=True):
+        axes.plot(table[key], table["drum_specific_power"], "o")
+        axes.set(xlabel=key)
+    panels[0].set(ylabel="Specific power [W/kg]", ylim=(0.0, None))
+    figure.savefig(options.out / "power.png", dpi=150)
 
 
 if __name__ == "__main__":

@@ -1,4 +1,9 @@
-"""A figure from the table of a sweep, with polars and matplotlib alone: no simulation, no drumrs needed to read it."""
+"""
+A figure from the table of a sweep
+==================================
+
+With polars and matplotlib alone: no simulation, and no drumrs, is needed to read a table.
+"""
 
 import argparse
 from pathlib import Path
@@ -21,17 +26,15 @@ def means(table: Path) -> pl.DataFrame:
 
 
 def main() -> None:
-    """Draw the table that examples/02_fill_sweep.py wrote, or with --small one made on the spot."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--small", action="store_true", help="make a small table first")
+    """Draw the table that examples/02_fill_sweep.py wrote, or else a small one made on the spot."""
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--small", action="store_true", help="make a small table in any case")
     parser.add_argument(
         "--table", type=Path, default=Path("out/fill_sweep/table.parquet"), help="table of a sweep"
     )
     parser.add_argument("--out", type=Path, default=Path("out/plot"), help="folder of the picture")
     options = parser.parse_args()
-    table = small_table(options.out) if options.small else options.table
-    if not table.exists():
-        parser.error(f"{table} is not there: run examples/02_fill_sweep.py first, or give --table")
+    table = options.table if options.table.exists() and not options.small else small_table(options.out)
 
     options.out.mkdir(parents=True, exist_ok=True)
     figure, axes = plt.subplots(figsize=(5.0, 3.5), layout="constrained")
@@ -49,8 +52,8 @@ def small_table(folder: Path) -> Path:
     """Make a table to draw where there is none yet."""
     import drumrs
 
-    base = drumrs.baseline().replace({"run.duration": 0.1})
-    sweep = drumrs.Sweep(base, axes={"load.fill": [0.05, 0.1], "drum.baffles.count": [0, 3]}, seeds=2)
+    base = drumrs.baseline().softer(100.0).replace({"run.duration": 3.0})
+    sweep = drumrs.Sweep(base, axes={"load.fill": [0.15, 0.25, 0.35], "drum.baffles.count": [0, 3]}, seeds=2)
     sweep.run(folder)
     return sweep.write_table()
 

@@ -1,4 +1,9 @@
-"""A sweep is killed in its middle, the hard way, and started again: its table is that of a sweep without a break."""
+"""
+A sweep that is killed and goes on
+==================================
+
+It is killed in its middle, the hard way, and started again: its table is that of a sweep without a break.
+"""
 
 import argparse
 import shutil
@@ -25,7 +30,7 @@ def finished(folder: Path) -> int:
 
 def main() -> None:
     """Run a sweep, kill it, run it again, and compare with one that was left alone."""
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = argparse.ArgumentParser()
     parser.add_argument("--small", action="store_true", help="a moment of each case only")
     parser.add_argument(
         "--out", type=Path, default=Path("out/resume"), help="folder of both sweeps, made anew"

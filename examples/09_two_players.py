@@ -1,5 +1,11 @@
-"""Two runs side by side in a page of your own: their players share one clock, and the page needs no server."""
+"""
+Two players in a page of your own
+=================================
 
+Two runs side by side: their players share one clock, and the page needs no server.
+"""
+
+# sphinx_gallery_thumbnail_path = "baseline.png"
 import argparse
 import json
 from pathlib import Path
@@ -25,16 +31,20 @@ first.addEventListener("time", () => second.seek(first.time));
 
 
 def main() -> None:
-    """Run both drums, for five seconds of simulated time or, with --small, a moment."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--small", action="store_true", help="simulate a moment only")
+    """Run both drums, for five seconds of simulated time or, with --small, three."""
+    parser = argparse.ArgumentParser()
+    parser.add_argument(
+        "--small", action="store_true", help="simulate three seconds only, with softer springs"
+    )
     parser.add_argument("--out", type=Path, default=Path("out/two_players"), help="folder of the page")
     options = parser.parse_args()
 
     recordings = []
     for baffles in (False, True):
         config = drumrs.baseline(fill=0.25, baffles=baffles)
-        config = config.replace({"run.duration": 0.1 if options.small else 5.0})
+        config = config.replace({"run.duration": 5.0})
+        if options.small:
+            config = config.softer(100.0).replace({"run.duration": 3.0})
         recordings.append(drumrs.player(drumrs.run(config, seed=1)).recording())
     text = json.dumps(recordings).replace("<", "\\u003c")
     module = viewer.module("player.js", "recording.js")

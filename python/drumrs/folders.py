@@ -23,6 +23,8 @@ KINDS = {
     "optimization": "an optimization",
     "calibration": "a calibration",
 }
+# Where a sweep's folder keeps finished cases that were packed.
+PACKS = "packs"
 # What a run's folder holds.
 RUN_FILES = (
     "config.toml",

@@ -172,7 +172,7 @@ class Result:
 
     Notes
     -----
-    The first four are polars tables over the whole run from t = 0; docs/records.md has the columns of all.
+    The first four are polars tables over the whole run from t = 0; docs/reference/records.md has the columns of all.
     """
 
     config: Config

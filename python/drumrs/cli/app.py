@@ -26,6 +26,7 @@ from drumrs.cli.messages import complain, speaking, warn
 from drumrs.cli.movie import movie
 from drumrs.cli.optimize import optimize
 from drumrs.cli.options import PATH, cut_by_shell
+from drumrs.cli.pack import pack
 from drumrs.cli.quantities import quantities
 from drumrs.cli.report import report
 from drumrs.cli.reproduce import reproduce
@@ -33,6 +34,7 @@ from drumrs.cli.run import run
 from drumrs.cli.scale import scale
 from drumrs.cli.screen import screen
 from drumrs.cli.signals import Asked, like_interrupts
+from drumrs.cli.status import status
 from drumrs.cli.sweep import sweep
 from drumrs.cli.validate import validate
 from drumrs.cli.verify import verify
@@ -65,7 +67,7 @@ app = App(
         "- `drumrs export out/case --to vtkhdf` writes it for ParaView\n"
         "- `drumrs movie out/case --out drum.mp4` writes it as a film\n"
         "- `drumrs report out/case --page mill` writes one page of it, for a trade\n"
-        "- `drumrs sweep sweep.toml --out out/sweep` runs many cases\n"
+        "- `drumrs sweep sweep.toml --out out/sweep` runs many cases; `drumrs status out/sweep` tells how far it is\n"
         "- `drumrs compare a.toml b.toml --by drum_specific_power` finds the better of two machines\n"
         "- `drumrs optimize search.toml` finds the best values of a few keys\n"
         "- `drumrs calibrate data.toml` finds what friction makes a measured drum come out right\n"
@@ -86,6 +88,8 @@ for _command in (
     baseline,
     reproduce,
     sweep,
+    status,
+    pack,
     compare,
     optimize,
     calibrate,

@@ -68,7 +68,7 @@ def run(
         Simulated time [s] at which to give that up; ten times the duration unless given.
     softer
         Lower both stiffnesses by this factor, over all layers, and lengthen the time step by its square root: 100 makes
-        a run some six times faster and overlaps ten times larger. docs/accuracy.md has what it does to the results.
+        a run four to six times faster and overlaps ten times larger. docs/accuracy.md has what it does to the results.
     force
         Replace the run that the folder of `--out` holds. Files that drumrs did not write are never overwritten.
     """

@@ -104,7 +104,7 @@ class Contact(ConfigTable):
     drum: LinearContact = Field(default=LinearContact(normal_stiffness=9.70e7, restitution=0.1))
     pair: Annotated[tuple[PairContact, ...], Limit("a list of tables with the key between")] | None = key(
         None,
-        "What two species, or one and the drum, have in place of what follows from both (docs/loads.md)",
+        "What two species, or one and the drum, have in place of what follows from both (docs/how-to/loads.md)",
         example=[{"between": ["steel-ball", "drum"], "friction": 0.3}],
     )
 

@@ -31,7 +31,7 @@ SOLID_FRACTION = 0.82
 
 
 class Sizes(ConfigTable):
-    """A law of diameters: which share of a species is smaller than a diameter; docs/loads.md has the formulas."""
+    """A law of diameters: which share of a species is smaller than a diameter; formulas: docs/how-to/loads.md."""
 
     law: Law
     by: types.Measure
@@ -78,8 +78,8 @@ class Species(ConfigTable):
     name
         What contact laws, tables and pictures call it.
     preset
-        Name of a material whose density and contact keys it has, but for those given beside it (docs/loads.md). They
-        take its place when the configuration is validated.
+        Name of a material whose density and contact keys it has, but for those given beside it (docs/how-to/loads.md).
+        They take its place when the configuration is validated.
     share
         Its share of the load, counted by ``load.share_by``; all of it unless given.
     density
@@ -122,7 +122,7 @@ class Load(ConfigTable):
     )
     species: Annotated[tuple[Species, ...], Limit("a list of tables with the key name")] | None = key(
         None,
-        "What the load is made of: tables with name, share, density, diameter or sizes, contact (docs/loads.md)",
+        "What the load is made of: tables with name, share, density, diameter or sizes, contact (docs/how-to/loads.md)",
         example=[{"name": "steel-ball", "share": 1.0, "density": 7800.0, "diameter": 0.02}],
     )
     share_by: types.Measure | None = key(

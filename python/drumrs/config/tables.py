@@ -75,7 +75,7 @@ class Rotation(ConfigTable):
     phase: Annotated[tuple[Phase, ...], Field(min_length=1), _PHASES] | None = key(
         None,
         "Phases of a program, one after the other from t = 0, each a table [[rotation.phase]]; beyond the last "
-        "one the speed stays; docs/programs.md",
+        "one the speed stays; docs/how-to/programs.md",
         example=[
             {"name": "tumble", "duration": 12.0, "rpm": 54.0},
             {"name": "stop", "duration": 3.0, "rpm": 0.0},
@@ -183,7 +183,7 @@ class Run(ConfigTable):
     )
     zone: Annotated[tuple[Zone, ...], Field(min_length=1), _ZONES] | None = key(
         None,
-        "Zones whose visits are counted, each a table [[run.zone]] with name, corners and frame; docs/records.md",
+        "Zones whose visits are counted, tables [[run.zone]] with name, corners and frame; docs/reference/records.md",
         example=[{"name": "spray", "corners": [[0.0, -0.1], [0.15, 0.0], [0.1, 0.1], [-0.05, 0.0]]}],
     )
     overlap_limit: types.OpenFraction = key(

@@ -58,8 +58,8 @@ def export(
 ) -> list[Path]:
     """Write the frames of a run, and the drum that turns about them, in the format of another program.
 
-    docs/export.md has what each format holds, and how it is opened. ``vtkhdf``, ``gsd`` and ``netcdf`` need packages of
-    the extra ``export``: ``pip install 'drumrs[export]'``.
+    docs/how-to/export.md has what each format holds, and how it is opened. ``vtkhdf``, ``gsd``, ``netcdf`` need
+    packages of the extra ``export``: ``pip install 'drumrs[export]'``.
 
     Parameters
     ----------

@@ -70,7 +70,7 @@ def test_the_examples_of_the_documentation_are_valid(page, text):
 
 
 def test_there_are_examples():
-    assert {"guide.md", "programs.md"} <= {page for page, _ in CASES}
+    assert {"your-machine.md", "programs.md"} <= {page for page, _ in CASES}
 
 
 @pytest.mark.parametrize(
