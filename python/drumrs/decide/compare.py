@@ -154,8 +154,8 @@ class Comparison:
                 f"It is open whether {named['open']} or {best.name} is best ({told}): the runs allowed do not tell "
                 f"differences of {difference}."
             )
-        worse = f"; {named['worse']} is worse for sure" if named["worse"] else ""
-        worse = worse.replace(" is ", " are ") if "," in named["worse"] else worse
+        verb = "are" if sum(design.standing == "worse" for design in self.designs) > 1 else "is"
+        worse = f"; {named['worse']} {verb} worse for sure" if named["worse"] else ""
         if named["equal"]:
             return (
                 f"No difference above {difference} between {best.name} ({told}) and {named['equal']}{worse}."

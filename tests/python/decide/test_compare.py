@@ -45,6 +45,10 @@ def test_what_is_finished_is_not_simulated_again(tmp_path, monkeypatch):
             "No difference above 5 % (0.5 W/m) between A (drum power 10 ± 1.1 W/m) and B; C is worse for sure.",
         ),
         (
+            ("best", "equal", "worse", "worse"),
+            "No difference above 5 % (0.5 W/m) between A (drum power 10 ± 1.1 W/m) and B; C, D are worse for sure.",
+        ),
+        (
             ("best", "open"),
             "It is open whether B or A is best (drum power 10 ± 1.1 W/m): the runs allowed do not tell "
             "differences of 5 % (0.5 W/m).",
@@ -53,7 +57,7 @@ def test_what_is_finished_is_not_simulated_again(tmp_path, monkeypatch):
 )
 def test_the_sentence_says_what_came_out(standings, told):
     designs = tuple(
-        Design("ABC"[k], standing, Estimate(10.0 + k, 0.5, 10), Interval(3.0 * k, 1.0), False, 11)
+        Design("ABCD"[k], standing, Estimate(10.0 + k, 0.5, 10), Interval(3.0 * k, 1.0), False, 11)
         for k, standing in enumerate(standings)
     )
     found = Comparison(Target.parse("drum_power"), False, Difference(0.05, True), designs)

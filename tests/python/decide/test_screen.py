@@ -1,5 +1,6 @@
 """`drumrs screen`: designs made into runs, dead keys left out, what is said; a short real screening by command."""
 
+import io
 from importlib import import_module
 
 import numpy as np
@@ -147,6 +148,20 @@ def test_a_screening_is_a_command_that_says_beforehand_what_it_costs(tmp_path, c
     assert "1 keys: 12 runs for Morris's effects, then at most 16 for Sobol's indices" in said.err
     assert "rotation.rpm" in said.out
     assert (tmp_path / "out" / "table.parquet").exists()
+
+
+def test_in_a_terminal_one_may_decline(tmp_path, monkeypatch):
+    class Terminal(io.StringIO):
+        def isatty(self):
+            return True
+
+    path, out = tmp_path / "screen.toml", tmp_path / "out"
+    path.write_text("[base]\nload.fill = 0.05\nrun.duration = 0.05\n[ranges]\nrotation.rpm = [20, 80]\n")
+    monkeypatch.setattr("sys.stdin", Terminal("n\n"))
+    with pytest.raises(SystemExit) as left:
+        main(["screen", str(path), "--out", str(out)])
+    assert left.value.code == 1
+    assert not out.exists()
 
 
 def test_whole_numbers_and_choices_come_equally_often():
