@@ -14,6 +14,7 @@ FOLDER = ROOT / "docs" / "_generated"
 MODULES = (
     "analysis",
     "config",
+    "decide",
     "errors",
     "exports",
     "figures",
