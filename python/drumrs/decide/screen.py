@@ -13,6 +13,7 @@ from drumrs.analysis.blocks import Array
 from drumrs.config import Config, anchored, read_layer
 from drumrs.config.layers import flat
 from drumrs.decide.evaluate import Evaluator
+from drumrs.decide.problem import refuse_unknown
 from drumrs.decide.sensitivity import Effect, Indices, morris, noise_of, saltelli, sobol, trajectories
 from drumrs.decide.space import Space
 from drumrs.decide.targets import Target
@@ -29,6 +30,7 @@ if TYPE_CHECKING:
 
 KIND, FILES = "screen", ("table.parquet", "runs")
 _TABLES, _KEYS = ("base", "ranges", "axes", "screen"), ("targets", "trajectories", "points")
+_WHAT = "a screening"
 # A screening is where many keys are looked at for the first time.
 _MOST_KEYS = 30
 _TRAJECTORIES, _FEWEST_TRAJECTORIES, _MOST_TRAJECTORIES = 10, 4, 1000
@@ -100,13 +102,13 @@ class ScreeningPlan:
         content, folder = (
             (source, Path()) if isinstance(source, Mapping) else (read_layer(source), Path(source).parent)
         )
-        _refuse_unknown(content, _TABLES, "")
+        refuse_unknown(content, _TABLES, "", _WHAT)
         base = content.get("base")
         base = base if isinstance(base, Config) else read_base(content, folder)
         tables = {key: table_of(content, key) or {} for key in _TABLES[1:]}
         ranges, axes = (flat(anchored(tables[key], folder)) for key in ("ranges", "axes"))
         wanted = tables["screen"]
-        _refuse_unknown(wanted, _KEYS, "screen.")
+        refuse_unknown(wanted, _KEYS, "screen.", _WHAT)
         space = Space.read(ranges, axes, most=_MOST_KEYS)
         space.check(base)
         named = targets or wanted.get("targets", ["drum_specific_power"])
@@ -429,17 +431,6 @@ def _share(share: Interval) -> str:
     """Say a share with its interval; what is below 0 or above 1 by chance is that."""
     low, high = (_PERCENT * min(max(end, 0.0), 1.0) for end in (share.low, share.high))
     return f"{_PERCENT * min(max(share.mean, 0.0), 1.0):.0f} % ({low:.0f}–{high:.0f} %)"
-
-
-def _refuse_unknown(table: Mapping[str, Any], known: tuple[str, ...], at: str) -> None:
-    for key in table:
-        if key not in known:
-            hint = (
-                "each run has a seed of its own"
-                if key == "seeds"
-                else f"the keys there are {', '.join(known)}"
-            )
-            raise ConfigError(f"{at}{key}", table[key], problem="is not a key of a screening", hint=hint)
 
 
 def _require_whole(key: str, value: Any, least: int, most: int) -> None:
