@@ -24,7 +24,7 @@ from typing import TYPE_CHECKING, Any
 from drumrs.analysis import statistics
 from drumrs.contact_records import COLUMNS, file_words
 from drumrs.errors import ConfigError, format_value
-from drumrs.files import NO_ROOM, read_object, write_whole
+from drumrs.files import NO_ROOM, parse_object, read_object, write_whole
 from drumrs.folders import marker, require_own
 from drumrs.frames import Frames
 from drumrs.registry import known, metadata
@@ -292,7 +292,7 @@ class Store:
         """Return time taken and machine of a case, by its id."""
         path = self.folder / f"{case}.facts.json"
         if not path.exists() and (packed := self.packs.read(path.name)) is not None:
-            return dict(json.loads(packed[1]))
+            return parse_object(packed[1]) or {}
         return read_object(path) or {}
 
     def _read(self, case: Case, content: str) -> "io.BytesIO":
