@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
+# Least distance of names at the ends of lines, over the height of the axes.
+_GAP = 0.075
 STEEL = "0.55"
 INK = "0.15"
 
@@ -82,9 +84,10 @@ def render(figure: Figure, kind: str) -> bytes:
 def label_lines(axes: "Axes") -> None:
     """Write each line's name at its right end, in its color, kept apart from the others."""
     ends: list[tuple[float, str, Any]] = []
+    first, last = axes.get_xlim()
     for line in axes.get_lines():
-        values = np.asarray(line.get_ydata(), dtype=float)
-        finite = values[np.isfinite(values)]
+        x, values = (np.asarray(data, dtype=float) for data in (line.get_xdata(), line.get_ydata()))
+        finite = values[np.isfinite(values) & (x >= first) & (x <= last)]
         if len(finite):
             ends.append(
                 (float(finite[-max(1, len(finite) // 20) :].mean()), str(line.get_label()), line.get_color())
@@ -99,13 +102,16 @@ def write_at_ends(axes: "Axes", ends: Sequence[tuple[float, str, Any]]) -> None:
     heights = [
         axes.transAxes.inverted().transform(axes.transData.transform((0.0, value)))[1] for value, *_ in ends
     ]
+    # In low axes a line of text is a larger part of their height.
+    inches = axes.get_window_extent().height / axes.figure.dpi
+    gap = max(_GAP, 1.3 * mpl.rcParams["font.size"] / (72.0 * inches))
     order = np.argsort(heights, kind="stable")
-    for place, k in zip(apart([float(heights[k]) for k in order]), order, strict=True):
+    for place, k in zip(apart([float(heights[k]) for k in order], gap), order, strict=True):
         _, name, color = ends[k]
         axes.annotate(name, (1.01, place), xycoords="axes fraction", color=color, va="center")
 
 
-def apart(heights: Sequence[float], gap: float = 0.075) -> list[float]:
+def apart(heights: Sequence[float], gap: float = _GAP) -> list[float]:
     """Move sorted heights away from each other until none is nearer than `gap` to the next."""
     places = list(heights)
     for _ in range(100):

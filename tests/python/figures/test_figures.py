@@ -119,6 +119,29 @@ def test_frames_survive_a_file(tmp_path):
     assert '"velocity_x": "m/s"' in units
 
 
+def test_names_stand_where_lines_leave_the_picture():
+    with figures.drumrs_style():
+        figure = figures.new_figure(4.0, 1.0)
+        axes = figure.subplots()
+        axes.plot([0.0, 1.0, 2.0], [5.0, 5.0, 0.0], label="high")
+        axes.plot([0.0, 1.0, 2.0], [1.0, 1.0, 6.0], label="low")
+        axes.set_xlim(0.0, 1.0)
+        shared.label_lines(axes)
+    places = {text.get_text(): text.xy[1] for text in axes.texts}
+    # A line of text is a fifth of the height of these axes.
+    assert places["high"] > places["low"] + 0.18
+
+
+def test_names_of_equal_lines_are_kept_apart_in_low_axes():
+    with figures.drumrs_style():
+        axes = figures.new_figure(4.0, 1.0).subplots()
+        for name in ("one", "other"):
+            axes.plot([0.0, 1.0], [1.0, 1.0], label=name)
+        shared.label_lines(axes)
+    one, other = (text.xy[1] for text in axes.texts)
+    assert abs(one - other) > 0.18
+
+
 def test_labels_are_kept_apart():
     places = shared.apart([0.1, 0.1, 0.12, 0.8])
     assert np.diff(places).min() > 0.0749
