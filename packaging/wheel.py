@@ -58,7 +58,17 @@ def build(tools: Path, cpu: str, folder: Path) -> Path:
     portable = ["--zig", "--compatibility", "manylinux2014"] if IS_LINUX else []
     # zig is found through the environment's own python.
     path = {"PATH": f"{tools}{os.pathsep}{os.environ['PATH']}"}
-    command = [tools / "maturin", "build", "--profile", "wheel", "--locked", "--strip", "--out", folder, *portable]
+    command = [
+        tools / "maturin",
+        "build",
+        "--profile",
+        "wheel",
+        "--locked",
+        "--strip",
+        "--out",
+        folder,
+        *portable,
+    ]
     run(*command, **flags, **target, **path)
     [wheel] = folder.glob("*.whl")
     return wheel

@@ -259,7 +259,9 @@ class Simulation(HasRecords):
         if not (isinstance(ramp, numbers.Real) and 0.0 < ramp < math.inf):
             raise ConfigError("ramp", ramp, "a positive finite time")
         if not self._running.acquire(blocking=False):
-            raise DrumrsError("this simulation is being run, and its speed cannot be set meanwhile: stop it first")
+            raise DrumrsError(
+                "this simulation is being run, and its speed cannot be set meanwhile: stop it first"
+            )
         try:
             # The step after the next one is the first of which nothing is known yet.
             earliest = math.ceil(1e3 * (self.time + 3.0 * self.time_step)) / 1e3

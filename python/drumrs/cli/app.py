@@ -28,6 +28,7 @@ from drumrs.cli.report import report
 from drumrs.cli.reproduce import reproduce
 from drumrs.cli.run import run
 from drumrs.cli.signals import Asked, like_interrupts
+from drumrs.cli.studio import studio
 from drumrs.cli.sweep import sweep
 from drumrs.cli.validate import validate
 from drumrs.cli.verify import verify
@@ -50,6 +51,7 @@ app = App(
     help_epilogue=(
         "Examples:\n\n"
         "- `drumrs init my-mill --template ball-mill` writes a machine to start from; `drumrs init` lists them\n"
+        "- `drumrs studio` shows a drum that turns while you change it\n"
         "- `drumrs reproduce --quick` runs the paper's study in small and writes out/report.html\n"
         "- `drumrs baseline` runs the paper's drum without and with baffles\n"
         "- `drumrs config > case.toml` writes every key, with unit and meaning\n"
@@ -72,6 +74,7 @@ app = App(
 
 for _command in (
     init,
+    studio,
     run,
     baseline,
     reproduce,
