@@ -1,8 +1,9 @@
 """`Session`: a simulation that runs in a thread of its own, while it is looked at and changed.
 
 One thread alone touches the simulation. It runs it by a few steps at a time, at a chosen number of simulated seconds in
-a second; between them it does what was asked of it. Whatever is asked, the run is that of `Session.case` from its
-start on, bit for bit: reading changes nothing, and a change of speed becomes part of the case.
+a second; between them it does what was asked of it. Measures are made in another one, of what was taken from it.
+Whatever is asked, the run is that of `Session.case` from its start on, bit for bit: reading changes nothing, and a
+change of speed becomes part of the case.
 """
 
 import math
@@ -11,7 +12,7 @@ import threading
 import time
 import warnings
 from collections.abc import Callable, Mapping
-from concurrent.futures import Future
+from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Self, TypeVar
@@ -19,7 +20,7 @@ from typing import TYPE_CHECKING, Any, Self, TypeVar
 from drumrs.config import Config
 from drumrs.errors import ConfigError, DrumrsError, DrumrsWarning, UnstableError
 from drumrs.simulation import Simulation
-from drumrs.studio.measures import RecentFrames, measure
+from drumrs.studio.measures import RecentFrames, Sample
 from drumrs.studio.scene import pack_frame, pack_start
 
 if TYPE_CHECKING:
@@ -31,8 +32,8 @@ T = TypeVar("T")
 RAMP = 0.1
 # Time of a picture [s], within which steps are done before anything else is looked at.
 _PICTURE = 1.0 / 60.0
-# Measures are made anew after this time [s], and after so many times as long as it took to make them.
-_MEASURE_EVERY, _MEASURE_SHARE = 0.5, 10.0
+# Measures are made anew after this time [s], and after so many times as long as it took to make the last ones.
+_MEASURE_EVERY, _MEASURE_SHARE = 0.5, 2.0
 # What the series of a session may grow to, in simulated time [s]; some tens of megabytes.
 LONGEST = 600.0
 # A simulation that is behind its time by more than this [s] does not try to catch up.
@@ -109,6 +110,18 @@ class Session:
     ((0.0, 54.0), (0.001, 54.0), (0.101, 60.0))
     """
 
+    _simulation: Simulation
+    _base: Config
+    # Times of the wall clock and of the simulation from which time passes at the rate, and from which the factor is
+    # taken.
+    _due_from: tuple[float, float]
+    _factor_from: tuple[float, float]
+    _factor: float
+    _scene: dict[str, Any]
+    _measures: dict[str, Any]
+    _measure_at: float
+    _wanted_speed: float | None
+
     def __init__(self, config: Config, *, threads: int = 1, playing: bool = True, rate: float = 1.0) -> None:
         self._threads = threads
         self._asked: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
@@ -117,6 +130,7 @@ class Session:
         self._steps_per_second = 0.0
         self._starts = self._pictures = self._measured = 0
         self._said: tuple[str, ...] = ()
+        self._measurer = ThreadPoolExecutor(1, "drumrs studio measures")
         self._begin(config)
         self._thread = threading.Thread(target=self._run, name="drumrs studio", daemon=True)
         self._thread.start()
@@ -135,6 +149,7 @@ class Session:
         self._simulation.stop()
         self._asked.put(lambda: None)
         self._thread.join()
+        self._measurer.shutdown(cancel_futures=True)
 
     @property
     def view(self) -> View:
@@ -281,15 +296,8 @@ class Session:
 
     def _show(self) -> None:
         """Put what is to be seen where others find it."""
-        now = time.perf_counter()
-        if now >= self._measure_at:
-            self._measured += 1
-            self._measures = {
-                "number": self._measured,
-                **measure(self._simulation, self._recent, self._since),
-            }
-            took = time.perf_counter() - now
-            self._measure_at = now + max(_MEASURE_EVERY, _MEASURE_SHARE * took)
+        if time.perf_counter() >= self._measure_at:
+            self._measure()
         self._pictures += 1
         view = View(
             start=self._starts,
@@ -307,10 +315,33 @@ class Session:
             self._view = view
             self._changed.notify_all()
 
+    def _measure(self) -> None:
+        """Let measures be made beside the simulation, of where it is now."""
+        began, start = time.perf_counter(), self._starts
+        # Not again before these are there.
+        self._measure_at = math.inf
+        sample = Sample.of(self._simulation, self._recent, self._since)
+
+        def put(made: Future[dict[str, Any]]) -> None:
+            if start != self._starts:
+                return
+            if (error := made.exception()) is not None:
+                self._say(f"No measures could be made: {error}")
+            else:
+                self._measured += 1
+                self._measures = {"number": self._measured, **made.result()}
+            now = time.perf_counter()
+            self._measure_at = now + max(_MEASURE_EVERY, _MEASURE_SHARE * (now - began))
+            self._show()
+
+        with suppress(RuntimeError):  # of a session that is being closed
+            job = self._measurer.submit(sample.measures)
+            job.add_done_callback(lambda made: self._asked.put(lambda: put(made)))
+
     def _say(self, sentence: str) -> None:
         self._said = (*self._said[-20:], sentence)
 
-    def _begin(self, config: Config) -> None:
+    def _begin(self, config: Config, said: str = "") -> None:
         with warnings.catch_warnings():
             # They are said on the page.
             warnings.simplefilter("ignore", DrumrsWarning)
@@ -323,8 +354,9 @@ class Session:
         self._measure_at, self._factor = 0.0, 0.0
         self._starts += 1
         self._scene = pack_start(simulation)
-        for sentence in simulation.warnings:
-            self._say(f"Note that {sentence}")
+        for sentence in (*(f"Note that {warning}" for warning in simulation.warnings), said):
+            if sentence:
+                self._say(sentence)
         self._set_clock()
         self._show()
 
@@ -336,7 +368,7 @@ class Session:
         self._playing = playing
         if not playing:
             # Who stops to look is to see the measures of this moment.
-            self._measure_at = 0.0
+            self._measure()
         self._set_clock()
         self._show()
 
@@ -367,10 +399,10 @@ class Session:
             self._say(f"The drum is on a ramp; it changes to {rpm:g} rpm at its end, at t = {begin:.6g} s.")
 
     def _restart(self, config: Config, changes: Mapping[str, Any]) -> None:
-        self._begin(config)
         changed = ", ".join(f"{key} = {value}" for key, value in changes.items())
-        self._say(f"Started anew from seed {config.run.seed}{f', with {changed}' if changed else ''}.")
-        self._show()
+        self._begin(
+            config, f"Started anew from seed {config.run.seed}{f', with {changed}' if changed else ''}."
+        )
 
     def _case(self) -> Config:
         config, time = self._simulation.config, self._simulation.time

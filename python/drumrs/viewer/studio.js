@@ -171,7 +171,8 @@ export class Studio {
 
   addPanel(panel) {
     this.axes.panels.push(panel);
-    this.panels.push(new Panel(this.part("panels"), panel, this.axes, this.theme, { onSeek: () => {}, signal: this.ended.signal }));
+    const options = { onSeek: () => {}, signal: this.ended.signal, level: 2 };
+    this.panels.push(new Panel(this.part("panels"), panel, this.axes, this.theme, options));
   }
 
   // Keep a picture, draw it with the screen's next one, and only then ask for another.
