@@ -1,6 +1,7 @@
 """`drumrs studio`: a drum in the browser that turns while it is changed."""
 
 import webbrowser
+from contextlib import suppress
 from pathlib import Path
 from typing import Annotated
 
@@ -60,7 +61,9 @@ def studio(
             if show and not _opens(server.address):
                 note("found no browser here; open that address in one on this machine")
 
-        server.serve(on_ready)
+        with suppress(KeyboardInterrupt):
+            # That is how it ends.
+            server.serve(on_ready)
 
 
 def _opens(address: str) -> bool:
