@@ -7,7 +7,9 @@ OUT    ?= out
 
 BIN    := $(VENV)/bin
 UV     := $(shell command -v uv 2>/dev/null)
+# What running takes is installed first, so that a first study need not wait for what testing takes.
 STAMP  := $(VENV)/.installed
+TOOLS  := $(VENV)/.tools
 # Where the programs are that exports are for: half a gigabyte.
 PROGRAMS := target/programs/.installed
 
@@ -31,17 +33,18 @@ study: develop ## run the paper's study in full (about an hour and a half on two
 	cp $(OUT)/study/summary.md docs/study/README.md
 	cp $(OUT)/study/figures/*.png docs/study/figures/
 
-test: develop ## test the physics, the package and the documentation
+test: develop $(TOOLS) ## test the physics, the package and the documentation
 	@if command -v cargo-nextest >/dev/null; then cargo nextest run --no-fail-fast; else cargo test --lib --tests --no-fail-fast; fi
 	cargo test --doc
 	$(BIN)/python -m pytest --numprocesses 2 --dist loadfile -m "not slow"
 
-check-long: develop $(PROGRAMS) ## what takes hours: random loads, kills, long runs, fuzzing, the study in small, examples in full
+check-long: develop $(TOOLS) $(PROGRAMS) ## what takes hours: random loads, kills, long runs, fuzzing, the study in small, examples in full
 	$(BIN)/python -m pytest -m slow
 	PROPTEST_CASES=30000 cargo test --release --test random_loads
 	$(BIN)/python tests/endurance/kill_and_resume.py
 	$(BIN)/python tests/endurance/short_cases.py
 	$(BIN)/python tests/endurance/long_run.py
+	$(BIN)/python tests/endurance/million_rows.py
 	cargo test --test contracts fuzz -- --ignored # writes fuzz/seeds/checkpoint
 	for target in checkpoint config outline rotation; do \
 	    mkdir -p fuzz/corpus/$$target; \
@@ -60,7 +63,7 @@ $(PROGRAMS):
 develop: $(STAMP) ## build the core into the environment (.venv)
 	$(BIN)/maturin develop --release --skip-install --quiet
 
-lint: develop ## check format, lints, layers, types and the stub of the core
+lint: develop $(TOOLS) ## check format, lints, layers, types and the stub of the core
 	cargo fmt --check
 	cargo clippy --all-targets --features python,baseline -- -D warnings
 	$(BIN)/ruff format --check .
@@ -73,7 +76,7 @@ lint: develop ## check format, lints, layers, types and the stub of the core
 bench: ## measure the speed of a step
 	cargo bench
 
-docs: develop ## build the documentation site, out/docs/index.html
+docs: develop $(TOOLS) ## build the documentation site, out/docs/index.html
 	RUSTDOCFLAGS="-D warnings" cargo doc --no-deps --quiet
 	$(BIN)/python -m sphinx --fail-on-warning --keep-going -b html docs $(OUT)/docs
 
@@ -89,11 +92,15 @@ $(STAMP): pyproject.toml Cargo.toml
 ifdef UV
 	test -x $(BIN)/python || $(UV) venv --python '>=3.11' $(VENV)
 	$(UV) pip install 'maturin>=1.13,<2'
-	$(BIN)/maturin develop --release --extras dev --uv
+	$(BIN)/maturin develop --release --uv
 else
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "drumrs needs Python 3.11 or later; set PYTHON=")'
 	test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
 	$(BIN)/python -m pip install --disable-pip-version-check --quiet 'maturin>=1.13,<2'
-	$(BIN)/maturin develop --release --extras dev
+	$(BIN)/maturin develop --release
 endif
+	@touch $@
+
+$(TOOLS): $(STAMP)
+	$(BIN)/maturin develop --release --extras dev $(if $(UV),--uv)
 	@touch $@

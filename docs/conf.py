@@ -29,14 +29,8 @@ extensions = [
     "sphinx_design",
     "sphinx_gallery.gen_gallery",
 ]
-# A table without a title, which the page above it links to; what the gallery leaves for its own use.
-exclude_patterns = [
-    "verification/peers.md",
-    "gallery/*.ipynb",
-    "gallery/*.py",
-    "gallery/**/README*",
-    "gallery/sg_execution_times.rst",
-]
+# What other pages include; a table without a title, which the page above it links to.
+exclude_patterns = ["_generated/commands.md", "_generated/keys.md", "verification/peers.md"]
 root_doc = "index"
 nitpicky = False
 # What docstrings quote once is code.

@@ -14,6 +14,7 @@ FOLDER = ROOT / "docs" / "_generated"
 MODULES = (
     "analysis",
     "config",
+    "decide",
     "errors",
     "exports",
     "figures",
@@ -51,21 +52,14 @@ def write() -> None:
 
 
 def commands() -> str:
-    """Return a page with every command and its options."""
-    _name, _, text = app.generate_docs().partition("\n")
-    return f"# Commands\n{text}"
+    """Return every command and its options, for the page that has a title."""
+    return app.generate_docs().partition("\n")[2]
 
 
 def keys() -> str:
-    """Return a page with every key of a configuration: its default, limits and meaning."""
+    """Return every key of a configuration, with its default, limits and meaning, for the page that has a title."""
     schema = drumrs.Config.model_json_schema()
-    lines = [
-        "# Keys of a case file",
-        "",
-        "Every key that a case file, `--set` and `Config.replace` take. `drumrs config` prints them as a file to start",
-        "from, `drumrs config --schema` as the schema by which editors complete them.",
-        "",
-    ]
+    lines: list[str] = []
     _tables(schema, schema["$defs"], (), lines)
     return "\n".join(lines) + "\n"
 

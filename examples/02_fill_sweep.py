@@ -7,6 +7,7 @@ What a drum draws from 10 to 70 % fill, without and with baffles, on all cores; 
 Stop it with Ctrl-C and start it again: it goes on where it was.
 """
 
+# sphinx_gallery_thumbnail_path = "tutorials/sweep.png"
 import argparse
 from pathlib import Path
 

@@ -9,6 +9,7 @@ All values are in SI units and per meter of drum depth, but for rpm and degrees 
 """
 
 import logging
+from importlib import import_module
 from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
 
@@ -28,6 +29,14 @@ from drumrs.state import State
 from drumrs.sweep import Case, Sweep
 
 if TYPE_CHECKING:
+    from drumrs.decide.calibrate import calibrate
+    from drumrs.decide.calibration import Calibration
+    from drumrs.decide.compare import Comparison, compare
+    from drumrs.decide.evaluate import evaluate
+    from drumrs.decide.optimization import Optimization
+    from drumrs.decide.optimize import optimize
+    from drumrs.decide.screen import Screening, screen
+    from drumrs.decide.targets import Target
     from drumrs.exports import export, movie
     from drumrs.glossary import quantities
     from drumrs.reports import report
@@ -39,30 +48,39 @@ __version__ = version("drumrs")
 logging.getLogger(__name__).addHandler(logging.NullHandler())
 
 __all__ = [
+    "Calibration",
     "Case",
     "CheckpointError",
+    "Comparison",
     "Config",
     "ConfigError",
     "DrumrsError",
     "DrumrsWarning",
     "Frames",
+    "Optimization",
     "Quantity",
     "Result",
+    "Screening",
     "Simulation",
     "State",
     "Summary",
     "Sweep",
+    "Target",
     "Task",
     "UnstableError",
     "Verification",
     "__version__",
     "baseline",
+    "calibrate",
+    "compare",
     "effective_jobs",
     "errors",
+    "evaluate",
     "export",
     "info",
     "load",
     "movie",
+    "optimize",
     "phases",
     "player",
     "quantities",
@@ -70,26 +88,35 @@ __all__ = [
     "report",
     "run",
     "save",
+    "screen",
     "verify",
 ]
 
 
+# What most scripts do without, and the module that has it.
+_ON_DEMAND = {
+    "Calibration": "decide.calibration",
+    "Comparison": "decide.compare",
+    "Optimization": "decide.optimization",
+    "Screening": "decide.screen",
+    "Target": "decide.targets",
+    "Verification": "verification",
+    "calibrate": "decide.calibrate",
+    "compare": "decide.compare",
+    "evaluate": "decide.evaluate",
+    "export": "exports",
+    "movie": "exports",
+    "optimize": "decide.optimize",
+    "quantities": "glossary",
+    "report": "reports",
+    "screen": "decide.screen",
+    "verify": "verification",
+}
+
+
 def __getattr__(name: str) -> Any:
-    """Load on demand what most scripts do without: the table of quantities, exports, reports, the verification."""
-    if name in {"export", "movie"}:
-        from drumrs import exports
-
-        return getattr(exports, name)
-    if name == "quantities":
-        from drumrs import glossary
-
-        return glossary.quantities
-    if name == "report":
-        from drumrs import reports
-
-        return reports.report
-    if name in {"Verification", "verify"}:
-        from drumrs import verification
-
-        return verification.verify if name == "verify" else verification.Verification
+    """Load what is loaded on demand."""
+    if name in _ON_DEMAND:
+        # By the module's own name: packages have functions by the names of some modules.
+        return getattr(import_module(f"drumrs.{_ON_DEMAND[name]}"), name)
     raise AttributeError(f"module 'drumrs' has no attribute {name!r}")

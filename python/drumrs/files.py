@@ -43,8 +43,16 @@ def require_plain(path: Path) -> None:
 def read_object(path: Path) -> dict[str, Any] | None:
     """Read a JSON object; `None` where there is no file that holds one."""
     try:
-        content = json.loads(read_plain(path))
-    except (OSError, ValueError, RecursionError):
+        return parse_object(read_plain(path))
+    except OSError:
+        return None
+
+
+def parse_object(data: bytes) -> dict[str, Any] | None:
+    """Return the JSON object that a file holds; `None` where it holds something else."""
+    try:
+        content = json.loads(data)
+    except (ValueError, RecursionError):
         return None
     return content if isinstance(content, dict) else None
 

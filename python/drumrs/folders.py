@@ -15,10 +15,16 @@ KINDS = {
     "run": "a run",
     "baseline": "a comparison",
     "sweep": "a sweep",
+    "compare": "a comparison of designs",
+    "screen": "a screening",
     "reproduction": "a reproduction",
     "validation": "a validation",
     "baffle": "an inference of the baffle",
+    "optimization": "an optimization",
+    "calibration": "a calibration",
 }
+# Where a sweep's folder keeps finished cases that were packed.
+PACKS = "packs"
 # What a run's folder holds.
 RUN_FILES = (
     "config.toml",

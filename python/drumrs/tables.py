@@ -7,6 +7,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
+from drumrs.column_words import with_schema
 from drumrs.files import replacing
 
 if TYPE_CHECKING:
@@ -20,7 +21,7 @@ ROW_GROUP_SIZE = 2**18
 def write_table(path: str | Path, table: "pl.DataFrame", metadata: Mapping[str, str]) -> None:
     """Write a table as parquet, whole or not at all, with `metadata` on the file."""
     with replacing(path) as temporary, _system_errors(temporary):
-        table.write_parquet(temporary, metadata=dict(metadata))
+        table.write_parquet(temporary, metadata=with_schema(metadata, table.schema))
 
 
 def sink_table(
@@ -53,7 +54,11 @@ def sink_table(
     """
     with _system_errors(path):
         table.sink_parquet(
-            path, row_group_size=row_group_size, metadata=dict(metadata), compression=compression, mkdir=False
+            path,
+            row_group_size=row_group_size,
+            metadata=with_schema(metadata, table.collect_schema()),
+            compression=compression,
+            mkdir=False,
         )
 
 

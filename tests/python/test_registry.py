@@ -203,7 +203,7 @@ def test_a_sweep_of_older_names_is_named_and_computed_again(tmp_path):
         with pytest.MonkeyPatch.context() as patch:
             patch.setattr("drumrs.sweep.sealed.FORMAT", FORMAT - 1)
             write_sealed(
-                tmp_path / path, case, content, table.rename({"drum_work": "work_drum"}, strict=False)
+                tmp_path / path, case.id, content, table.rename({"drum_work": "work_drum"}, strict=False)
             )
     with pytest.raises(ConfigError, match=f"has format {FORMAT - 1}.*another version of drumrs wrote it"):
         sweep.series(case)

@@ -74,11 +74,9 @@ def phases_of(config: "Config", series: "pl.DataFrame") -> "pl.DataFrame":
 def _means(config: "Config", rows: "pl.DataFrame") -> dict[str, float | None]:
     if len(rows) < _FEWEST:
         return {}
-    mass = _mass(config, rows)
+    mass = mass_of(config, rows)
     window = (float(rows["time"][0]), float(rows["time"][-1]))
-    parts = [name.removesuffix(_OF_PART) for name in rows.columns if name.endswith(_OF_PART)]
-    columns = [column.name for column in recorded(parts, config.run.record)]
-    summary = summary_of(rows.select(columns), parts, config.run.record, mass)
+    summary = summary_of_rows(config, rows, mass)
     work = float(rows["drum_work"][-1] - rows["drum_work"][0])
     told = {name: value for name, value in summary.items() if name not in _NOT_SHOWN}
     energy = {"phase_work": work, "phase_specific_work": work / mass}
@@ -86,7 +84,14 @@ def _means(config: "Config", rows: "pl.DataFrame") -> dict[str, float | None]:
     return energy | told | {name: value for name, value in means.items() if name not in told}
 
 
-def _mass(config: "Config", rows: "pl.DataFrame") -> float:
+def summary_of_rows(config: "Config", rows: "pl.DataFrame", mass: float) -> dict[str, float | None]:
+    """Return the numbers of a `Summary` that rows of a run's series tell, for a load of this mass [kg/m]."""
+    parts = [name.removesuffix(_OF_PART) for name in rows.columns if name.endswith(_OF_PART)]
+    columns = [column.name for column in recorded(parts, config.run.record)]
+    return summary_of(rows.select(columns), parts, config.run.record, mass)
+
+
+def mass_of(config: "Config", rows: "pl.DataFrame") -> float:
     """Return the mass of the load [kg/m]: power over specific power, for a load that was given may have another one."""
     place = rows["drum_power"].abs().arg_max() or 0
     specific = rows["drum_specific_power"][place]

@@ -16,18 +16,25 @@ from cyclopts import App, CycloptsError, Group, Parameter, UnknownOptionError, U
 
 import drumrs
 from drumrs.cli.baseline import baseline
+from drumrs.cli.calibrate import calibrate
+from drumrs.cli.compare import compare
 from drumrs.cli.config import config
 from drumrs.cli.export import export
 from drumrs.cli.info import info
 from drumrs.cli.init import init
 from drumrs.cli.messages import complain, speaking, warn
 from drumrs.cli.movie import movie
+from drumrs.cli.optimize import optimize
 from drumrs.cli.options import PATH, cut_by_shell
+from drumrs.cli.pack import pack
 from drumrs.cli.quantities import quantities
 from drumrs.cli.report import report
 from drumrs.cli.reproduce import reproduce
 from drumrs.cli.run import run
+from drumrs.cli.scale import scale
+from drumrs.cli.screen import screen
 from drumrs.cli.signals import Asked, like_interrupts
+from drumrs.cli.status import status
 from drumrs.cli.studio import studio
 from drumrs.cli.sweep import sweep
 from drumrs.cli.validate import validate
@@ -62,7 +69,12 @@ app = App(
         "- `drumrs export out/case --to vtkhdf` writes it for ParaView\n"
         "- `drumrs movie out/case --out drum.mp4` writes it as a film\n"
         "- `drumrs report out/case --page mill` writes one page of it, for a trade\n"
-        "- `drumrs sweep sweep.toml --out out/sweep` runs many cases\n"
+        "- `drumrs sweep sweep.toml --out out/sweep` runs many cases; `drumrs status out/sweep` tells how far it is\n"
+        "- `drumrs compare a.toml b.toml --by drum_specific_power` finds the better of two machines\n"
+        "- `drumrs optimize search.toml` finds the best values of a few keys\n"
+        "- `drumrs calibrate data.toml` finds what friction makes a measured drum come out right\n"
+        "- `drumrs screen screen.toml --by drum_specific_power` says which keys matter\n"
+        "- `drumrs scale case.toml --factor 4 --out large.toml` makes a larger machine of it\n"
         "- `drumrs quantities ratio` says what is measured under a name with that word\n"
         "- `drumrs verify` holds drumrs against formulas and its own promises\n"
         "- `drumrs validate tracer` simulates a drum that others measured, and compares"
@@ -79,6 +91,13 @@ for _command in (
     baseline,
     reproduce,
     sweep,
+    status,
+    pack,
+    compare,
+    optimize,
+    calibrate,
+    scale,
+    screen,
     view,
     export,
     movie,

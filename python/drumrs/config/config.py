@@ -18,6 +18,7 @@ from drumrs.config.layers import flat, merge, nest, read_json, read_toml
 from drumrs.config.liner import anchored, with_drawing
 from drumrs.config.load import SOLID_FRACTION
 from drumrs.config.messages import conflict
+from drumrs.config.scaling import Keep, scaling
 from drumrs.config.softening import layer, softening
 from drumrs.config.tables import Tables
 from drumrs.config.to_core import core_config
@@ -299,6 +300,38 @@ class Config(Tables):
         (925000.0, '3.7e-05')
         """
         return self.replace(layer(self, softening(self, factor)))
+
+    def scaled(self, factor: float, keep: Keep = "groups") -> Self:
+        """Return a drum whose lengths are larger by a factor, at the same Froude number and fill.
+
+        Gravity and densities stay, so times go with the root of the factor, and the drum turns slower by it.
+
+        Parameters
+        ----------
+        factor
+            What the drum's lengths are multiplied with.
+        keep
+            ``"groups"``: bundles, stiffness, damping, adhesion and time step follow, so that every dimensionless group
+            is what it was, and the motion is the same: bit for bit where the factor is a power of 4, or of 16 with
+            ``contact.base = "hertz"``, whose damping has a fourth root.
+            ``"bundle"``: bundles and their contacts stay what they are, and more of them fill the drum; D/d changes,
+            and with it whatever depends on it.
+
+        Raises
+        ------
+        ConfigError
+            Where the factor or `keep` is not accepted, or no drum can be so large or so small.
+
+        Examples
+        --------
+        >>> import drumrs
+        >>> large = drumrs.baseline().scaled(4.0)
+        >>> large.drum.diameter, large.rotation.rpm, large.bundle_count
+        (1.9, 27.0, 100)
+        >>> drumrs.baseline().scaled(4.0, keep="bundle").bundle_count
+        1600
+        """
+        return self.replace(scaling(self, factor, keep))
 
     def to_toml(self, *, comments: bool = True) -> str:
         """Return the configuration as TOML, each key with its unit and meaning unless `comments` is false."""

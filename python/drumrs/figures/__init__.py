@@ -2,7 +2,7 @@
 
 Those of the load and its history: `snapshot`, `snapshots`, `time_series`, `curves`. Those of what `drumrs.measures`
 returns: `flow`, `wall_profile`, `collision_spectrum`, `mixing_curve`, `landing_rose`, `unbalance_histogram`,
-`regime_map`.
+`regime_map`. Those of decisions: `differences`, `effects`, `indices`.
 
 A figure of one's own has their style where it is made with `new_figure` within `drumrs_style`, and written by `write`.
 """
@@ -15,9 +15,11 @@ from drumrs.figures.history import time_series
 from drumrs.figures.landing import landing_rose
 from drumrs.figures.mixing import mixing_curve
 from drumrs.figures.regimes import regime_map
+from drumrs.figures.sensitivity import effects, indices
 from drumrs.figures.shared import INK, drumrs_style, line_colors, new_figure, render, write
 from drumrs.figures.snapshots import View, snapshot, snapshots
 from drumrs.figures.spectrum import collision_spectrum
+from drumrs.figures.standings import differences
 from drumrs.figures.unbalance import unbalance_histogram
 from drumrs.figures.walls import wall_profile
 
@@ -28,8 +30,11 @@ __all__ = [
     "View",
     "collision_spectrum",
     "curves",
+    "differences",
     "drumrs_style",
+    "effects",
     "flow",
+    "indices",
     "landing_rose",
     "line_colors",
     "mixing_curve",

@@ -56,10 +56,14 @@ def depth_profile(
     sums, counts = [], []
     # Seen from the drum, where baffles stand still.
     for before, after, angle in seen.pairs_from_the_drum(every):
+        if not angle:
+            continue  # While the drum rests, its rim has no speed to compare with.
         speeds = np.linalg.norm(after - before, axis=1) / (radius * abs(angle))
         layer = np.digitize(_depths(before, places, diameter), layers[1:-1])
         sums.append(np.bincount(layer, weights=speeds, minlength=count))
         counts.append(np.bincount(layer, minlength=count))
+    if not sums:
+        return (None,) * count
     return tuple(map(ratio_of_sums, np.array(sums).T, np.array(counts, dtype=np.float64).T))
 
 

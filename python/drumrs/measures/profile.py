@@ -97,8 +97,9 @@ class Profile:
         """Angular velocity over the drum's, mean over the outer half of what lies between the foot and the rim."""
         edge = self.foot - _OUTER * (self.foot + self.drum_radius)
         core = (self.heights < edge) & (self.solid_fractions > _HALF * self.solid_fractions.max())
-        ratios = self.velocities[core] / (self.angular_velocity * self.heights[core])
-        return float(ratios.mean()) if len(ratios) else float("nan")
+        if not self.angular_velocity or not core.any():
+            return float("nan")
+        return float((self.velocities[core] / (self.angular_velocity * self.heights[core])).mean())
 
 
 def profile(frames: FrameWindow, diameter: float, drum_radius: float) -> Profile:
@@ -197,8 +198,9 @@ def layer_in(seen: FrameWindow, diameter: float, drum_radius: float) -> dict[str
 
     def of(chosen: slice) -> dict[str, float]:
         found = profile(seen.piece(chosen), diameter, drum_radius)
+        speed_of_rim = found.angular_velocity * found.drum_radius
         return {
-            "surface_velocity_ratio": found.surface_velocity / (found.angular_velocity * found.drum_radius),
+            "surface_velocity_ratio": found.surface_velocity / speed_of_rim if speed_of_rim else float("nan"),
             "bed_depth": found.depth,
             "layer_thickness": found.layer,
             "layer_to_solid_rotation": found.layer_to_solid_rotation,

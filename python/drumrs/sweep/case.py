@@ -75,6 +75,11 @@ class Case:
         return self.config.bundle_count * self.config.run.duration / time_step
 
 
+def is_id(text: str) -> bool:
+    """Tell whether a word is the id of a case."""
+    return len(text) == _ID_DIGITS and set(text) <= set("0123456789abcdef")
+
+
 def short_ids(ids: Iterable[str], others: Iterable[str] = ()) -> dict[str, str]:
     """Return the beginnings of ids, by id, that tell them apart from each other and from others.
 

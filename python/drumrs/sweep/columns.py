@@ -44,10 +44,16 @@ def parameters(config: Config) -> dict[str, Any]:
     return {key: _plain(values.get(key), kinds[key]) for key in kinds if key != _SEED_KEY}
 
 
+def settings(case: Case) -> dict[str, Any]:
+    """Return the parameters of a case and its seed."""
+    return {**parameters(case.config), SEED: case.seed}
+
+
 def differing(cases: "Sequence[Case]") -> list[str]:
     """Return the columns, among parameters and seed, in which cases differ."""
-    rows = [{**parameters(case.config), SEED: case.seed} for case in cases]
-    return [name for name in rows[0] if any(row[name] != rows[0][name] for row in rows)]
+    first = settings(cases[0])
+    found = {name for case in cases for name, value in settings(case).items() if value != first[name]}
+    return [name for name in first if name in found]
 
 
 def sort_keys() -> list[str]:

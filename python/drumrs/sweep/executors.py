@@ -3,7 +3,7 @@
 import multiprocessing
 import signal
 from collections.abc import Iterator
-from concurrent.futures import Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
+from concurrent.futures import BrokenExecutor, Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
 from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass
 from multiprocessing.synchronize import Event
@@ -51,7 +51,9 @@ class Workers:
         try:
             with _children_without_interrupts() if self.halt is not None else nullcontext():
                 return self.executor.submit(run_case, *arguments, *extra)
-        except Exception as error:  # noqa: BLE001 - every executor has a class of its own for it
+        except Exception as error:  # every executor has a class of its own for it
+            if self.halt is not None and isinstance(error, BrokenExecutor):
+                raise
             raise ConfigError("executor", problem=f"takes no work, but must be open: {error}") from None
 
     def particle_steps(self) -> float:
@@ -93,23 +95,44 @@ def open_workers(executor: Executor | str | None, jobs: int | None) -> Iterator[
     Raises
     ------
     ConfigError
-        Where there is no such executor.
+        Where there is no such executor, or its processes end before they work.
     """
     count = effective_jobs(jobs)
     if executor is None or executor == "threads":
         with ThreadPoolExecutor(count, thread_name_prefix="drumrs") as pool:
             yield Workers(pool, count + _SPARE, Running())
     elif executor == "processes":
-        context = multiprocessing.get_context("spawn")
-        halt = context.Event()
-        with ProcessPoolExecutor(count, context, stop_with, (halt,)) as processes:
-            yield Workers(processes, count + _SPARE, halt=halt)
+        with _processes(count) as workers:
+            yield workers
     elif isinstance(executor, Executor):
         _refuse_fork(executor)
         running = Running() if isinstance(executor, ThreadPoolExecutor) else None
         yield Workers(executor, jobs or MOST_JOBS, running)
     else:
         raise ConfigError("executor", executor, "'threads', 'processes' or an Executor")
+
+
+@contextmanager
+def _processes(count: int) -> Iterator[Workers]:
+    """Spawn processes, each of which imports the script that runs the sweep."""
+    # Set in a process while it imports that script, as multiprocessing itself asks: the process that started it has
+    # the sentence, and what is raised here would be one traceback more.
+    if getattr(multiprocessing.current_process(), "_inheriting", False):
+        raise SystemExit(1)
+    context = multiprocessing.get_context("spawn")
+    halt, begun = context.Event(), context.Event()
+    try:
+        with ProcessPoolExecutor(count, context, stop_with, (halt, begun)) as processes:
+            yield Workers(processes, count + _SPARE, halt=halt)
+    except BrokenExecutor:
+        if begun.is_set():
+            raise
+        problem = "starts processes that end before they work"
+        hint = (
+            "each of them imports the script that runs the sweep: let what it does stand under "
+            'if __name__ == "__main__":'
+        )
+        raise ConfigError("executor", hint=hint, problem=problem) from None
 
 
 def _refuse_fork(executor: Executor) -> None:

@@ -12,6 +12,7 @@ from drumrs.files import NO_ROOM
 from drumrs.progress import Task
 from drumrs.sweep.case import Case
 from drumrs.sweep.executors import Workers, open_workers
+from drumrs.sweep.plan import write_plan
 from drumrs.sweep.store import Store
 from drumrs.sweep.worker import CaseOutcome
 
@@ -62,13 +63,15 @@ class Outcome:
 
 @dataclass(frozen=True)
 class RunOptions:
-    """How to run a sweep: the arguments of `Sweep.run`."""
+    """How to run a sweep: the arguments of `Sweep.run`, and whether it is whole."""
 
     executor: Executor | str | None = None
     jobs: int | None = None
     shard: tuple[int, int] | None = None
     retry: bool = False
     progress: bool = True
+    # Whether these are all cases of the sweep: the folder then gets their list, and is cleared of what was left behind.
+    whole: bool = True
 
 
 @dataclass
@@ -99,7 +102,9 @@ def run_cases(cases: Sequence[Case], folder: Path, options: RunOptions) -> Outco
     mine = shard_of(ordered, options.shard)
     store, tally = Store(folder), _Tally()
     with _say_what_is_kept(store, tally), open_workers(options.executor, options.jobs) as workers:
-        store.open()
+        store.open(tidy=options.whole)
+        if options.whole:
+            write_plan(folder, cases)
         show = options.progress and len(mine) >= _MANY
         with Task("looking for finished cases", len(mine), "cases", show=show) as task:
             waiting = []

@@ -1,7 +1,7 @@
 """Parquet files that know whose they are and notice damage.
 
-The file's metadata hold one JSON object under the key "drumrs": format, what the file holds, the case, the version of
-the physics, and the digest of all its bytes, itself counted as zeros. No time and no machine: equal data, equal bytes.
+The file's metadata hold one JSON object under the key "drumrs": format, what the file holds, whose it is, the version
+of the physics, and the digest of all its bytes, itself counted as zeros. No time, no machine: equal data, equal bytes.
 """
 
 import contextlib
@@ -11,15 +11,18 @@ import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO
 
+from drumrs.column_words import with_schema
 from drumrs.errors import ConfigError
 from drumrs.files import read_plain, replacing, write_whole
 from drumrs.frames import Frames, sink_frames
-from drumrs.sweep.case import Case, physics_version
+from drumrs.sweep.case import physics_version
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     import polars as pl
+
+    from drumrs.tables import Compression
 
 FORMAT = 3
 _KEY = "drumrs"
@@ -32,34 +35,42 @@ _BLANK = "0" * hashlib.sha256().digest_size * 2
 
 
 def write_sealed(
-    path: Path, case: Case, content: str, table: "pl.DataFrame", metadata: "Mapping[str, str] | None" = None
+    path: Path,
+    owner: str,
+    content: str,
+    table: "pl.DataFrame",
+    metadata: "Mapping[str, str] | None" = None,
+    compression: "Compression" = "uncompressed",
 ) -> None:
-    """Write the table of a case, whole or not at all.
+    """Write a table, whole or not at all.
 
     Parameters
     ----------
     path
         File to write.
-    case
-        Whose results they are.
+    owner
+        Id of the case whose results they are, or name of the pack.
     content
-        What the file holds: "summary", "series", "frames".
+        What the file holds: "summary", "series", "frames", "pack".
     table
         The results.
     metadata
         Further words on the file, such as units.
+    compression
+        How columns are compressed.
     """
     buffer = io.BytesIO()
-    seal = json.dumps({**_claims(case, content), "sha256": _BLANK})
-    table.write_parquet(buffer, compression="uncompressed", metadata={**(metadata or {}), _KEY: seal})
+    seal = json.dumps({**_claims(owner, content), "sha256": _BLANK})
+    words = {**with_schema(metadata or {}, table.schema), _KEY: seal}
+    table.write_parquet(buffer, compression=compression, metadata=words)
     data = buffer.getvalue()
     head, _, tail = data.rpartition(_BLANK.encode())
     write_whole(path, head, hashlib.sha256(data).hexdigest().encode(), tail)
 
 
-def write_sealed_frames(path: Path, case: Case, frames: Frames) -> None:
+def write_sealed_frames(path: Path, owner: str, frames: Frames) -> None:
     """Write the frames of a case, whole or not at all, and batch by batch: the table takes three times their memory."""
-    seal = json.dumps({**_claims(case, "frames"), "sha256": _BLANK})
+    seal = json.dumps({**_claims(owner, "frames"), "sha256": _BLANK})
     with replacing(path) as temporary:
         words = {**frames.metadata(), _KEY: seal}
         sink_frames(temporary, frames.lazy_table(), frames.count, words, "uncompressed")
@@ -72,15 +83,25 @@ def write_sealed_frames(path: Path, case: Case, frames: Frames) -> None:
             file.write(digest.encode())
 
 
-def read_sealed(path: Path, case: Case, content: str) -> io.BytesIO:
-    """Return the bytes of a file that is whole and the case's own.
+def read_sealed(path: Path, owner: str, content: str) -> io.BytesIO:
+    """Return the bytes of a file that is whole and its owner's.
 
     Raises
     ------
     ConfigError
         Where the file is missing, damaged, or holds something else; the sentence names it.
     """
-    data = _read(path)
+    return check_sealed(path, _read(path), owner, content)
+
+
+def check_sealed(path: Path, data: bytes, owner: str, content: str) -> io.BytesIO:
+    """Return bytes that were read from a file once they are known to be whole and its owner's.
+
+    Raises
+    ------
+    ConfigError
+        Where they are damaged, or hold something else; the sentence names the file.
+    """
     head, digest, tail = _cut(data)
     # Before the parser sees it: some damage makes it give up in a way of its own.
     if digest and hashlib.sha256(head + _BLANK.encode() + tail).hexdigest().encode() != digest:
@@ -88,7 +109,7 @@ def read_sealed(path: Path, case: Case, content: str) -> io.BytesIO:
     seal = _seal(path, data)
     if not isinstance(seal, dict):
         raise ConfigError(path, problem="was not written by drumrs")
-    for name, wanted in _claims(case, content).items():
+    for name, wanted in _claims(owner, content).items():
         if seal.get(name) != wanted:
             whose = "another version of drumrs wrote it" if name in _VERSIONS else "it is another's file"
             problem = f"has {name} {seal.get(name)!r}, but must have {wanted!r}: {whose}"
@@ -134,5 +155,5 @@ def _seal(path: Path, data: bytes) -> Any:
         raise ConfigError(path, problem="is damaged or no parquet file") from None
 
 
-def _claims(case: Case, content: str) -> dict[str, object]:
-    return {"format": FORMAT, "content": content, "case": case.id, "physics_version": physics_version()}
+def _claims(owner: str, content: str) -> dict[str, object]:
+    return {"format": FORMAT, "content": content, "case": owner, "physics_version": physics_version()}

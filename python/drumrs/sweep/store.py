@@ -10,7 +10,9 @@
 | `<id>.parquet` | one row of parameters and summary, written last: its being there means that the case is finished |
 | `<id>.error.json` | why the case failed |
 | `<id>.checkpoint.bin` | how far a case is that takes long; gone when it is finished |
+| `plan.parquet` | the cases of the last sweep here, finished or not: `plan` |
 | `drumrs-sweep.json` | the version of this format |
+| `packs` | finished cases that were packed: `packs` |
 """
 
 import contextlib
@@ -22,14 +24,16 @@ from typing import TYPE_CHECKING, Any
 from drumrs.analysis import statistics
 from drumrs.contact_records import COLUMNS, file_words
 from drumrs.errors import ConfigError, format_value
-from drumrs.files import NO_ROOM, read_object, write_whole
+from drumrs.files import NO_ROOM, parse_object, read_object, write_whole
 from drumrs.folders import marker, require_own
 from drumrs.frames import Frames
 from drumrs.registry import known, metadata
 from drumrs.result import Result, Summary
-from drumrs.sweep.case import Case
+from drumrs.sweep.case import Case, is_id
 from drumrs.sweep.columns import TIMINGS, row, schema
-from drumrs.sweep.sealed import FORMAT, read_sealed, write_sealed, write_sealed_frames
+from drumrs.sweep.packs import Packs
+from drumrs.sweep.plan import PLAN
+from drumrs.sweep.sealed import FORMAT, check_sealed, read_sealed, write_sealed, write_sealed_frames
 
 if TYPE_CHECKING:
     import io
@@ -39,10 +43,13 @@ if TYPE_CHECKING:
 
 MARK = marker("sweep")
 TABLE = "table.parquet"
-_ENDINGS = (
-    *("toml", "series.parquet", "frames.parquet", "facts.json", "parquet", "error.json", "checkpoint.bin"),
+# Endings of the files of a finished case, in the order in which they are written.
+RESULTS = (
+    *("toml", "series.parquet", "frames.parquet"),
     *(f"{kind}.parquet" for kind in COLUMNS),
+    *("facts.json", "parquet"),
 )
+_ENDINGS = (*RESULTS, "error.json", "checkpoint.bin")
 _HOUR = 3600.0
 
 
@@ -51,9 +58,15 @@ class Store:
 
     def __init__(self, folder: str | Path) -> None:
         self.folder = Path(folder)
+        self.packs = Packs(self.folder)
 
-    def open(self) -> None:
+    def open(self, *, tidy: bool = True) -> None:
         """Make the folder where there is none, and mark it.
+
+        Parameters
+        ----------
+        tidy
+            Whether to look for what killed runs were writing, which lists the whole folder.
 
         Raises
         ------
@@ -64,13 +77,15 @@ class Store:
         self.require_own()
         try:
             self.folder.mkdir(parents=True, exist_ok=True)
-            write_whole(self.folder / MARK, f"{json.dumps({'format': FORMAT})}\n".encode())
+            if read_object(self.folder / MARK) != (mark := {"format": FORMAT}):
+                write_whole(self.folder / MARK, f"{json.dumps(mark)}\n".encode())
         except OSError as error:
             if error.errno in NO_ROOM:
                 raise
             limit = f"a folder that can be written: {error.strerror}"
             raise ConfigError("folder", self.folder, limit) from None
-        self._remove_leftovers()
+        if tidy:
+            self._remove_leftovers()
 
     def check_format(self) -> None:
         """Refuse a folder that a newer version of drumrs made; one that is not there yet is fine."""
@@ -90,17 +105,38 @@ class Store:
             problem = f"is of format {format_value(found)}, but must be {limit}"
             raise ConfigError(self.folder, found, limit, problem=problem, bound=FORMAT)
 
+    def require_sweep(self) -> None:
+        """Refuse what is not the folder of a sweep that this version of drumrs knows.
+
+        Raises
+        ------
+        ConfigError
+            Where there is no such folder, or it is of something else.
+        """
+        self.check_format()
+        if not (self.folder / MARK).is_file():
+            limit = f"the folder of a sweep, with a file {MARK} in it"
+            runs = self.folder / "runs"
+            hint = f"did you mean {str(runs)!r}?" if (runs / MARK).is_file() else ""
+            raise ConfigError("folder", self.folder, limit, hint=hint)
+
+    def loose_ids(self, ending: str = "parquet") -> set[str]:
+        """Return the ids of the cases that have a file with this ending in the folder itself, not in a pack."""
+        names = (path.name.partition(".") for path in self.folder.glob(f"*.{ending}"))
+        return {case for case, _, rest in names if rest == ending and is_id(case)}
+
     def ids(self) -> set[str]:
         """Return the ids of all finished cases in the folder, those of other sweeps included."""
-        return {path.name.partition(".")[0] for path in self.folder.glob("*.facts.json")}
+        return self.loose_ids() | self.packs.ids()
 
     def require_own(self) -> None:
         """Refuse a folder of something else, or one with a table that drumrs did not write."""
-        require_own(self.folder, "sweep", [TABLE])
+        require_own(self.folder, "sweep", [TABLE, PLAN])
 
     def is_settled(self, case: Case) -> bool:
         """Tell whether a case has results or an error, without looking into them."""
-        return any(self._path(case, ending).exists() for ending in ("parquet", "error.json"))
+        loose = any(self._path(case, ending).exists() for ending in ("parquet", "error.json"))
+        return loose or self.packs.holding(case.id) is not None
 
     def require_names(self, case: Case) -> None:
         """Refuse a folder in which something that no write can replace has the name of a case's file.
@@ -120,7 +156,7 @@ class Store:
 
         A case that has not been finished has no record of completion, and an empty fault.
         """
-        if not self._path(case, "parquet").exists():
+        if not self.has_row(case) and self.packs.holding(case.id) is None:
             return ""
         try:
             self._read_row(case)
@@ -150,22 +186,28 @@ class Store:
         write_whole(self._path(case, "toml"), case.config.to_toml().encode())
         write_sealed(
             self._parquet(case, "series"),
-            case,
+            case.id,
             "series",
             result.series,
             metadata(known(result.series.columns)),
         )
         if case.wants_frames:
-            write_sealed_frames(self._parquet(case, "frames"), case, result.frames)
+            write_sealed_frames(self._parquet(case, "frames"), case.id, result.frames)
         tables = result.contact_tables()
         for kind in case.contact_tables:
             words = file_words(kind, tables["dissipated"])
-            write_sealed(self._parquet(case, kind), case, kind, tables[kind], words)
+            write_sealed(self._parquet(case, kind), case.id, kind, tables[kind], words)
         timings = {name: getattr(result.summary, name) for name in TIMINGS}
         self._write_json(case, "facts", {"case": case.id, **timings, **facts})
         self._write_row(case, result.summary, result.series)
         for ending in ("error.json", "checkpoint.bin"):
             self._path(case, ending).unlink(missing_ok=True)
+
+    def write_config(self, case: Case) -> None:
+        """Write the file of a case that has none, in the folder itself or packed."""
+        path = self._path(case, "toml")
+        if not path.exists() and self.packs.holding(case.id) is None:
+            write_whole(path, case.config.to_toml().encode())
 
     def checkpoint(self, case: Case) -> Path:
         """Return where a case keeps its checkpoint."""
@@ -198,18 +240,20 @@ class Store:
         """Return what `write_error` kept, `None` where the case has not failed."""
         return read_object(self._path(case, "error.json"))
 
-    def summary_path(self, case: Case) -> Path | None:
-        """Return the file of a finished case's row once it has been found whole; `None` where there is none.
+    def has_row(self, case: Case) -> bool:
+        """Tell whether the row of a finished case stands in the folder itself, not in a pack."""
+        return self._path(case, "parquet").exists()
+
+    def row_path(self, case: str) -> Path:
+        """Return the file of a finished case's row, which is not packed, once it has been found whole.
 
         Raises
         ------
         ConfigError
-            Where the file is damaged or another's.
+            Where the file is damaged, another's or of other columns.
         """
-        path = self._path(case, "parquet")
-        if not path.exists():
-            return None
-        self._read_row(case)
+        path = self.folder / f"{case}.parquet"
+        _check_columns(path, read_sealed(path, case, "summary"))
         return path
 
     def series(self, case: Case) -> "pl.DataFrame":
@@ -244,12 +288,18 @@ class Store:
             **tables,
         )
 
-    def facts(self, case: Case) -> dict[str, Any]:
-        """Return time taken and machine."""
-        return read_object(self._path(case, "facts.json")) or {}
+    def facts(self, case: str) -> dict[str, Any]:
+        """Return time taken and machine of a case, by its id."""
+        path = self.folder / f"{case}.facts.json"
+        if not path.exists() and (packed := self.packs.read(path.name)) is not None:
+            return parse_object(packed[1]) or {}
+        return read_object(path) or {}
 
     def _read(self, case: Case, content: str) -> "io.BytesIO":
-        return read_sealed(self._parquet(case, content), case, content)
+        path = self._parquet(case, content)
+        if not path.exists() and (packed := self.packs.read(path.name)) is not None:
+            return check_sealed(*packed, case.id, content)
+        return read_sealed(path, case.id, content)
 
     def _summary(self, case: Case) -> Summary:
         import polars as pl
@@ -259,15 +309,11 @@ class Store:
 
     def _write_row(self, case: Case, summary: Summary, series: "pl.DataFrame") -> None:
         found = statistics(series, case.config.run.averaging_window, case.load_mass)
-        write_sealed(self._parquet(case, "summary"), case, "summary", row(case, summary, found))
+        write_sealed(self._parquet(case, "summary"), case.id, "summary", row(case, summary, found))
 
     def _read_row(self, case: Case) -> None:
         """Refuse a row that is damaged, another's or of other columns."""
-        import polars as pl
-
-        if pl.read_parquet_schema(self._read(case, "summary")) != schema():
-            path = self._parquet(case, "summary")
-            raise ConfigError(path, problem="has the columns of another version of drumrs")
+        _check_columns(self._parquet(case, "summary"), self._read(case, "summary"))
 
     def _parquet(self, case: Case, content: str) -> Path:
         return self._path(case, "parquet" if content == "summary" else f"{content}.parquet")
@@ -284,3 +330,10 @@ class Store:
             with contextlib.suppress(OSError):
                 if time.time() - path.stat().st_mtime > _HOUR:
                     path.unlink()
+
+
+def _check_columns(path: Path, row: "io.BytesIO") -> None:
+    import polars as pl
+
+    if pl.read_parquet_schema(row) != schema():
+        raise ConfigError(path, problem="has the columns of another version of drumrs")

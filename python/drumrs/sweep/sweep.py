@@ -11,7 +11,8 @@ from drumrs.errors import ConfigError
 from drumrs.frames import Frames
 from drumrs.sweep import design, table
 from drumrs.sweep.case import Case, short_ids
-from drumrs.sweep.columns import SEED, differing, parameters
+from drumrs.sweep.columns import differing, settings
+from drumrs.sweep.plan import write_plan
 from drumrs.sweep.scheduler import Outcome, RunOptions, run_cases
 from drumrs.sweep.store import Store
 
@@ -131,8 +132,9 @@ class Sweep:
 
     def _repr_html_(self) -> str:
         """Show in a notebook how many cases there are, and by what they differ."""
-        cases = [{**parameters(case.config), SEED: case.seed} for case in self.cases]
-        rows = {name: _listed(dict.fromkeys(str(case[name]) for case in cases)) for name in self.varied()}
+        varied = self.settings().values()
+        names = next(iter(varied))
+        rows = {name: _listed(dict.fromkeys(str(case[name]) for case in varied)) for name in names}
         cost = f"{sum(case.cost for case in self.cases):.2g}"
         return notebook.table(f"sweep of {len(self)} cases", {**rows, "particle-steps": cost})
 
@@ -140,10 +142,34 @@ class Sweep:
         """Return the columns, among parameters and seed, in which the cases differ."""
         return differing(self.cases)
 
-    def settings(self, case: Case) -> dict[str, Any]:
-        """Return what tells a case from the others: the values of `varied`."""
-        values = {**parameters(case.config), SEED: case.seed}
-        return {name: values[name] for name in self.varied()}
+    def settings(self) -> dict[str, dict[str, Any]]:
+        """Return what tells each case from the others, by its id: the values of `varied`."""
+        varied = self.varied()
+        values = ((case.id, settings(case)) for case in self.cases)
+        return {case: {name: row[name] for name in varied} for case, row in values}
+
+    def write_plan(self, folder: str | Path) -> None:
+        """Write the list of the cases into a folder, which is made where there is none, and the file of each case.
+
+        For workflow engines, which run the cases one by one: ``<id>.toml`` is a case file that is complete.
+
+        Parameters
+        ----------
+        folder
+            Where the results are going to be.
+
+        Raises
+        ------
+        ConfigError
+            Where the folder is not accepted.
+        OSError
+            Where the files cannot be written.
+        """
+        store = Store(folder)
+        store.open()
+        write_plan(store.folder, self.cases)
+        for case in self.cases:
+            store.write_config(case)
 
     def short_ids(self, folder: str | Path | None = None) -> dict[str, str]:
         """Return the beginning of each case's id by id, as long as tells it from all cases in the folder.

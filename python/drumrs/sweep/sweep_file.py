@@ -49,20 +49,26 @@ def read_sweep(path: str | Path, seeds: "Seeds" = None) -> Sweep:
     for key in content:
         if key not in _KEYS:
             raise ConfigError(key, content[key], problem="is not a key of a sweep file", hint=_meant(key))
-    axes = _table(content, "axes")
+    axes = table_of(content, "axes")
     folder = Path(path).parent
     return Sweep(
-        _base(content, folder),
+        read_base(content, folder),
         None if axes is None else flat(anchored(axes, folder)),
         content.get("seeds") if seeds is None else seeds,
     )
 
 
-def _base(content: Mapping[str, Any], folder: Path) -> Config:
-    """Read what all cases share: a case file, keys, or keys laid over a case file."""
+def read_base(content: Mapping[str, Any], folder: Path) -> Config:
+    """Read what all cases share: a case file, keys, or keys laid over a case file.
+
+    Raises
+    ------
+    ConfigError
+        Where a file cannot be read, or a key or value is not accepted.
+    """
     if isinstance(content.get("base"), str):
         return Config.read(folder / content["base"])
-    keys = dict(_table(content, "base") or {})
+    keys = dict(table_of(content, "base") or {})
     file = keys.pop("file", None)
     if file is None:
         return Config().replace(anchored(keys, folder))
@@ -71,7 +77,14 @@ def _base(content: Mapping[str, Any], folder: Path) -> Config:
     return Config.read(folder / file).replace(anchored(keys, folder))
 
 
-def _table(content: Mapping[str, Any], key: str) -> Mapping[str, Any] | None:
+def table_of(content: Mapping[str, Any], key: str) -> Mapping[str, Any] | None:
+    """Return a table of a file, `None` where it has none of this name.
+
+    Raises
+    ------
+    ConfigError
+        Where it is no table.
+    """
     table = content.get(key)
     if table is not None and not isinstance(table, Mapping):
         choice = " or the path of a case file" if key == "base" else ""

@@ -1,11 +1,12 @@
-"""The table of a sweep: one row a finished case, sorted, whatever order they were finished in."""
+"""The table of a sweep: one row a finished case, sorted, whatever order they were finished in; and that of a folder."""
 
 import io
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from drumrs.analysis import Mean
+from drumrs.column_words import with_schema
 from drumrs.errors import ConfigError
 from drumrs.files import write_whole
 from drumrs.sweep.case import Case
@@ -30,14 +31,74 @@ def scan(cases: Sequence[Case], store: Store) -> "pl.LazyFrame":
     """
     import polars as pl
 
+    loose = [case for case in cases if store.has_row(case)]
+    others = {case.id for case in cases}.difference(case.id for case in loose)
     try:
-        found = [path for case in cases if (path := store.summary_path(case)) is not None]
+        rows = [_scan([store.row_path(case.id) for case in loose])]
     except ConfigError as error:
         error.hint = "run the sweep again to compute it anew"
         raise
-    if not found:
-        return pl.LazyFrame(schema=schema())
-    return pl.scan_parquet(found, glob=False).sort(sort_keys(), maintain_order=True)
+    for pack in store.packs:
+        if wanted := others & pack.ids:
+            rows.append(_scan([pack.check_rows()]).filter(_is_one_of(wanted)))
+            # Two that packed one folder at the same time may have packed the same case.
+            others -= wanted
+    return pl.concat(rows).sort(sort_keys(), maintain_order=True)
+
+
+def scan_folder(folder: str | Path) -> "pl.LazyFrame":
+    """Scan the rows of all finished cases in a sweep's folder, of whichever sweep they are: for very many cases.
+
+    Parameters
+    ----------
+    folder
+        A sweep's folder, packed or not.
+
+    Returns
+    -------
+    polars.LazyFrame
+        The columns of `Sweep.table`, in no particular order. What is collected of it is all that memory has to hold.
+
+    Raises
+    ------
+    ConfigError
+        Where there is no such folder, or a file is damaged or of another version; the sentence names it.
+
+    Examples
+    --------
+    >>> import tempfile, drumrs
+    >>> from drumrs.sweep import scan_folder
+    >>> folder = tempfile.mkdtemp()
+    >>> sweep = drumrs.Sweep(drumrs.baseline(fill=0.05).replace({"run.duration": 0.05}), seeds=2)
+    >>> outcome = sweep.run(folder, progress=False)
+    >>> scan_folder(folder).select("seed", "load.fill").sort("seed").collect().rows()
+    [(0, 0.05), (1, 0.05)]
+    """
+    import polars as pl
+
+    store = Store(folder)
+    store.require_sweep()
+    loose = store.loose_ids()
+    packs = [pack for pack in store.packs if not loose or not pack.ids <= loose]
+    packed = _scan([pack.check_rows() for pack in packs])
+    if loose:
+        packed = packed.filter(~_is_one_of(loose))
+    # As above; hashes of a million ids take less memory than the ids.
+    if not packed.select(pl.col("case").hash().n_unique() == pl.len()).collect(engine="streaming").item():
+        packed = packed.unique(subset="case")
+    return pl.concat([packed, _scan([store.row_path(case) for case in sorted(loose)])])
+
+
+def _scan(paths: list[Path]) -> "pl.LazyFrame":
+    import polars as pl
+
+    return pl.scan_parquet(paths, glob=False) if paths else pl.LazyFrame(schema=schema())
+
+
+def _is_one_of(ids: Collection[str]) -> "pl.Expr":
+    import polars as pl
+
+    return pl.col("case").is_in(pl.Series(sorted(ids)).implode())
 
 
 def write(cases: Sequence[Case], store: Store) -> Path:
@@ -50,9 +111,12 @@ def write(cases: Sequence[Case], store: Store) -> Path:
     OSError
         Where it cannot be written; the cases' files are untouched.
     """
+    import polars as pl
+
     store.require_own()
     buffer = io.BytesIO()
-    scan(cases, store).collect().write_parquet(buffer, compression="uncompressed", metadata=metadata())
+    words = with_schema(metadata(), pl.Schema(schema()))
+    scan(cases, store).collect().write_parquet(buffer, compression="uncompressed", metadata=words)
     path = store.folder / TABLE
     write_whole(path, buffer.getvalue())
     return path
@@ -95,7 +159,7 @@ def facts(cases: Sequence[Case], store: Store) -> "pl.DataFrame":
     """Return time taken and machine of the finished cases: what differs from run to run."""
     import polars as pl
 
-    rows = [found for case in cases if (found := store.facts(case))]
+    rows = [found for case in cases if (found := store.facts(case.id))]
     wanted = {
         "case": pl.String,
         "wall_time": pl.Float64,

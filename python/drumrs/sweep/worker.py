@@ -79,11 +79,12 @@ class Running:
 _here = Running()
 
 
-def stop_with(halt: Event) -> None:
-    """Make this process one that works for a sweep elsewhere: it stops when told so, not by Ctrl-C.
+def stop_with(halt: Event, begun: Event) -> None:
+    """Make this process one that works for a sweep elsewhere: it says so, and stops when told so, not by Ctrl-C.
 
     Where the process that it works for is no more, killed for instance, it ends at once.
     """
+    begun.set()
     signal.signal(signal.SIGINT, signal.SIG_IGN)
 
     def wait() -> None:

@@ -61,23 +61,16 @@ def _ran(config: Config, steps: int, threads: int = 1, state: State | None = Non
 
 def _scaled(config: Config, mass: float) -> Config:
     """Return lengths × 4, times × 2, masses × `mass`, gravity as it is."""
-    drum, load, run, contact = config.drum, config.load, config.run, config.contact
-    changes: dict[str, Any] = {
-        "drum.diameter": 4.0 * drum.diameter,
-        "drum.baffles.height": 4.0 * drum.baffles.height,
-        "drum.baffles.base": 4.0 * drum.baffles.base,
-        "drum.baffles.tip": 4.0 * drum.baffles.tip,
-        "load.diameter": 4.0 * load.diameter,
-        "load.density": load.density * mass / 16.0,
-        "load.start_speed": 2.0 * load.start_speed,
-        "rotation.program": [[2.0 * time, rpm / 2.0] for time, rpm in config.rotation.program or ()],
-        "run.time_step": 2.0 * float(run.time_step),
-        "run.sample_every": 2.0 * run.sample_every,
-        "contact.drum.normal_damping": (contact.drum.normal_damping or 0.0) * mass / 2.0,
-    }
-    for side, law in (("bundle", contact.bundle), ("drum", contact.drum)):
-        changes[f"contact.{side}.normal_stiffness"] = law.normal_stiffness * mass / 4.0
-    return config.replace(changes)
+    large = config.scaled(4.0)
+    contact, heavier = large.contact, mass / 16.0  # what masses × 16 are multiplied with
+    return large.replace(
+        {
+            "load.density": large.load.density * heavier,
+            "contact.drum.normal_damping": (contact.drum.normal_damping or 0.0) * heavier,
+            "contact.bundle.normal_stiffness": contact.bundle.normal_stiffness * heavier,
+            "contact.drum.normal_stiffness": contact.drum.normal_stiffness * heavier,
+        }
+    )
 
 
 @case(

@@ -9,6 +9,7 @@ from typing import Any
 from drumrs.config import Config, parse_settings
 from drumrs.config.layers import flat
 from drumrs.errors import ConfigError
+from drumrs.folders import PACKS
 
 FRAMES = "frames.parquet"
 _MOST_LINES = 40
@@ -55,7 +56,9 @@ def find(path: Path, wanted: Sequence[str] = ()) -> Path:
     limit = (
         "the frames.parquet of a run, its folder, or the folder of a sweep with the beginning of a case's id"
     )
-    raise ConfigError(path, limit=limit, problem=f"is not there, but must be {limit}")
+    packed = (path.parent / PACKS).is_dir()
+    hint = f"where it is packed: drumrs pack {path.parent} --unpack {path.name}" if packed else ""
+    raise ConfigError(path, limit=limit, hint=hint, problem=f"is not there, but must be {limit}")
 
 
 def config_of(frames: Path) -> Config | None:
@@ -103,6 +106,8 @@ def _one_of(path: Path, found: Sequence[Path], wanted: Sequence[str]) -> Path:
 def _why_nothing(path: Path) -> str:
     if (path / "records").is_dir():
         return f"its run has not come to an end; go on with: drumrs run --resume {path}"
+    if (path / PACKS).is_dir():
+        return f"its cases are packed; drumrs pack {path} --unpack ID brings one back"
     if any(path.glob("*.series.parquet")):
         return "its cases keep no frames, as run.frame_every is not smaller than run.duration"
     there = sorted(entry.name for entry in path.iterdir()) if path.is_dir() else []

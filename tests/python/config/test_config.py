@@ -6,7 +6,7 @@ import tomllib
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from pydantic import BaseModel
 
@@ -168,6 +168,8 @@ def _is_table(key: str) -> bool:
 
 
 @pytest.mark.parametrize("key", sorted(VALUES))
+# Sixty keys take the same way: some values of each say as much as a hundred.
+@settings(max_examples=20)
 @given(data=st.data())
 def test_key_survives_toml_and_json(key, data):
     value = data.draw(VALUES[key])

@@ -18,14 +18,14 @@ from drumrs.config.schema import editor_schema
 ROOT = Path(__file__).parents[3]
 SCHEMA = editor_schema(Config)
 VALIDATOR = Draft202012Validator(SCHEMA)
-# Sweep files have keys of their own.
+# Sweep files have keys of their own, and row, a workflow engine, has its own files.
 CASES = [
     (page.name, block)
     for page in [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
     for block in re.findall(
         r"^```toml\n(.*?)^```", page.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL
     )
-    if not re.search(r"^(seeds|base = \"|\[axes|\[base)", block, re.MULTILINE)
+    if not re.search(r"^(seeds|base = \"|\[axes|\[base|\[\[action)", block, re.MULTILINE)
 ]
 
 

@@ -10,7 +10,6 @@ import pytest
 from drumrs import ConfigError, baseline, paper
 from drumrs.paper.baffle import inference, observations, sentences
 from drumrs.paper.baffle.design import Plan
-from drumrs.paper.baffle.emulator import Emulator
 from drumrs.paper.baffle.evidence import Means, Observable
 from drumrs.paper.baffle.posterior import measured_corrections, posterior, round_shapes, spread_over
 from drumrs.paper.baffle.sentences import (
@@ -190,43 +189,6 @@ def test_shapes_are_configurations_down_to_their_limits(shape):
     assert config.derived.load_mass > 0.0
 
 
-def test_the_emulator_knows_its_errors():
-    rng = np.random.default_rng(1)
-    shapes = [Shape(*row) for row in shapes_in_region(60).tolist()]
-    new = shapes_in_region(300, seed=2)
-
-    def smooth(rows):
-        return 3.0 + 20.0 * rows[:, 0] + np.sin(30.0 * rows[:, 1]) * rows[:, 2] * 10.0
-
-    errors = np.full(60, 0.1)
-    emulator = Emulator.fit(
-        shapes, smooth(np.array([one.lengths for one in shapes])) + rng.normal(0.0, 0.1, 60), errors
-    )
-    mean, error = emulator.predict(new)
-    strays = (mean - smooth(new)) / error
-    assert 0.5 < np.sqrt(np.mean(strays**2)) < 1.5
-    assert np.median(error) < 0.1 < smooth(new).std()
-    # One that was told too small an error says so, and states larger ones.
-    rash = Emulator.fit(shapes, rng.normal(0.0, 1.0, 60), np.full(60, 0.1))
-    assert rash.predict(new)[1].mean() > 0.15
-
-
-def test_the_emulator_leaves_one_out():
-    shapes = [Shape(*row) for row in shapes_in_region(25).tolist()]
-    means = np.array([one.height + np.sin(20.0 * one.base) for one in shapes])
-    errors = np.full(25, 0.05)
-    whole = Emulator.fit(shapes, means, errors)
-    from sklearn.gaussian_process import GaussianProcessRegressor
-
-    kept = [k for k in range(25) if k != 7]
-    own = GaussianProcessRegressor(whole.process.kernel_, alpha=whole.process.alpha[kept], optimizer=None)
-    x = whole.process.X_train_
-    own.fit(x[kept], whole.process.y_train_[kept])
-    mean, error = own.predict(x[[7]], return_std=True)
-    stray = (whole.process.y_train_[7] - mean[0]) / np.hypot(error[0], np.sqrt(whole.process.alpha[7]))
-    assert whole.strays[7] == pytest.approx(stray, rel=1e-6)
-
-
 def test_the_posterior_finds_the_truth():
     dense = shapes_in_region(4000)
     found = posterior(dense, known_at(dense))
@@ -354,8 +316,10 @@ def test_the_kept_page_says_what_is_called_inferred():
 
 
 def test_a_missing_library_is_named_before_anything_runs(monkeypatch, tmp_path):
-    monkeypatch.setattr("drumrs.paper.baffle.emulator.find_spec", lambda _: None)
-    with pytest.raises(ConfigError, match=r"needs scikit-learn, which is not installed.*drumrs\[decide\]"):
+    monkeypatch.setattr("drumrs.decide.emulator.find_spec", lambda _: None)
+    with pytest.raises(
+        ConfigError, match=r"needs the package sklearn, which is not installed.*drumrs\[decide\]"
+    ):
         paper.infer_baffle(tmp_path / "new")
     assert not (tmp_path / "new").exists()
 

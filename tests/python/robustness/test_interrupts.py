@@ -131,14 +131,15 @@ if __name__ == "__main__":
 """
 
 
-def test_workers_end_with_the_process_that_they_work_for(tmp_path):
+@pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGTERM])
+def test_workers_end_with_the_process_that_they_work_for(tmp_path, number):
     (tmp_path / "many.py").write_text(PROCESSES)
     words = [sys.executable, "many.py"]
     child = subprocess.Popen(words, cwd=tmp_path, env=ENVIRONMENT, start_new_session=True)
     end = time.monotonic() + 60.0
     while not list(tmp_path.glob("out/*.facts.json")) and time.monotonic() < end:
         time.sleep(0.05)
-    child.kill()
+    child.send_signal(number)
     child.wait()
     end = time.monotonic() + 20.0
     while _group_is_alive(child.pid) and time.monotonic() < end:
@@ -149,6 +150,26 @@ def test_workers_end_with_the_process_that_they_work_for(tmp_path):
     assert not alive
 
 
+def test_a_script_without_a_main_guard_gets_a_sentence(tmp_path):
+    guard = 'if __name__ == "__main__":'
+    (tmp_path / "many.py").write_text(PROCESSES.replace(guard, "if True:").replace(", 500.0", ", 0.06"))
+    ran = subprocess.run(
+        [sys.executable, "many.py"],
+        cwd=tmp_path,
+        env=ENVIRONMENT,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert ran.returncode == 1
+    assert ran.stderr.count("Traceback") == 1
+    assert ran.stderr.rstrip().endswith(
+        "executor starts processes that end before they work; each of them imports the script that runs the sweep: let "
+        f"what it does stand under {guard}"
+    )
+    assert not list(tmp_path.glob("out/*.facts.json"))
+
+
 def _group_is_alive(group: int) -> bool:
     try:
         os.killpg(group, 0)
@@ -157,7 +178,9 @@ def _group_is_alive(group: int) -> bool:
     return True
 
 
-@pytest.mark.parametrize(("seen", "count", "most"), [("drumrs-sweep.json", 0, 5.0), ("*.facts.json", 1, 2.0)])
+@pytest.mark.parametrize(
+    ("seen", "count", "most"), [("drumrs-sweep.json", 0, 5.0), ("?" * 20 + ".parquet", 1, 2.0)]
+)
 def test_ctrl_c_stops_the_processes_of_a_sweep(tmp_path, seen, count, most):
     """As from a terminal, every process of the group gets the signal: while they import, and when they run."""
     (tmp_path / "many.py").write_text(PROCESSES)
@@ -173,7 +196,7 @@ def test_ctrl_c_stops_the_processes_of_a_sweep(tmp_path, seen, count, most):
     end = time.monotonic() + 60.0
     while not list(tmp_path.glob(f"out/{seen}")) and time.monotonic() < end:
         time.sleep(0.05)
-    time.sleep(0.5)  # a case's row comes after its facts, and the sweep has to hear of it
+    time.sleep(0.5)  # the sweep has to hear of it
     asked = time.monotonic()
     os.killpg(child.pid, signal.SIGINT)
     printed, complaint = child.communicate(timeout=60)

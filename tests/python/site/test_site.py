@@ -17,7 +17,7 @@ PAGES = [
     "measures/README",
     "reference/python",
     "reference/api/drumrs.Simulation",
-    "_generated/keys",
+    "reference/keys",
     "_generated/drumrs.analysis",
     "gallery/index",
     "gallery/10_ball_mill",

@@ -53,7 +53,9 @@ def contents(folder) -> dict[str, bytes]:
 def records(folder) -> list[str]:
     """Names of the cases whose record of completion is there."""
     return sorted(
-        path.stem for path in folder.glob("*.parquet") if path.name.count(".") == 1 and path.stem != "table"
+        path.stem
+        for path in folder.glob("*.parquet")
+        if path.name.count(".") == 1 and path.stem not in {"table", "plan"}
     )
 
 

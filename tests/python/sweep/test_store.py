@@ -41,7 +41,7 @@ def test_files_of_a_case(finished):
     sweep, folder = finished
     endings = ("toml", "parquet", "series.parquet", "frames.parquet", "facts.json")
     names = {f"{case.id}.{ending}" for case in sweep.cases for ending in endings}
-    assert {path.name for path in folder.iterdir()} == names | {"drumrs-sweep.json"}
+    assert {path.name for path in folder.iterdir()} == names | {"drumrs-sweep.json", "plan.parquet"}
     for case in sweep.cases:
         assert drumrs.Config.read(folder / f"{case.id}.toml") == case.config
 
@@ -247,7 +247,7 @@ def test_a_row_of_older_columns_is_made_again_without_simulating(copy, monkeypat
     path = folder / f"{sweep.cases[0].id}.parquet"
     before = path.read_bytes()
     old = pl.read_parquet(path).drop("drifting").with_columns(one_more=1.0)
-    write_sealed(path, sweep.cases[0], "summary", old)
+    write_sealed(path, sweep.cases[0].id, "summary", old)
     with pytest.raises(ConfigError, match=f"{path.name}' has the columns of another version"):
         sweep.table(folder)
     monkeypatch.setattr("drumrs.sweep.worker.Simulation", None)
@@ -259,7 +259,7 @@ def test_a_row_that_lacks_more_is_computed_again(copy):
     sweep, folder = copy
     path = folder / f"{sweep.cases[0].id}.parquet"
     before = path.read_bytes()
-    write_sealed(path, sweep.cases[0], "summary", pl.read_parquet(path).drop("coordination"))
+    write_sealed(path, sweep.cases[0].id, "summary", pl.read_parquet(path).drop("coordination"))
     assert sweep.run(folder, progress=False).computed == 1
     assert path.read_bytes() == before
 

@@ -4,8 +4,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from drumrs.decide.emulator import Emulator
 from drumrs.paper.baffle.design import Plan
-from drumrs.paper.baffle.emulator import Emulator
 from drumrs.paper.baffle.evidence import Means, Observable
 from drumrs.paper.baffle.posterior import Array, Corrections, Posterior, foretell
 from drumrs.paper.shape import Shape

@@ -7,12 +7,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from drumrs.config import Config
+from drumrs.decide.emulator import require_packages
 from drumrs.errors import ConfigError
 from drumrs.folders import claim, require_own
 from drumrs.jobs import effective_jobs
 from drumrs.paper.baffle import page
 from drumrs.paper.baffle.design import Plan, Point
-from drumrs.paper.baffle.emulator import emulate, require_library
+from drumrs.paper.baffle.emulator import emulate
 from drumrs.paper.baffle.evidence import Means
 from drumrs.paper.baffle.findings import Inference
 from drumrs.paper.baffle.observations import Key, known_by_shape, observe
@@ -75,7 +76,7 @@ def infer_baffle(
     >>> from drumrs.paper import infer_baffle
     >>> infer_baffle("out/baffle").best  # doctest: +SKIP
     """
-    require_library()
+    require_packages("the inference of the baffle", "sklearn")
     folder, plan, jobs = Path(folder), plan or Plan(), effective_jobs(jobs)
     require_own(folder, "baffle", FILES)
     claim(folder, "baffle", "the inference of the paper's baffle", "")

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from drumrs.paper.baffle.emulator import Emulator
+from drumrs.decide.emulator import Emulator
 from drumrs.paper.baffle.evidence import Means, Observable
 from drumrs.paper.baffle.sentences import CIRCULATION, OBSERVABLES, POWER, RATIO, log_likelihood
 from drumrs.paper.shape import BASES, HEIGHTS, ROOM, Shape, shares_of_drum

@@ -1,0 +1,166 @@
+"""`Experiment`: what was measured and may be fitted, as a file or a mapping says it: parameters, data, candidates."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from drumrs.config import Config, anchored, read_layer
+from drumrs.config.layers import flat
+from drumrs.decide.emulator import Array
+from drumrs.decide.problem import refuse_unknown, share, whole
+from drumrs.decide.space import Space
+from drumrs.decide.targets import Target
+from drumrs.errors import ConfigError
+from drumrs.sweep.sweep_file import read_base, table_of
+
+_TABLES = ("base", "ranges", "measured", "candidate", "calibrate")
+_KEYS = ("runs", "discrepancy")
+_WHAT = "a calibration"
+_MOST_PARAMETERS = 5
+_RUNS_PER_PARAMETER = 12
+
+
+@dataclass(frozen=True)
+class Measurement:
+    """A number that was measured, or, as a candidate, may be.
+
+    Attributes
+    ----------
+    target
+        What it is of a run.
+    value
+        What was measured, in the unit of the target; `None` of a candidate.
+    error
+        Its standard error.
+    settings
+        Keys in which its drum differs from the base, such as the speed; as pairs, so that those of one drum are equal.
+    """
+
+    target: Target
+    value: float | None
+    error: float
+    settings: tuple[tuple[str, Any], ...]
+
+    def __str__(self) -> str:
+        """Name the target, and the settings where there are some."""
+        settings = ", ".join(f"{key} = {value}" for key, value in self.settings)
+        return f"{self.target.title} at {settings}" if settings else self.target.title
+
+
+@dataclass(frozen=True)
+class Experiment:
+    """What parameters are to be found from what was measured.
+
+    Attributes
+    ----------
+    base
+        What all runs share.
+    space
+        The parameters and their ranges, within which all values are equally likely beforehand.
+    measured
+        What was measured.
+    candidates
+        What may be measured next; where the file names none, what was measured, once more.
+    runs
+        Points of the space that are simulated, each once for every drum that differs.
+    discrepancy
+        Standard deviation of what the model is off by, as a share of each measured value.
+    """
+
+    base: Config
+    space: Space
+    measured: tuple[Measurement, ...]
+    candidates: tuple[Measurement, ...]
+    runs: int
+    discrepancy: float
+
+    @classmethod
+    def read(cls, source: "str | Path | Mapping[str, Any]") -> "Experiment":
+        """Read an experiment.
+
+        Parameters
+        ----------
+        source
+            TOML file with the tables ``[base]``, ``[ranges]``, ``[[measured]]``, ``[[candidate]]`` and
+            ``[calibrate]``, or a mapping of the same form, whose ``base`` may be a `Config`.
+
+        Raises
+        ------
+        ConfigError
+            Where the file cannot be read, or a key or value is not accepted.
+
+        Examples
+        --------
+        >>> from drumrs.decide.measurement import Experiment
+        >>> power = {"target": "drum_specific_power", "value": 3.1, "error": 0.1, "set": {"rotation.rpm": 40}}
+        >>> experiment = Experiment.read({"ranges": {"contact.bundle.friction": [0.1, 0.6]}, "measured": [power]})
+        >>> str(experiment.measured[0]), experiment.runs
+        ('drum specific power at rotation.rpm = 40', 12)
+        """
+        content, folder = (
+            (source, Path()) if isinstance(source, Mapping) else (read_layer(source), Path(source).parent)
+        )
+        refuse_unknown(content, _TABLES, "", _WHAT)
+        base = content.get("base")
+        base = base if isinstance(base, Config) else read_base(content, folder)
+        space = Space.read(flat(anchored(table_of(content, "ranges") or {}, folder)))
+        if len(space) > _MOST_PARAMETERS:
+            raise ConfigError(
+                "ranges", space.keys, f"{_MOST_PARAMETERS} parameters at most", bound=_MOST_PARAMETERS
+            )
+        space.check(base)
+        wanted = table_of(content, "calibrate") or {}
+        refuse_unknown(wanted, _KEYS, "calibrate.", _WHAT)
+        runs = whole(wanted, "runs", "calibrate", _RUNS_PER_PARAMETER * len(space), 4 * len(space))
+        discrepancy = share(wanted.get("discrepancy", "3 %"), "1", "calibrate.discrepancy")
+        if not discrepancy.is_relative:
+            raise ConfigError("calibrate.discrepancy", wanted["discrepancy"], "a share such as '3 %'")
+        measured = _measurements(content, "measured", base)
+        if not measured:
+            raise ConfigError("measured", [], "one table [[measured]] at least: target, value, error, set")
+        candidates = _measurements(content, "candidate", base) or measured
+        return cls(base, space, measured, candidates, runs, discrepancy.amount)
+
+    @property
+    def numbers(self) -> tuple[Array, Array]:
+        """What was measured, and its standard errors with the model's discrepancy in them."""
+        values = np.array([one.value for one in self.measured], float)
+        errors = np.hypot([one.error for one in self.measured], self.discrepancy * np.abs(values))
+        return values, errors
+
+    @property
+    def drums(self) -> list[tuple[tuple[str, Any], ...]]:
+        """The settings of all drums that differ, those of candidates last."""
+        return list(dict.fromkeys(one.settings for one in (*self.measured, *self.candidates)))
+
+
+def _measurements(content: Mapping[str, Any], name: str, base: Config) -> tuple[Measurement, ...]:
+    tables = content.get(name, [])
+    if not isinstance(tables, (list, tuple)) or not all(isinstance(table, Mapping) for table in tables):
+        raise ConfigError(name, tables, f"tables [[{name}]]")
+    return tuple(_measurement(table, f"{name}[{k}]", base) for k, table in enumerate(tables))
+
+
+def _measurement(table: Mapping[str, Any], at: str, base: Config) -> Measurement:
+    refuse_unknown(table, ("target", "value", "error", "set"), f"{at}.", _WHAT)
+    target = Target.parse(table.get("target", ""))
+    value = None if at.startswith("candidate") else _number(table, "value", at, target)
+    error = _number(table, "error", at, target)
+    if not error > 0.0:
+        raise ConfigError(f"{at}.error", error, f"positive, the standard error in {target.unit}")
+    settings = table.get("set", {})
+    if not isinstance(settings, Mapping):
+        raise ConfigError(f"{at}.set", settings, "a table of keys, such as { rotation.rpm = 30 }")
+    dotted = flat(settings)
+    base.replace(dotted)
+    return Measurement(target, value, error, tuple(sorted(dotted.items())))
+
+
+def _number(table: Mapping[str, Any], key: str, at: str, target: Target) -> float:
+    value = table.get(key)
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        raise ConfigError(f"{at}.{key}", value, f"a number in {target.unit}")
+    return float(value)

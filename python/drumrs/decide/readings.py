@@ -1,0 +1,289 @@
+"""Single quantities of a run, over its window or in the phases of its program: a mean with its error for each name.
+
+The series tells most of them. Measures of frames are rows of `_MEASURES`: a function and the names that it returns.
+"""
+
+import difflib
+import math
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import fields
+from functools import cache
+from typing import TYPE_CHECKING, NamedTuple
+
+from drumrs import measures, registry
+from drumrs.analysis import Mean, mean_with_error, rate_with_error
+from drumrs.analysis.blocks import SeriesWindow
+from drumrs.analysis.phases import mass_of, summary_of_rows
+from drumrs.analysis.statistics import means_with_errors
+from drumrs.errors import ConfigError
+from drumrs.result import Summary
+
+if TYPE_CHECKING:
+    from drumrs.result import Result
+
+Window = tuple[float, float]
+Means = Mapping[str, Mean | None]
+
+# Suggestions for a name that is none.
+_MOST_MEANT = 3
+# What says nothing of the motion, though summary and series have it.
+_NOT_ASKED = {
+    *("time", "residual", "energy_residual", "numerical", "power_disagreement", "wall_time", "steps"),
+    *("particle_steps_per_second", "window_start", "window_end", "drum_angle", "time_step"),
+}
+
+
+class _Measured(NamedTuple):
+    """What a function measures on frames, by name."""
+
+    names: tuple[str, ...]
+    of: "Callable[[Result, Window], Means]"
+
+
+def _one(
+    name: str, of: Callable[..., Mean | None]
+) -> "tuple[tuple[str, ...], Callable[[Result, Window], Means]]":
+    return (name,), lambda result, window: {name: of(result.frames, window)}
+
+
+def _gravity(result: "Result") -> float:
+    return math.hypot(*result.config.plane_gravity)
+
+
+_DEPTHS = ("surface_speed", "middle_speed", "deep_speed")
+_MEASURES = (
+    _Measured(
+        ("toe_angle", "shoulder_angle", "center_slope", "surface_slope", "s_shape", "filling", "arm"),
+        lambda result, window: measures.charge(result.frames, window),
+    ),
+    _Measured(
+        (
+            *("bed_depth", "surface_velocity_ratio", "layer_thickness"),
+            *("layer_to_solid_rotation", "core_velocity_ratio"),
+        ),
+        lambda result, window: measures.flowing_layer(result.frames, window),
+    ),
+    _Measured(
+        ("unbalance", "turning_unbalance", "eccentricity"),
+        lambda result, window: measures.unbalance(
+            result.frames, window, measures.disc_masses(result.config, result.frames)
+        ),
+    ),
+    _Measured(
+        _DEPTHS,
+        lambda result, window: dict(zip(_DEPTHS, measures.depth_profile(result.frames, window), strict=True)),
+    ),
+    _Measured(*_one("circulation", measures.circulation)),
+    _Measured(*_one("wall_slip", measures.wall_slip)),
+    _Measured(*_one("along_the_rim", measures.along_the_rim)),
+    _Measured(*_one("carried_round", measures.carried_round)),
+    _Measured(*_one("mixed_in_a_turn", measures.mixed_in_a_turn)),
+    _Measured(
+        (
+            *("share_in_flight", "falls_per_turn", "mean_drop"),
+            *("landing_on_drum", "head_height", "impact_toe_angle"),
+        ),
+        lambda result, window: measures.flight(
+            result.frames, window, measures.disc_masses(result.config, result.frames), _gravity(result)
+        ),
+    ),
+    _Measured(
+        (
+            *("center_turning", "disc_turning", "moving_speed", "moving_spread"),
+            *("axis_distance_spread", "shape_factor", "openness", "curtain"),
+        ),
+        lambda result, window: measures.washing(result.frames, window, _gravity(result)),
+    ),
+)
+_MEASURE_OF = {name: measured for measured in _MEASURES for name in measured.names}
+# What follows from the configuration alone, without error.
+_FACTS = ("bundle_count", "fill", *registry.FACTS)
+_OF_PHASES = ("phase_work", "phase_specific_work")
+_OF_GROSS_WORK = ("gross_work_normal", "gross_work_tangential", "gross_work_ratio")
+
+
+@cache
+def names() -> tuple[str, ...]:
+    """Return the names of all that can be asked of a run, but for parts of the drum beyond the first of a kind."""
+    series = [column.name for column in registry.recorded(record=registry.RECORDINGS)]
+    summary = [field.name for field in fields(Summary)]
+    energies = [column for column in registry.recorded() if column.reading == "cumulative"]
+    stems = [column.name.removesuffix("_work") for column in energies]
+    powers = [f"{stem}{ending}" for stem in stems for ending in ("_power", "_specific_power")]
+    more = ("specific_angular_momentum", *_FACTS, *_MEASURE_OF, *_OF_PHASES)
+    return tuple(
+        name
+        for name in dict.fromkeys([*series, *summary, *powers, *more])
+        if name not in _NOT_ASKED and not name.endswith("_error")
+    )
+
+
+def find(name: str) -> registry.Quantity:
+    """Return what the registry says of a quantity that a run can be asked for.
+
+    Raises
+    ------
+    ConfigError
+        Where there is none of that name; with names that may be meant.
+    """
+    if name in names():
+        return registry.quantity(name)
+    own = registry.known([name])
+    if own and name not in registry.declared() and own[0].reading in {"mean", "cumulative"}:
+        return own[0]  # of a further part of the drum
+    problem = "is nothing that a run is asked for" if own else "is not the name of a quantity"
+    raise ConfigError(_called(name), name, problem=problem, hint=_meant(name))
+
+
+def record_of(name: str) -> tuple[str, ...]:
+    """Return what `run.record` must have for a quantity."""
+    return ("gross_work",) if name in _OF_GROSS_WORK else ()
+
+
+def needs_frames(name: str) -> bool:
+    """Tell whether a quantity is measured on frames."""
+    return name in _MEASURE_OF
+
+
+def _meant(name: str) -> str:
+    words = set(name.split("_"))
+    close = difflib.get_close_matches(name, names(), n=_MOST_MEANT)
+    # Those that have all the words come first: `specific_power` may be `drum_specific_power`.
+    having = [one for one in names() if words <= set(one.split("_"))]
+    meant = [*dict.fromkeys([*having, *close])][:_MOST_MEANT]
+    if not meant:
+        return "drumrs quantities lists what a run is asked for"
+    return f"did you mean {' or '.join([', '.join(meant[:-1]), meant[-1]] if meant[1:] else meant)}?"
+
+
+def _called(name: str) -> str:
+    return f"the target {name}"
+
+
+class Readings:
+    """The quantities of one run; what a function measures at once is measured once.
+
+    Parameters
+    ----------
+    result
+        The run.
+    """
+
+    def __init__(self, result: "Result") -> None:
+        self._result = result
+        self._measured = cache(lambda measured, window: measured.of(result, window))
+        self._rows = cache(lambda window: SeriesWindow.of(result.series, window).rows)
+        self._mass = cache(lambda: mass_of(result.config, result.series))
+
+    def mean(self, name: str, phase: str | None = None) -> Mean:
+        """Return a quantity over the window, or over a phase of the program each time that it comes.
+
+        A phase that comes again is averaged over its time; what is greatest is so over all of it, and energies are
+        added. A value that is none, such as the drop of falls where nothing falls, is not a number.
+
+        Raises
+        ------
+        ConfigError
+            Where the run has no such phase, or not recorded what the quantity is made of.
+        """
+        for record in record_of(name):
+            if record not in self._result.config.run.record:
+                problem = f"lacks {record!r}, which {name} is made of"
+                raise ConfigError("run.record", problem=problem, hint=f"add {record!r} to it and run again")
+        if name in _FACTS:
+            return self._fact(name)
+        if phase is None:
+            if name in _OF_PHASES:
+                problem = "is that of a phase"
+                raise ConfigError(_called(name), name, problem=problem, hint=f"write {name}[PHASE]")
+            return self._over(name, self._result.config.run.averaging_window)
+        windows = self._windows(name, phase)
+        means = [self._over(name, window) for window in windows]
+        return _together(means, windows, registry.quantity(name).reading, name)
+
+    def _windows(self, name: str, phase: str) -> list[Window]:
+        intervals = self._result.config.rotation.intervals
+        if not intervals:
+            problem = "is that of a phase, but the run has no rotation.phase"
+            raise ConfigError(_called(f"{name}[{phase}]"), phase, problem=problem)
+        wanted = [each for each in intervals if each.name == phase]
+        if not wanted and phase.isdigit() and 0 < int(phase) <= len(intervals):
+            wanted = [intervals[int(phase) - 1]]
+        ended = float(self._result.series["time"][-1])
+        windows = [(each.start, min(each.end, ended)) for each in wanted if each.start < ended]
+        if not windows:
+            known = ", ".join(dict.fromkeys(each.name for each in intervals))
+            limit = f"in a phase that the run has gone through: {known}"
+            raise ConfigError(_called(f"{name}[{phase}]"), phase, problem=f"must be {limit}")
+        return windows
+
+    def _fact(self, name: str) -> Mean:
+        config, summary = self._result.config, self._result.summary
+        found = getattr(summary, name) if hasattr(summary, name) else getattr(config.derived, name)
+        return Mean(math.nan if found is None else float(found), 0.0)
+
+    def _over(self, name: str, window: Window) -> Mean:
+        measured = _MEASURE_OF.get(name)
+        found = self._of_series(name, window) if measured is None else self._measured(measured, window)[name]
+        return found if found is not None else Mean(math.nan, None)
+
+    def _of_series(self, name: str, window: Window) -> Mean | None:
+        rows = self._rows(window)
+        times = rows["time"].to_numpy()
+        window = (float(times[0]), float(times[-1]))
+        if name in _OF_PHASES:
+            work = self._rate("drum_work", window, window[1] - window[0])
+            return work if name == "phase_work" else self._of_load(work)
+        told = means_with_errors(rows, window, self._mass())
+        if name in told:
+            value = told[name]
+            return None if value is None else Mean(value, told[f"{name}_error"])
+        flow = name.removesuffix("_power").removesuffix("_specific")
+        for energy in (flow, f"{flow}_work"):
+            if name != flow and energy in rows.columns:
+                power = self._rate(energy, window)
+                return self._of_load(power) if name == f"{flow}_specific_power" else power
+        if name in rows.columns:
+            return self._of_column(name, window)
+        summary = summary_of_rows(self._result.config, rows, self._mass())
+        if name not in summary:
+            problem = f"is not in the series of this run ({self._result.config.drum.fittings})"
+            raise ConfigError(_called(name), name, problem=problem)
+        value = summary[name]
+        return None if value is None else Mean(value, None)
+
+    def _of_column(self, name: str, window: Window) -> Mean:
+        rows = SeriesWindow.of(self._result.series, window)
+        reading = registry.quantity(name).reading
+        if reading == "cumulative":
+            return self._rate(name, window, window[1] - window[0])
+        values = rows.column(name)[1:]
+        if reading == "greatest":
+            return Mean(float(values.max()), None)
+        return mean_with_error(values, rows.interval)
+
+    def _rate(self, energy: str, window: Window, factor: float = 1.0) -> Mean:
+        return _scaled(rate_with_error(self._result.series, energy, window), factor)
+
+    def _of_load(self, mean: Mean) -> Mean:
+        return _scaled(mean, 1.0 / self._mass())
+
+
+def _scaled(mean: Mean, factor: float) -> Mean:
+    return Mean(mean.value * factor, None if mean.error is None else mean.error * factor)
+
+
+def _together(means: Sequence[Mean], windows: Iterable[Window], reading: str, name: str) -> Mean:
+    """Return what several windows tell together."""
+    if len(means) == 1:
+        return means[0]
+    if reading == "greatest":
+        return Mean(max(mean.value for mean in means), None)
+    lengths = [end - start for start, end in windows]
+    is_sum = reading == "cumulative" or name in _OF_PHASES
+    weights = [1.0 if is_sum else length / math.fsum(lengths) for length in lengths]
+    value = math.fsum(weight * mean.value for weight, mean in zip(weights, means, strict=True))
+    errors = [
+        weight * mean.error for weight, mean in zip(weights, means, strict=True) if mean.error is not None
+    ]
+    return Mean(value, math.hypot(*errors) if len(errors) == len(means) else None)

@@ -1,0 +1,338 @@
+"""`Target`: what a decision is about, a quantity of a run or an arithmetic expression of several."""
+
+import ast
+import math
+import operator
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from types import MappingProxyType
+from typing import TYPE_CHECKING, NamedTuple
+
+from drumrs.analysis import Estimate, Mean, estimate
+from drumrs.decide.readings import Readings, find, needs_frames, record_of
+from drumrs.decide.units import PLAIN, Unit, format_unit, parse_unit, product
+from drumrs.errors import ConfigError
+
+if TYPE_CHECKING:
+    from drumrs.result import Result
+
+_OPERATORS: Mapping[type[ast.AST], Callable[[float, float], float]] = MappingProxyType(
+    {
+        ast.Add: operator.add,
+        ast.Sub: operator.sub,
+        ast.Mult: operator.mul,
+        ast.Div: operator.truediv,
+        ast.Pow: math.pow,
+    }
+)
+_FUNCTIONS: Mapping[str, Callable[[float], float]] = MappingProxyType(
+    {"abs": abs, "sqrt": math.sqrt, "log": math.log, "exp": math.exp}
+)
+_LONGEST = 300
+_ALLOWED = (
+    "an expression of names of quantities, numbers, + - * / ** ( ), abs, sqrt, log and exp, a quantity in a phase "
+    "as falls_per_turn[tumble]"
+)
+
+
+class Name(NamedTuple):
+    """A quantity, over the window or in a phase of the program."""
+
+    quantity: str
+    phase: str | None = None
+
+
+@dataclass(frozen=True)
+class Target:
+    """A quantity of a run, or an expression of several, with its statistical error.
+
+    Made by `Target.parse`; called with a run it returns the `Estimate` of it.
+
+    Attributes
+    ----------
+    text
+        The expression as it was given.
+    names
+        The quantities in it, each over the window of the averages or in a phase.
+    unit
+        Unit; "1" for a plain number.
+
+    Examples
+    --------
+    >>> import drumrs
+    >>> from drumrs.decide import Target
+    >>> target = Target.parse("mean_drop / drum_specific_power")
+    >>> target.label, target.records, target.needs_frames
+    ('mean drop / drum specific power [m kg/W]', (), True)
+    >>> result = drumrs.run(drumrs.baseline().replace({"run.duration": 0.5}), progress=False)
+    >>> found = Target.parse("drum_specific_power")(result)
+    >>> found.mean == result.summary.drum_specific_power
+    True
+    """
+
+    text: str
+    names: tuple[Name, ...]
+    unit: str
+    _tree: ast.expr = field(repr=False, compare=False)
+
+    @classmethod
+    def parse(cls, text: "str | Target") -> "Target":
+        """Read a target.
+
+        Parameters
+        ----------
+        text
+            Name of a quantity that `drumrs quantities` lists, or an expression with ``+ - * / **``, parentheses,
+            numbers, ``abs``, ``sqrt``, ``log`` and ``exp``. A quantity is that over the window of the averages;
+            ``falls_per_turn[tumble]`` is that of the phase of this name, ``falls_per_turn[2]`` of the second phase,
+            and ``falls_per_turn["main wash"]`` puts a name with spaces in quotes. A target is returned as it is.
+
+        Raises
+        ------
+        ConfigError
+            Where it is no such expression, a name is not that of a quantity, or units are added that differ.
+
+        Examples
+        --------
+        >>> from drumrs.decide import Target
+        >>> Target.parse("drum_power[spin] / drum_power[tumble]").unit
+        '1'
+        >>> try:
+        ...     Target.parse("drop_height")
+        ... except ValueError as error:
+        ...     print(error)
+        the target drop_height is not the name of a quantity; did you mean head_height?
+        """
+        if isinstance(text, Target):
+            return text
+        tree = _parsed(text)
+        names = tuple(dict.fromkeys(_names(tree)))
+        if not names:
+            raise ConfigError("target", text, "of at least one quantity")
+        return cls(str(text).strip(), names, format_unit(_unit_of(tree)), tree)
+
+    def __str__(self) -> str:
+        """Return the expression as it was given."""
+        return self.text
+
+    @property
+    def title(self) -> str:
+        """The expression in words."""
+        return (
+            self.text.replace("_", " ").replace("[", " in ").translate({ord(mark): None for mark in "]'\""})
+        )
+
+    @property
+    def label(self) -> str:
+        """The expression in words with its unit, as it stands at an axis or at the head of a column."""
+        return self.title if self.unit == "1" else f"{self.title} [{self.unit}]"
+
+    @property
+    def records(self) -> tuple[str, ...]:
+        """What `run.record` of a run must have."""
+        return tuple(dict.fromkeys(record for name in self.names for record in record_of(name.quantity)))
+
+    @property
+    def needs_frames(self) -> bool:
+        """Whether it is measured on frames."""
+        return any(needs_frames(name.quantity) for name in self.names)
+
+    def mean(self, result: "Result | Readings") -> Mean:
+        """Return the value of one run with its standard error, as its blocks tell.
+
+        Where several quantities of one run come together, their errors are added, not their squares: they may move
+        together, and no correlation makes more of them than that. Several seeds tell better, see `of_seeds`.
+
+        Parameters
+        ----------
+        result
+            A run, or the `Readings` of it, which several targets may share.
+
+        Returns
+        -------
+        Mean
+            The value is not a number where the run has none, as the drop of falls where nothing falls; the error is
+            `None` where the run is too short to have one.
+
+        Raises
+        ------
+        ConfigError
+            Where the run has not recorded what the target needs, or has no such phase.
+        """
+        readings = result if isinstance(result, Readings) else Readings(result)
+        found = {name: readings.mean(*name) for name in self.names}
+        values = {name: mean.value for name, mean in found.items()}
+        return Mean(self._at(values), self._error(found, values))
+
+    def __call__(self, result: "Result") -> Estimate:
+        """Return the estimate that one run gives; the arguments and errors are those of `mean`."""
+        return self.of_seeds([self.mean(result)])
+
+    def of_seeds(self, means: Sequence[Mean]) -> Estimate:
+        """Return the estimate from runs that differ by their seeds, `drumrs.analysis.estimate`.
+
+        The values of an expression tell by their scatter alone, which has the correlations within a run in it; those
+        of a single quantity by the errors of their runs, too.
+
+        Parameters
+        ----------
+        means
+            What `mean` returns for each of them. Values that are no numbers are left out.
+
+        Returns
+        -------
+        Estimate
+            Not a number, with an infinite error, where no run has a value.
+        """
+        there = [mean for mean in means if math.isfinite(mean.value)]
+        if not there:
+            return Estimate(math.nan, math.inf, 1)
+        by_scatter = len(self.names) > 1 and len(there) > 1
+        return estimate(
+            [mean.value for mean in there], None if by_scatter else [mean.error for mean in there]
+        )
+
+    def _at(self, values: Mapping[Name, float]) -> float:
+        try:
+            value = _value(self._tree, values)
+        except (ArithmeticError, ValueError):
+            return math.nan  # such as a ratio to a power that is 0
+        return value if math.isfinite(value) else math.nan
+
+    def _error(self, found: Mapping[Name, Mean], values: Mapping[Name, float]) -> float | None:
+        """Return by how much the value changes, at most, where every quantity is off by its error."""
+        total = 0.0
+        for name, mean in found.items():
+            if mean.error is None:
+                return None
+            ends = [self._at({**values, name: mean.value + sign * mean.error}) for sign in (1.0, -1.0)]
+            total += abs(ends[0] - ends[1]) / 2.0
+        return total if math.isfinite(total) else None
+
+
+def _parsed(text: str) -> ast.expr:
+    limit = _ALLOWED
+    if not isinstance(text, str) or len(text) > _LONGEST:
+        raise ConfigError("target", text, limit)
+    try:
+        tree = ast.parse(text.strip(), mode="eval").body
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        raise ConfigError("target", text, limit) from None
+    for node in _nodes(tree):
+        if not _is_allowed(node):
+            piece = ast.get_source_segment(text.strip(), node)
+            problem = f"has {piece} in it, but must be {limit}"
+            raise ConfigError(f"the target {text}", text, limit, problem=problem)
+    return tree
+
+
+def _nodes(node: ast.expr) -> Iterator[ast.expr]:
+    """Give the node and all that are part of its value."""
+    yield node
+    for part in _operands(node):
+        yield from _nodes(part)
+
+
+def _operands(node: ast.expr) -> list[ast.expr]:
+    if isinstance(node, ast.BinOp):
+        return [node.left, node.right]
+    if isinstance(node, ast.UnaryOp):
+        return [node.operand]
+    return node.args if isinstance(node, ast.Call) else []
+
+
+def _is_allowed(node: ast.expr) -> bool:
+    if isinstance(node, ast.BinOp):
+        if isinstance(node.op, ast.Pow):
+            return _exponent(node) is not None
+        return type(node.op) in _OPERATORS
+    if isinstance(node, ast.UnaryOp):
+        return isinstance(node.op, (ast.USub, ast.UAdd))
+    if isinstance(node, ast.Call):
+        named = isinstance(node.func, ast.Name) and node.func.id in _FUNCTIONS
+        return named and len(node.args) == 1 and not node.keywords
+    if isinstance(node, ast.Constant):
+        return isinstance(node.value, (int, float)) and not isinstance(node.value, bool)
+    return _name(node) is not None
+
+
+def _name(node: ast.expr) -> Name | None:
+    """Return the quantity that a node names; `None` where it names none."""
+    if isinstance(node, ast.Name):
+        return Name(node.id)
+    if not isinstance(node, ast.Subscript) or not isinstance(node.value, ast.Name):
+        return None
+    if isinstance(node.slice, ast.Name):
+        return Name(node.value.id, node.slice.id)
+    return Name(node.value.id, str(node.slice.value)) if isinstance(node.slice, ast.Constant) else None
+
+
+def _names(tree: ast.expr) -> Iterator[Name]:
+    for node in _nodes(tree):
+        name = _name(node)
+        if name is not None:
+            find(name.quantity)
+            yield name
+
+
+def _exponent(node: ast.BinOp) -> float | None:
+    """Return an exponent, which must be a number, with or without a sign."""
+    try:
+        number = ast.literal_eval(node.right)
+    except (ValueError, TypeError):
+        return None
+    return float(number) if isinstance(number, (int, float)) else None
+
+
+def _value(node: ast.expr, values: Mapping[Name, float]) -> float:
+    if isinstance(node, ast.Constant):
+        return float(node.value)  # type: ignore[arg-type]  # a number: `_is_allowed`
+    name = _name(node)
+    if name is not None:
+        return values[name]
+    parts = [_value(part, values) for part in _operands(node)]
+    if isinstance(node, ast.BinOp):
+        return _OPERATORS[type(node.op)](parts[0], parts[1])
+    if isinstance(node, ast.Call):
+        return _FUNCTIONS[node.func.id](parts[0])  # type: ignore[attr-defined]  # a name: `_is_allowed`
+    return -parts[0] if isinstance(node.op, ast.USub) else parts[0]  # type: ignore[attr-defined]
+
+
+def _unit_of(node: ast.expr) -> Unit:
+    """Return the unit of a node.
+
+    Raises
+    ------
+    ConfigError
+        Where quantities of different units are added, or a function is of one that is no plain number.
+    """
+    name = _name(node)
+    if name is not None:
+        return parse_unit(find(name.quantity).unit)
+    units = [_unit_of(part) for part in _operands(node)]
+    if isinstance(node, ast.Call):
+        return _unit_of_function(node, units[0])
+    if not isinstance(node, ast.BinOp):
+        return units[0] if units else PLAIN
+    if isinstance(node.op, ast.Pow):
+        return product(PLAIN, units[0], _exponent(node) or 0.0)
+    if isinstance(node.op, (ast.Mult, ast.Div)):
+        return product(units[0], units[1], 1.0 if isinstance(node.op, ast.Mult) else -1.0)
+    if dict(units[0]) != dict(units[1]):
+        one, other = (format_unit(unit) for unit in units)
+        problem = f"adds {one} and {other}, but must add what has the same unit"
+        hint = "divide each by what makes it a plain number"
+        raise ConfigError(f"the target {ast.unparse(node)}", problem=problem, hint=hint)
+    return units[0]
+
+
+def _unit_of_function(node: ast.Call, unit: Unit) -> Unit:
+    function = node.func.id  # type: ignore[attr-defined]  # a name: `_is_allowed`
+    if function == "abs":
+        return unit
+    if function == "sqrt":
+        return product(PLAIN, unit, 0.5)
+    if unit:
+        problem = f"has {function} of a quantity in {format_unit(unit)}, but must have it of a plain number"
+        raise ConfigError(f"the target {ast.unparse(node)}", problem=problem)
+    return PLAIN

@@ -1,0 +1,174 @@
+"""Targets: which quantities a run is asked for, expressions of them, units and errors."""
+
+import math
+
+import pytest
+
+import drumrs
+from drumrs.analysis import Mean, student
+from drumrs.decide import Target, readings
+from drumrs.decide.units import format_unit, parse_unit
+from drumrs.errors import ConfigError
+
+
+class MadeUp(readings.Readings):
+    """Means by name that nobody simulated."""
+
+    def __init__(self, **means):
+        self._means = means
+
+    def mean(self, name, phase=None):
+        return self._means[name if phase is None else f"{name}_{phase}"]
+
+
+@pytest.fixture(scope="module")
+def result():
+    program = [
+        {"name": "tumble", "duration": 0.2, "rpm": 54.0},
+        {"name": "stop", "duration": 0.1, "rpm": 0.0},
+    ]
+    changes = {
+        "rotation.phase": [{"name": "main", "repeat": 2, "phase": program}],
+        "run.duration": 0.6,
+        "run.frame_every": 0.01,
+    }
+    return drumrs.run(drumrs.baseline(fill=0.1, baffles=True).replace(changes), progress=False)
+
+
+def test_a_quantity_of_the_summary_is_that_of_the_summary(result):
+    for name in ("drum_specific_power", "dissipation_ratio", "kinetic_energy", "dissipated_sliding_power"):
+        assert Target.parse(name)(result).mean == pytest.approx(getattr(result.summary, name), rel=1e-12)
+
+
+def test_every_name_has_a_value_or_says_why_not(result):
+    of_run, refused = readings.Readings(result), []
+    for name in readings.names():
+        try:
+            of_run.mean(name)
+        except ConfigError as error:
+            refused.append(f"{name}: {error}")
+    assert {sentence.split("_")[0] for sentence in refused} == {"wall", "phase", "gross"}
+    assert len(refused) < 15
+
+
+def test_phases_add_up_to_the_work_of_the_run(result):
+    table = drumrs.phases(result)
+    parts = [Target.parse(f"phase_work[{name}]")(result).mean for name in ("tumble", "stop")]
+    assert math.fsum(parts) == pytest.approx(table["phase_work"].sum(), rel=1e-12)
+    # By number: the third is the second `tumble`.
+    third = Target.parse("phase_work[3]")(result).mean
+    assert third == pytest.approx(table["phase_work"][2], rel=1e-12)
+
+
+def test_a_mean_over_a_phase_that_comes_twice_is_over_both(result):
+    table = drumrs.phases(result).filter(phase="tumble")
+    found = Target.parse('drum_power["tumble"]')(result).mean
+    assert found == pytest.approx(table["drum_power"].mean(), rel=1e-9)
+
+
+def test_an_expression_has_the_value_of_its_parts():
+    made = MadeUp(drum_power=Mean(6.0, 0.3), load_mass=Mean(2.0, 0.0), arm=Mean(0.5, 0.1))
+    target = Target.parse(
+        "-(drum_power / load_mass - 1 * drum_power/load_mass) + 2 * drum_power * arm**2 / load_mass"
+    )
+    assert target.mean(made).value == pytest.approx(1.5)
+    assert target.unit == "W/kg"
+
+
+def test_errors_within_a_run_are_added():
+    made = MadeUp(drum_power=Mean(6.0, 0.3), normal_power=Mean(3.0, 0.3))
+    # d(a/b) = da/b + a db/b²: 0.1 + 0.2 to first order.
+    found = Target.parse("drum_power / normal_power").mean(made)
+    assert found.error == pytest.approx(0.3, rel=0.02)
+
+
+def test_a_quantity_over_itself_is_sure():
+    found = Target.parse("drum_power / drum_power").mean(MadeUp(drum_power=Mean(6.0, 0.3)))
+    assert (found.value, found.error) == (1.0, 0.0)
+
+
+def test_seeds_tell_an_expression_by_their_scatter_alone():
+    means = [Mean(1.0, 5.0), Mean(1.2, 5.0), Mean(0.9, 5.0)]
+    ratio = Target.parse("drum_power / load_mass").of_seeds(means)
+    expected = student([1.0, 1.2, 0.9])
+    assert ratio.interval().half_width == pytest.approx(expected.half_width)
+    assert Target.parse("drum_power").of_seeds(means).error > 2.0
+
+
+def test_runs_without_a_value_are_left_out():
+    target = Target.parse("mean_drop")
+    nothing = target.of_seeds([Mean(math.nan, None)])
+    assert math.isnan(nothing.mean)
+    assert nothing.error == math.inf
+    assert target.of_seeds([Mean(math.nan, None), Mean(0.1, 0.01)]).mean == 0.1
+    divided = Target.parse("drum_power / mean_drop").mean(
+        MadeUp(drum_power=Mean(1.0, 0.1), mean_drop=Mean(0.0, None))
+    )
+    assert math.isnan(divided.value)
+
+
+@pytest.mark.parametrize(
+    ("text", "unit"),
+    [
+        ("drum_power", "W/m"),
+        ("drum_power * mean_drop", "W"),
+        ("drum_specific_power * load_mass", "W/m"),
+        ("sqrt(mean_drop**2)", "m"),
+        ("specific_angular_momentum / eccentricity", "m/s"),
+        ("drum_power / drum_power + log(arm)", "1"),
+        ("1 / disc_turning", "s/rad"),
+    ],
+)
+def test_units_follow_from_those_of_the_quantities(text, unit):
+    assert Target.parse(text).unit == unit
+
+
+def test_every_unit_of_the_registry_is_read_and_written_back():
+    for name in readings.names():
+        unit = drumrs.quantity(name).unit
+        assert format_unit(parse_unit(unit)) in {unit, "kg m/s", "N"}, name
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("specific_power", "did you mean drum_specific_power"),
+        ("fals_per_turn", "did you mean falls_per_turn?"),
+        ("x", "is nothing that a run is asked for"),
+        ("drum_power + mean_drop", "adds W/m and m"),
+        ("log(drum_power)", "in W/m"),
+        ("mean_drop ** arm", "an expression of names"),
+        ("__import__('os').system('true')", "an expression of names"),
+        ("drum_power.real", "an expression of names"),
+        ("[drum_power]", "an expression of names"),
+        ("drum_power if arm else 1", "an expression of names"),
+        ("drum_power /", "an expression of names"),
+        ("2 * 3", "at least one quantity"),
+        ("", "an expression of names"),
+        ("-" * 400 + "drum_power", "an expression of names"),
+    ],
+)
+def test_what_is_no_target_is_refused_in_a_sentence(text, told):
+    with pytest.raises(ConfigError, match="target") as refused:
+        Target.parse(text)
+    assert told in str(refused.value)
+    assert "\n" not in str(refused.value)
+
+
+def test_a_phase_that_is_not_there_is_named(result):
+    with pytest.raises(ConfigError, match="must be in a phase that the run has gone through: tumble, stop"):
+        Target.parse("drum_power[spin]")(result)
+    with pytest.raises(ConfigError, match=r"write phase_work\[PHASE\]"):
+        Target.parse("phase_work")(result)
+
+
+def test_a_record_that_is_missing_is_named(result):
+    for name in ("gross_work_ratio", "gross_work_normal"):
+        with pytest.raises(ConfigError, match=f"run.record lacks 'gross_work', which {name} is made of"):
+            Target.parse(name)(result)
+
+
+def test_a_target_says_what_it_needs():
+    assert Target.parse("gross_work_ratio + arm").records == ("gross_work",)
+    assert Target.parse("gross_work_ratio + arm").needs_frames
+    assert not Target.parse("drum_power").needs_frames
