@@ -35,10 +35,7 @@ def frames_now(simulation: "Simulation") -> "Frames":
 
 def pack_start(simulation: "Simulation") -> dict[str, Any]:
     """Return the drum, the load and where it starts, as `unpack` of recording.js reads them."""
-    config = simulation.config
-    frames = frames_now(simulation)
-    title = config.title_of(config.species_counts or simulation.count, config.drum.fill_of(frames.radii))
-    return Player(frames, title=title, facts=simulation.facts).recording()
+    return Player(frames_now(simulation)).recording()
 
 
 def pack_frame(simulation: "Simulation", start: int, factor: float) -> bytes:

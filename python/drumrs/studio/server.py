@@ -265,6 +265,8 @@ def case_text(config: Any, kind: str) -> str:
 
 def _state(view: View) -> dict[str, Any]:
     return {
+        "title": view.title,
+        "facts": view.facts,
         "playing": view.playing,
         "rate": view.rate if math.isfinite(view.rate) else None,
         "speed": view.speed,

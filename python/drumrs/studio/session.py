@@ -50,6 +50,8 @@ class View:
         Number of the start: it grows with every reset.
     config
         With what a reset would start.
+    title, facts
+        Lines that tell this case from others and place it among them, at its present speed.
     scene
         Drum, load and title, as `unpack` of recording.js reads them.
     number
@@ -70,6 +72,8 @@ class View:
 
     start: int
     config: Config
+    title: str
+    facts: str
     scene: dict[str, Any]
     number: int = 0
     frame: bytes = b""
@@ -117,6 +121,7 @@ class Session:
     _due_from: tuple[float, float]
     _factor_from: tuple[float, float]
     _factor: float
+    _about: tuple[str, str]
     _scene: dict[str, Any]
     _measures: dict[str, Any]
     _measure_at: float
@@ -302,6 +307,8 @@ class Session:
         view = View(
             start=self._starts,
             config=self._base,
+            title=self._about[0],
+            facts=self._about[1],
             scene=self._scene,
             number=self._pictures,
             frame=pack_frame(self._simulation, self._starts, self._factor),
@@ -347,6 +354,7 @@ class Session:
             warnings.simplefilter("ignore", DrumrsWarning)
             simulation = Simulation(config, threads=self._threads, in_memory=False)
         self._simulation, self._base = simulation, config
+        self._about = (config.title, config.facts)
         self._recent, self._since = RecentFrames(), 0.0
         self._wanted_speed = None
         self._speed = simulation.drum_angular_velocity * 30.0 / math.pi
@@ -383,6 +391,7 @@ class Session:
 
     def _set_speed(self, rpm: float) -> None:
         self._base, self._speed = self._base.replace({"rotation.rpm": rpm}), rpm
+        self._about = (self._base.title, self._base.facts)
         self._wanted_speed = rpm
         self._follow_speed()
         self._show()

@@ -127,9 +127,6 @@ export class Studio {
     const { name } = this.coloring ?? {};
     this.coloring = new Coloring(this.recording);
     if (modesOf(this.recording).includes(name)) this.coloring.name = name;
-    this.part("title").textContent = this.recording.title;
-    this.part("facts").textContent = this.recording.facts;
-    this.part("stage").setAttribute("aria-label", `The drum: ${this.recording.title}`);
     this.part("mode").replaceChildren(...modesOf(this.recording).map((mode) => new Option(MODES[mode].label, mode)));
     this.part("preset").replaceChildren(...Object.entries(presets).map(([value, words]) => new Option(words, value)));
     this.part("preset").value = preset;
@@ -141,7 +138,10 @@ export class Studio {
     this.refresh();
   }
 
-  describe({ playing, rate, speed, said }) {
+  describe({ title, facts, playing, rate, speed, said }) {
+    this.part("title").textContent = title;
+    this.part("facts").textContent = facts;
+    this.part("stage").setAttribute("aria-label", `The drum: ${title}`);
     if (this.still) {
       this.still = false;
       if (playing) this.ask("pause");

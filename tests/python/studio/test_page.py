@@ -44,7 +44,7 @@ def test_time_stands_goes_by_steps_and_begins_anew(show):
     studio.wait("studio.recording.end === 0")
     assert studio.part("said").inner_text() == "Started anew from seed 1."
     studio.part("rate").select_option("0.1")
-    studio.page.keyboard.press(" ")
+    studio.part("stage").press(" ")
     studio.wait("studio.playing && studio.recording.end > 0")
     assert studio.session.view.rate == 0.1
 
@@ -55,6 +55,7 @@ def test_a_speed_acts_at_once_and_is_in_the_case(show):
     studio.slide("rotation.rpm", 70)
     studio.wait("Math.abs(studio.spin * 30 / Math.PI - 70) < 1e-9")
     assert studio.page.evaluate("studio.recording.begin") == 0.0, "it did not start anew"
+    assert "70 rpm" in studio.part("title").inner_text()
     studio.part("play").click()
     studio.wait("!studio.playing")
     for name in ("toml", "python"):

@@ -133,8 +133,10 @@ def test_what_the_page_asks_for_is_done(server):
         assert names["config"] == case
         ask(socket, do="set", key="load.fill", value=0.2)
         ask(socket, do="frame")
-        assert told(socket, "start")["scene"]["title"].startswith("80 bundles")
-        assert told(socket, "state")["said"][-1] == "Started anew from seed 1, with load.fill = 0.2."
+        assert told(socket, "start")["controls"][1]["value"] == 0.2
+        state = told(socket, "state")
+        assert state["title"] == "80 bundles (20 % fill), 3 baffles, 70 rpm, seed 1"
+        assert state["said"][-1] == "Started anew from seed 1, with load.fill = 0.2."
         ask(socket, do="preset", value="dryer")
         ask(socket, do="frame")
         assert told(socket, "start")["preset"] == "dryer"
