@@ -9,18 +9,17 @@ import time
 import warnings
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from drumrs import _core
-from drumrs.checkpoint import read_checkpoint, with_config, write_checkpoint
+from drumrs.checkpoint import read_checkpoint, write_checkpoint
 from drumrs.config import Config, require_config
 from drumrs.config.derived import Facts
 from drumrs.config.hints import hints
 from drumrs.config.messages import both_given
-from drumrs.config.program import with_speed
 from drumrs.errors import CheckpointError, ConfigError, DrumrsError, DrumrsWarning
 from drumrs.limits import (
     check_steps,
@@ -34,16 +33,18 @@ from drumrs.parts import Parts
 from drumrs.records import HasRecords, Records
 from drumrs.registry import recorded
 from drumrs.result import Result, Summary
+from drumrs.speed import HasSpeed
 from drumrs.state import State
 
 Array = NDArray[np.float64]
+Core: TypeAlias = _core.Simulation
 
 _SIMULATE_FIRST = (
     "run() without arguments simulates all of run.duration, and summary((start, end)) averages over a part"
 )
 
 
-class Simulation(HasRecords):
+class Simulation(HasRecords, HasSpeed):
     """A load in a turning drum, stepped at will.
 
     Parameters
@@ -79,6 +80,8 @@ class Simulation(HasRecords):
     (100, (40, 2))
     """
 
+    _core: Core
+
     def __init__(
         self,
         config: Config,
@@ -109,7 +112,7 @@ class Simulation(HasRecords):
         for message in self.warnings:
             warnings.warn(message, DrumrsWarning, stacklevel=2)
 
-    def _start(self, config: Config, core: _core.Simulation) -> None:
+    def _start(self, config: Config, core: Core) -> None:
         self._config = config
         self._core = core
         columns = recorded(core.parts(), config.run.record)
@@ -220,61 +223,6 @@ class Simulation(HasRecords):
             raise ConfigError("duration", duration, f"at least run.duration = {run.duration}")
         window = (run.averaging_window[0], duration)
         self._config = self._config.replace({"run": {"duration": duration, "window": window}})
-
-    def set_speed(self, rpm: float, ramp: float = 0.1) -> float:
-        """Let the drum change to another speed as soon as it can, and stay there, whatever its program was.
-
-        The change becomes part of the configuration: `config` is that of a run which is the same as this one from its
-        start on, bit for bit. The time step stays what it is.
-
-        Parameters
-        ----------
-        rpm
-            The new speed [rpm].
-        ramp
-            Time in which the speed changes evenly [s].
-
-        Returns
-        -------
-        float
-            When the change begins [s]: within a millisecond or few steps, or where the ramp ends that the drum is on.
-
-        Raises
-        ------
-        ConfigError
-            Where the drum cannot have this speed; the simulation stays as it was.
-        DrumrsError
-            Where another thread is running this simulation.
-
-        Examples
-        --------
-        >>> import drumrs
-        >>> simulation = drumrs.Simulation(drumrs.baseline(fill=0.1), seed=1)
-        >>> simulation.run(steps=100)
-        >>> simulation.set_speed(60.0)
-        0.001
-        >>> simulation.config.rotation.program
-        ((0.0, 54.0), (0.001, 54.0), (0.101, 60.0))
-        """
-        if not (isinstance(ramp, numbers.Real) and 0.0 < ramp < math.inf):
-            raise ConfigError("ramp", ramp, "a positive finite time")
-        if not self._running.acquire(blocking=False):
-            raise DrumrsError(
-                "this simulation is being run, and its speed cannot be set meanwhile: stop it first"
-            )
-        try:
-            # The step after the next one is the first of which nothing is known yet.
-            earliest = math.ceil(1e3 * (self.time + 3.0 * self.time_step)) / 1e3
-            knots = with_speed(self._config.rotation.knots, rpm, earliest, ramp)
-            changes = {"rotation.program": knots, "run.time_step": self.time_step}
-            config = self._config.replace(changes)
-            data = with_config(self._core.checkpoint().data, config.to_core_json())
-            core = _core.Simulation.from_checkpoint(data, self.threads)
-            self._config, self._core = config, core
-            self._records = Records(core, config, self._records.columns)
-        finally:
-            self._running.release()
-        return knots[-2][0]
 
     @property
     def config(self) -> Config:
@@ -471,7 +419,7 @@ class Simulation(HasRecords):
         return simulation
 
     @classmethod
-    def _around(cls, config: Config, core: _core.Simulation) -> "Simulation":
+    def _around(cls, config: Config, core: Core) -> "Simulation":
         simulation = cls.__new__(cls)
         simulation._start(config, core)  # noqa: SLF001 - a second constructor
         return simulation

@@ -111,7 +111,7 @@ def test_time_passes_as_fast_as_asked_for(quick):
 
 def test_measures_build_up(quick):
     with Session(quick, rate=4.0) as session:
-        reach(session, 1.6)
+        reach(session, 2.4)  # two thirds of which are more than a turn
         session.pause()
         deadline = time.monotonic() + 60.0
         while session.view.measures.get("window", (0.0, 0.0))[1] < now(session):
