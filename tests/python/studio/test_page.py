@@ -24,8 +24,10 @@ def test_it_runs_the_moment_it_opens(show):
     # What is on the page is where it was in the simulation.
     studio.part("play").click()
     studio.wait("!studio.playing")
+    simulation = studio.session._simulation
+    studio.wait(f"Math.abs(studio.recording.end - {simulation.time}) < 1e-9")
     places = studio.page.evaluate("[...studio.recording.frames.at(-1).positions]")
-    assert places == pytest.approx(studio.session._simulation.positions.ravel().tolist(), abs=1e-5)
+    assert places == pytest.approx(simulation.positions.ravel().tolist(), abs=1e-5)
 
 
 def test_time_stands_goes_by_steps_and_begins_anew(show):
@@ -34,6 +36,7 @@ def test_time_stands_goes_by_steps_and_begins_anew(show):
     studio.part("play").click()
     studio.wait("!studio.playing")
     assert studio.part("play").get_attribute("aria-label") == "Play"
+    studio.wait(f"Math.abs(studio.recording.end - {studio.session._simulation.time}) < 1e-9")
     stands = studio.time
     studio.part("one").click()
     studio.wait(f"studio.recording.end > {stands}")
