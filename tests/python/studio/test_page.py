@@ -45,7 +45,7 @@ def test_time_stands_goes_by_steps_and_begins_anew(show):
     studio.wait(f"studio.recording.end > {stands} + 1.5 * {studio.session._simulation.time_step}")
     studio.page.keyboard.press("r")
     studio.wait("studio.recording.end === 0")
-    assert studio.part("said").inner_text() == "Started anew from seed 1."
+    studio.wait("studio.part('said').textContent === 'Started anew from seed 1.'")
     studio.part("rate").select_option("0.1")
     studio.part("stage").press(" ")
     studio.wait("studio.playing && studio.recording.end > 0")
@@ -58,7 +58,7 @@ def test_a_speed_acts_at_once_and_is_in_the_case(show):
     studio.slide("rotation.rpm", 70)
     studio.wait("Math.abs(studio.spin * 30 / Math.PI - 70) < 1e-9")
     assert studio.page.evaluate("studio.recording.begin") == 0.0, "it did not start anew"
-    assert "70 rpm" in studio.part("title").inner_text()
+    studio.wait("studio.part('title').textContent.includes('70 rpm')")
     studio.part("play").click()
     studio.wait("!studio.playing")
     for name in ("toml", "python"):
@@ -80,7 +80,7 @@ def test_other_sliders_start_anew_and_what_is_refused_is_said(show):
     studio.wait("studio.recording?.end > 0.1")
     studio.slide("load.fill", 0.2)
     studio.wait("studio.recording.count === 80")
-    assert studio.part("said").inner_text() == "Started anew from seed 1, with load.fill = 0.2."
+    studio.wait("studio.part('said').textContent === 'Started anew from seed 1, with load.fill = 0.2.'")
     studio.slide("drum.baffles.height", 0.06)
     studio.wait("studio.part('said').textContent.includes('drum.baffles.height')")
     studio.page.evaluate("studio.live.ask({ do: 'set', key: 'load.fill', value: 5 })")
