@@ -9,7 +9,7 @@ import time
 import warnings
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,16 +33,18 @@ from drumrs.parts import Parts
 from drumrs.records import HasRecords, Records
 from drumrs.registry import recorded
 from drumrs.result import Result, Summary
+from drumrs.speed import HasSpeed
 from drumrs.state import State
 
 Array = NDArray[np.float64]
+Core: TypeAlias = _core.Simulation
 
 _SIMULATE_FIRST = (
     "run() without arguments simulates all of run.duration, and summary((start, end)) averages over a part"
 )
 
 
-class Simulation(HasRecords):
+class Simulation(HasRecords, HasSpeed):
     """A load in a turning drum, stepped at will.
 
     Parameters
@@ -78,6 +80,8 @@ class Simulation(HasRecords):
     (100, (40, 2))
     """
 
+    _core: Core
+
     def __init__(
         self,
         config: Config,
@@ -108,7 +112,7 @@ class Simulation(HasRecords):
         for message in self.warnings:
             warnings.warn(message, DrumrsWarning, stacklevel=2)
 
-    def _start(self, config: Config, core: _core.Simulation) -> None:
+    def _start(self, config: Config, core: Core) -> None:
         self._config = config
         self._core = core
         columns = recorded(core.parts(), config.run.record)
@@ -415,7 +419,7 @@ class Simulation(HasRecords):
         return simulation
 
     @classmethod
-    def _around(cls, config: Config, core: _core.Simulation) -> "Simulation":
+    def _around(cls, config: Config, core: Core) -> "Simulation":
         simulation = cls.__new__(cls)
         simulation._start(config, core)  # noqa: SLF001 - a second constructor
         return simulation

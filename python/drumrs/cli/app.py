@@ -35,6 +35,7 @@ from drumrs.cli.scale import scale
 from drumrs.cli.screen import screen
 from drumrs.cli.signals import Asked, like_interrupts
 from drumrs.cli.status import status
+from drumrs.cli.studio import studio
 from drumrs.cli.sweep import sweep
 from drumrs.cli.validate import validate
 from drumrs.cli.verify import verify
@@ -57,6 +58,7 @@ app = App(
     help_epilogue=(
         "Examples:\n\n"
         "- `drumrs init my-mill --template ball-mill` writes a machine to start from; `drumrs init` lists them\n"
+        "- `drumrs studio` shows a drum that turns while you change it\n"
         "- `drumrs reproduce --quick` runs the paper's study in small and writes out/report.html\n"
         "- `drumrs baseline` runs the paper's drum without and with baffles\n"
         "- `drumrs config > case.toml` writes every key, with unit and meaning\n"
@@ -84,6 +86,7 @@ app = App(
 
 for _command in (
     init,
+    studio,
     run,
     baseline,
     reproduce,

@@ -83,6 +83,43 @@ def knots_of(intervals: Sequence[Interval]) -> tuple[tuple[float, float], ...]:
     return tuple(dict.fromkeys(chain.from_iterable(ends)))
 
 
+def with_speed(
+    knots: Sequence[tuple[float, float]], rpm: float, earliest: float, ramp: float
+) -> tuple[tuple[float, float], ...]:
+    """Return the knots of a program that changes to another speed and stays there.
+
+    What comes before the change is not touched, to the bit: a change that is asked for within a ramp begins at its end.
+
+    Parameters
+    ----------
+    knots
+        The program so far [s, rpm].
+    rpm
+        The new speed [rpm].
+    earliest
+        Time at which the change may begin [s].
+    ramp
+        How long it takes [s].
+
+    Examples
+    --------
+    >>> from drumrs.config.program import with_speed
+    >>> with_speed([(0.0, 54.0)], 60.0, earliest=2.0, ramp=0.1)
+    ((0.0, 54.0), (2.0, 54.0), (2.1, 60.0))
+    >>> with_speed([(0.0, 0.0), (5.0, 54.0), (9.0, 0.0)], 60.0, earliest=2.0, ramp=0.1)
+    ((0.0, 0.0), (5.0, 54.0), (5.1, 60.0))
+    """
+    before = [knot for knot in knots if knot[0] <= earliest]
+    after = [knot for knot in knots if knot[0] > earliest]
+    if before and after and before[-1][1] != after[0][1]:
+        # Within a ramp: a shorter one to the speed of that moment would have other last digits.
+        before.append(after[0])
+    elif not before or before[-1][0] < earliest:
+        before.append((earliest, (before or after)[-1 if before else 0][1]))
+    begin = before[-1][0]
+    return (*before, (begin + ramp, rpm))
+
+
 def _in_order(
     phases: Sequence[Phase], sign: float, at: str = ""
 ) -> Iterator[tuple[str, float, tuple[float, float]]]:

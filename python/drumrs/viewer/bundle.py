@@ -2,7 +2,7 @@
 
 Joining is plain text: each file once, after those it imports, without their lines ``import { name } from "./file.js";``
 and the word ``export``. So each import is one such line, only declarations are exported, and no two files declare one
-name. `assets.js` is made here: the text of player.html and player.css.
+name. `assets.js` and `studio_assets.js` are made here: the texts of HTML and CSS files.
 """
 
 import json
@@ -28,7 +28,7 @@ def module(*entries: str) -> str:
     --------
     >>> from drumrs.viewer import module
     >>> module("player.js", "recording.js").splitlines()[-1]
-    'export { Player, Recording, DIRECTIONS, unpack, mix };'
+    'export { Player, Recording, DIRECTIONS, unpack, inUnits, unpackPanel, mix };'
     """
     texts: dict[str, str] = {}
     for entry in entries:
@@ -49,14 +49,17 @@ def _add(name: str, texts: dict[str, str]) -> None:
 
 
 def _read(name: str) -> str:
-    if name != "assets.js":
+    if name not in _ASSETS:
         return _file(name)
     # A text within a page's script must not end it.
-    quoted = {key: json.dumps(_file(file)).replace("</", "<\\/") for key, file in _ASSETS.items()}
+    quoted = {key: json.dumps(_file(file)).replace("</", "<\\/") for key, file in _ASSETS[name].items()}
     return "".join(f"export const {key} = {text};\n" for key, text in quoted.items())
 
 
-_ASSETS = {"MARKUP": "player.html", "STYLE": "player.css"}
+_ASSETS = {
+    "assets.js": {"MARKUP": "player.html", "STYLE": "player.css"},
+    "studio_assets.js": {"STUDIO_MARKUP": "studio.html", "STUDIO_STYLE": "studio.css"},
+}
 
 
 def _file(name: str) -> str:

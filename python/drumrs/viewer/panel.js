@@ -4,12 +4,13 @@ import { formatNumber } from "./format.js";
 import { Plot } from "./plot.js";
 
 export class Panel {
-  // `onSeek` is called with a time where the reader points at one; the listeners end with `signal`.
-  constructor(container, panel, recording, theme, { onSeek, signal }) {
+  // `onSeek` is called with a time where the reader points at one; the listeners end with `signal`; `level` is that of the
+  // heading among those of the page.
+  constructor(container, panel, recording, theme, { onSeek, signal, level = 4 }) {
     const canvas = create("canvas");
     canvas.setAttribute("role", "img");
     canvas.setAttribute("aria-label", `${panel.title} over time: ${panel.lines.map((line) => line.name).join(", ")}`);
-    const heading = create("h4", "", panel.title);
+    const heading = create(`h${level}`, "heading", panel.title);
     heading.append(" ", create("span", "unit", `[${panel.unit}]`));
     const legend = create("ul", "readings");
     this.readings = panel.lines.map((line) => {

@@ -109,11 +109,9 @@ const TURN = 65536;
 export function unpack(data) {
   const radii = decode(data.radii, Float32Array);
   const count = radii.length;
-  const scaled = (packed, scale) => Float32Array.from(decode(packed, Uint16Array), scale);
   const drumAngles = decode(data.drum_angles, Float64Array);
-  const positions = scaled(data.positions, (value) => ((2 * value) / FULL - 1) * data.reach);
-  const angles = scaled(data.angles, (value) => (value / TURN) * 2 * Math.PI);
-  const speeds = scaled(data.speeds, (value) => (value / FULL) * data.fastest);
+  const [places, turns, shares] = [data.positions, data.angles, data.speeds].map((packed) => decode(packed, Uint16Array));
+  const { positions, angles, speeds } = inUnits(places, turns, shares, data);
   const frames = Array.from(decode(data.times, Float64Array), (time, k) => ({
     time,
     drumAngle: drumAngles[k],
@@ -122,16 +120,27 @@ export function unpack(data) {
     speeds: speeds.subarray(k * count, (k + 1) * count),
   }));
   if (data.forces) giveForces(frames, data.forces);
-  const panels = data.panels.map((panel) => ({
-    ...panel,
-    times: decode(panel.times, Float32Array),
-    lines: panel.lines.map((line) => ({ ...line, values: decode(line.values, Float32Array) })),
-  }));
+  const panels = data.panels.map(unpackPanel);
   const species = data.species && { ...data.species, of: decode(data.species.of, Uint16Array) };
   const discs = data.discs && { received: decode(data.discs.received, Float32Array), landings: decode(data.discs.landings, Float32Array) };
   const forceScale = data.forces && { end: data.forces.scale, least: data.forces.least };
   const { title, facts, shell, reach, baffles, walls, window, drum_radius: drumRadius, speed_scale: speedScale } = data;
   return new Recording({ title, facts, radii, drumRadius, shell, reach, baffles, walls, window, speedScale, panels, species, forceScale, discs, frames });
+}
+
+// Meters, radians and meters in a second of the whole numbers of 16 bits that recording.py makes of them.
+export function inUnits(places, turns, shares, { reach, fastest }) {
+  return {
+    positions: Float32Array.from(places, (value) => ((2 * value) / FULL - 1) * reach),
+    angles: Float32Array.from(turns, (value) => (value / TURN) * 2 * Math.PI),
+    speeds: Float32Array.from(shares, (value) => (value / FULL) * fastest),
+  };
+}
+
+// Return the panel that recording.py has packed.
+export function unpackPanel(panel) {
+  const lines = panel.lines.map((line) => ({ ...line, values: decode(line.values, Float32Array) }));
+  return { ...panel, times: decode(panel.times, Float32Array), lines };
 }
 
 function giveForces(frames, forces) {

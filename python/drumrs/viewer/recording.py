@@ -67,7 +67,7 @@ def pack(  # noqa: PLR0913, PLR0917 - what a page shows of a run
         What the discs received and how often they landed, ``result.discs``, for colors.
     """
     frames = _thinned(frames)
-    reach = _reach(frames)
+    reach = reach_of(frames)
     fastest = float(frames.speeds.max(initial=0.0)) or 1.0
     panels = panels_of_frames(frames) if series is None else panels_of_series(series)
     return {
@@ -77,12 +77,12 @@ def pack(  # noqa: PLR0913, PLR0917 - what a page shows of a run
         "drum_angles": _base64(frames.drum_angles, "<f8"),
         "radii": _base64(frames.radii, "<f4"),
         "species": _species(frames),
-        "positions": _base64(np.rint((frames.positions / reach + 1.0) / 2.0 * _FULL), "<u2"),
-        "angles": _base64(np.rint(frames.angles / math.tau * _TURN) % _TURN, "<u2"),
-        "speeds": _base64(np.rint(frames.speeds / fastest * _FULL), "<u2"),
+        "positions": _base64(of_places(frames.positions, reach), "<u2"),
+        "angles": _base64(of_angles(frames.angles), "<u2"),
+        "speeds": _base64(of_speeds(frames.speeds, fastest), "<u2"),
         "reach": reach,
         "fastest": fastest,
-        "speed_scale": _end_of_scale(frames.speeds),
+        "speed_scale": end_of_scale(frames.speeds),
         "forces": None if config is None else _forces(config, frames),
         "discs": None if discs is None else _discs(discs),
         "drum_radius": frames.drum_radius,
@@ -90,8 +90,24 @@ def pack(  # noqa: PLR0913, PLR0917 - what a page shows of a run
         "baffles": [line.tolist() for line in frames.drawn_baffles],
         "walls": [line.tolist() for line in frames.walls],
         "window": list(window) if window is not None else None,
-        "panels": [_panel(panel) for panel in panels],
+        "panels": [packed_panel(panel) for panel in panels],
     }
+
+
+def of_places(positions: NDArray[Any], reach: float) -> NDArray[Any]:
+    """Return coordinates as shares of a square about the axis, from 0 to 65535; its half width is `reach` [m]."""
+    shares = np.rint((positions / reach + 1.0) / 2.0 * _FULL)
+    return np.clip(shares, 0, _FULL).astype("<u2")
+
+
+def of_angles(angles: NDArray[Any]) -> NDArray[Any]:
+    """Return angles [rad] in 65536ths of a turn."""
+    return (np.rint(angles / math.tau * _TURN) % _TURN).astype("<u2")
+
+
+def of_speeds(speeds: NDArray[Any], fastest: float) -> NDArray[Any]:
+    """Return speeds as shares of the fastest [m/s], from 0 to 65535."""
+    return np.rint(speeds / fastest * _FULL).astype("<u2")
 
 
 def _species(frames: Frames) -> dict[str, Any] | None:
@@ -106,7 +122,8 @@ def _base64(values: NDArray[Any], kind: str) -> str:
     return base64.b64encode(np.ascontiguousarray(values, dtype=kind).tobytes()).decode("ascii")
 
 
-def _panel(panel: Panel) -> Mapping[str, Any]:
+def packed_panel(panel: Panel) -> Mapping[str, Any]:
+    """Return curves ready for JSON, as `unpackPanel` of recording.js reads them."""
     lines: Sequence[Mapping[str, Any]] = [
         {"name": line.name, "color": color, "values": _base64(line.values, "<f4")}
         for color, line in enumerate(panel.lines)
@@ -127,7 +144,7 @@ def _thinned(frames: Frames) -> Frames:
     return frames if len(kept) == len(frames) else frames.picked(kept)
 
 
-def _reach(frames: Frames) -> float:
+def reach_of(frames: Frames) -> float:
     """Return the half width of a square about the axis that holds the drum and every bundle's center."""
     farthest = float(np.abs(frames.positions).max(initial=0.0))
     outlines = [float(np.abs(line).max(initial=0.0)) for line in frames.walls]
@@ -136,7 +153,7 @@ def _reach(frames: Frames) -> float:
     return max([farthest + float(frames.radii.max(initial=0.0)), *outlines]) or 1.0
 
 
-def _end_of_scale(values: NDArray[Any], share: float = _TYPICAL) -> float:
+def end_of_scale(values: NDArray[Any], share: float = _TYPICAL) -> float:
     """Return what a share of the values stays below, to two digits upwards."""
     typical = float(np.quantile(values, share)) if values.size else 0.0
     if typical <= 0.0:
@@ -164,7 +181,7 @@ def _forces(config: "Config", frames: Frames) -> dict[str, Any]:
         for first in range(0, len(frames), every)
     ]
     frame, one, other, force = (np.concatenate(parts) for parts in zip(*chunks, strict=True))
-    scale = _end_of_scale(force, _TYPICAL_FORCE)
+    scale = end_of_scale(force, _TYPICAL_FORCE)
     least = max(_FAINT * scale, greatest_stiffness(config) * resolution(frames))
     if len(force) > MOST_FORCES:
         least = max(least, float(np.quantile(force, 1.0 - MOST_FORCES / len(force))))

@@ -1,0 +1,290 @@
+"""The server of the studio: one page, and one WebSocket by which the page asks and is told.
+
+The page asks for the next picture when it has drawn one, and gets the newest: nothing is queued, so a page that is slow
+or stands still costs nothing. Only this machine can connect, only with the token that is in the page's address, and
+only from that page.
+
+From the page comes JSON: ``{"do": "frame"}`` asks for the next picture; ``play``, ``pause``, ``step``, ``reset``;
+``rate`` with ``value``, null for as fast as can be; ``speed`` with ``value``; ``set`` with ``key`` and ``value``;
+``preset`` with ``value``; ``case`` with ``value``, ``"toml"`` or ``"python"``. To the page goes JSON with a ``kind``:
+``start``, ``state``, ``measures``, ``case``, ``error``; and pictures as bytes.
+"""
+
+import asyncio
+import contextlib
+import json
+import math
+import secrets
+import socket
+from collections.abc import AsyncIterator, Callable
+from typing import TYPE_CHECKING, Any
+
+from drumrs.errors import ConfigError, DrumrsError, missing_package
+from drumrs.studio.controls import controls
+from drumrs.studio.page import page
+from drumrs.studio.presets import preset, presets
+from drumrs.studio.session import Session, View
+
+try:
+    import uvicorn
+    import websockets  # noqa: F401 - what uvicorn speaks WebSocket by
+    from starlette.applications import Starlette
+    from starlette.responses import HTMLResponse, PlainTextResponse, Response
+    from starlette.routing import Route, WebSocketRoute
+    from starlette.websockets import WebSocket, WebSocketDisconnect
+except ModuleNotFoundError as error:
+    raise missing_package("the studio", error, "studio") from None
+
+if TYPE_CHECKING:
+    from starlette.requests import Request
+
+HOST = "127.0.0.1"
+# What a page may say at once [bytes].
+_LONGEST_MESSAGE = 10_000
+# How long to wait for a picture before looking whether the page is still there [s].
+_PATIENCE = 1.0
+# Why a WebSocket is closed that has no right to be there.
+_FORBIDDEN = 1008
+
+
+class Server:
+    """A session in the browser.
+
+    Parameters
+    ----------
+    session
+        What is shown.
+    name
+        What the choice of presets calls the case that the session began with.
+    port
+        Port to listen at; a free one unless given.
+
+    Raises
+    ------
+    ConfigError
+        Where the port cannot be had.
+    """
+
+    def __init__(self, session: Session, name: str = "", port: int = 0) -> None:
+        self.session = session
+        self._first = (name, session.view.config)
+        self._preset = name
+        self._token = secrets.token_urlsafe(16)
+        self._pages, self._was_playing = 0, session.view.playing
+        # Without anybody who looks it stands still.
+        session.pause()
+        self._socket = socket.socket()
+        self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            self._socket.bind((HOST, port))
+        except (OSError, OverflowError) as error:
+            self._socket.close()
+            problem = f"cannot be listened at: {error}"
+            raise ConfigError("--port", port, problem=problem, hint="leave it out for a free one") from None
+        self._origin = f"http://{HOST}:{self._socket.getsockname()[1]}"
+
+    @property
+    def address(self) -> str:
+        """Address of the page, token included."""
+        return f"{self._origin}/?token={self._token}"
+
+    def serve(self, on_ready: Callable[[], None]) -> None:
+        """Answer until Ctrl-C or `stop`.
+
+        Parameters
+        ----------
+        on_ready
+            Called as soon as the page can be opened.
+        """
+
+        @contextlib.asynccontextmanager
+        async def lifespan(_: Any) -> AsyncIterator[None]:
+            self._socket.listen()
+            on_ready()
+            yield
+
+        routes = [Route("/", self._show), WebSocketRoute("/session", self._talk)]
+        config = uvicorn.Config(
+            Starlette(routes=routes, lifespan=lifespan),
+            log_level="warning",
+            ws="websockets-sansio",
+            ws_max_size=_LONGEST_MESSAGE,
+            ws_per_message_deflate=False,
+            timeout_graceful_shutdown=1,
+        )
+        self._uvicorn = uvicorn.Server(config)
+        self._uvicorn.run(sockets=[self._socket])
+
+    def stop(self) -> None:
+        """End `serve`; safe from any thread."""
+        self._uvicorn.should_exit = True
+
+    def _may(self, headers: Any, token: str | None) -> bool:
+        # The host is that of the address, and no name that another page has made point to this machine.
+        host = self._origin.removeprefix("http://")
+        return headers.get("host") == host and secrets.compare_digest(
+            (token or "").encode(), self._token.encode()
+        )
+
+    async def _show(self, request: "Request") -> "Response":
+        if not self._may(request.headers, request.query_params.get("token")):
+            return PlainTextResponse(
+                "This page needs the address that drumrs studio has printed, with its token.\n", 403
+            )
+        text, policy = page()
+        headers = {
+            "Content-Security-Policy": policy,
+            "Cache-Control": "no-store",
+            "Referrer-Policy": "no-referrer",
+            "X-Content-Type-Options": "nosniff",
+        }
+        return HTMLResponse(text, headers=headers)
+
+    async def _talk(self, socket: "WebSocket") -> None:
+        is_ours = socket.headers.get("origin") == self._origin
+        if not (is_ours and self._may(socket.headers, socket.query_params.get("token"))):
+            await socket.close(_FORBIDDEN)
+            return
+        await socket.accept()
+        await self._come(1)
+        wanted = asyncio.Event()
+        sender = asyncio.create_task(self._send_frames(socket, wanted))
+        try:
+            while True:
+                message = await socket.receive()
+                if message["type"] == "websocket.disconnect":
+                    break
+                await self._hear(socket, message.get("text"), wanted)
+        except WebSocketDisconnect:
+            pass
+        finally:
+            sender.cancel()
+            await self._come(-1)
+
+    async def _come(self, more: int) -> None:
+        """Let the simulation go on where there is somebody to see it, and stand still where nobody is left."""
+        before, self._pages = self._pages, self._pages + more
+        session = self.session
+        with contextlib.suppress(DrumrsError):
+            if before == 0 and self._was_playing:
+                await asyncio.to_thread(session.play)
+            elif self._pages == 0:
+                self._was_playing = session.view.playing
+                await asyncio.to_thread(session.pause)
+
+    async def _send_frames(self, socket: "WebSocket", wanted: asyncio.Event) -> None:
+        """Send the newest picture whenever one is wanted, and what has changed beside it."""
+        known: View | None = None
+        with contextlib.suppress(WebSocketDisconnect, RuntimeError):
+            while True:
+                await wanted.wait()
+                number = -1 if known is None else known.number
+                view = await asyncio.to_thread(self.session.wait, number, _PATIENCE)
+                if view.number == number:
+                    continue
+                wanted.clear()
+                for told in self._news(view, known):
+                    await socket.send_text(json.dumps(told))
+                await socket.send_bytes(view.frame)
+                known = view
+
+    def _news(self, view: View, known: View | None) -> list[dict[str, Any]]:
+        """Return what the page does not know yet."""
+        news: list[dict[str, Any]] = []
+        if known is None or known.start != view.start:
+            choices = {self._first[0]: self._first[0]} | presets()
+            news.append(
+                {
+                    "kind": "start",
+                    "number": view.start,
+                    "scene": view.scene,
+                    "controls": controls(view.config, view.speed),
+                    "presets": choices,
+                    "preset": self._preset,
+                }
+            )
+        state = _state(view)
+        if known is None or _state(known) != state:
+            news.append({"kind": "state", **state})
+        if view.measures and (known is None or known.measures != view.measures or len(news) > 1):
+            news.append({"kind": "measures", **view.measures})
+        return news
+
+    async def _hear(self, socket: "WebSocket", text: str | None, wanted: asyncio.Event) -> None:
+        """Do what the page asks for; say so where that cannot be."""
+        try:
+            asked = _parse(text)
+            if asked["do"] == "frame":
+                wanted.set()
+                return
+            answer = await asyncio.to_thread(self._do, asked)
+        except DrumrsError as error:
+            answer = {"kind": "error", "text": f"{error}"}
+        if answer is not None:
+            await socket.send_text(json.dumps(answer))
+
+    def _do(self, asked: dict[str, Any]) -> dict[str, Any] | None:
+        session, value = self.session, asked.get("value")
+        match asked["do"]:
+            case "play":
+                session.play()
+            case "pause":
+                session.pause()
+            case "step":
+                session.advance(1)
+            case "reset":
+                session.reset()
+            case "rate":
+                session.set_rate(math.inf if value is None else _number("rate", value))
+            case "speed":
+                session.set_speed(_number("speed", value))
+            case "set":
+                # Lists and tables are for case files.
+                session.change({str(asked.get("key")): _number(str(asked.get("key")), value)})
+            case "preset":
+                name, config = self._first
+                chosen = config if value == name else preset(str(value))
+                self._preset = str(value)
+                session.load(chosen)
+            case "case":
+                return {"kind": "case", "as": value, "text": case_text(session.case(), str(value))}
+            case unknown:
+                raise ConfigError("do", unknown, "what a page of drumrs studio asks for")
+        return None
+
+
+def case_text(config: Any, kind: str) -> str:
+    """Return a case as a file, ``"toml"``, or as a script, ``"python"``."""
+    toml: str = config.to_toml(comments=False)
+    if kind == "toml":
+        return toml
+    if kind == "python":
+        return f'import drumrs\n\nconfig = drumrs.Config.from_toml("""\n{toml}""")\nresult = drumrs.run(config)\n'
+    raise ConfigError("as", kind, "'toml' or 'python'")
+
+
+def _state(view: View) -> dict[str, Any]:
+    return {
+        "title": view.title,
+        "facts": view.facts,
+        "playing": view.playing,
+        "rate": view.rate if math.isfinite(view.rate) else None,
+        "speed": view.speed,
+        "said": list(view.said),
+    }
+
+
+def _parse(text: str | None) -> dict[str, Any]:
+    try:
+        asked = json.loads(text or "")
+    except (ValueError, RecursionError):
+        asked = None
+    if not isinstance(asked, dict) or not isinstance(asked.get("do"), str):
+        raise ConfigError("what came from the page", problem="is not understood, but must be JSON with 'do'")
+    return asked
+
+
+def _number(what: str, value: Any) -> float:
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
+        raise ConfigError(what, value, "a finite number")
+    return float(value)

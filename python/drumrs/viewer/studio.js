@@ -1,0 +1,343 @@
+// A studio in an element of a page: a drum that turns while it is changed. Stage, colors, curves and films are those of
+// the player; what happens is asked of `live` and told by it, as live.js has it.
+//
+//   const studio = new Studio(element, live);
+//   studio.destroy();
+
+import { STYLE } from "./assets.js";
+import { readTheme } from "./canvas.js";
+import { Coloring, GRADIENT, MODES, modesOf } from "./color.js";
+import { canRecord, Film } from "./film.js";
+import { formatNumber } from "./format.js";
+import { Panel } from "./panel.js";
+import { inUnits, unpack, unpackPanel } from "./recording.js";
+import { Sliders } from "./sliders.js";
+import { Stage } from "./stage.js";
+import { STUDIO_MARKUP, STUDIO_STYLE } from "./studio_assets.js";
+
+// Numbers at the head of a picture, 8 bytes each, as scene.py packs them.
+const HEAD_NUMBERS = 6;
+// Bundles times pictures that are kept for paths.
+const MOST_KEPT = 500000;
+const LOST = "The simulation does not answer. Is drumrs studio still running? This page tries again.";
+
+const STUDIO_KEYS = {
+  " ": (studio) => studio.toggle(),
+  ArrowRight: (studio) => studio.ask("step"),
+  ArrowUp: (studio) => studio.sliders.turn(1),
+  ArrowDown: (studio) => studio.sliders.turn(-1),
+  r: (studio) => studio.ask("reset"),
+  c: (studio) => studio.nextMode(),
+  m: (studio) => studio.mark(),
+  n: (studio) => studio.choose([((studio.stage?.chosen.at(-1) ?? -1) + 1) % studio.recording.count]),
+  s: (studio) => studio.saveScreenshot(),
+  Escape: (studio) => studio.choose([]),
+};
+
+export class Studio {
+  constructor(element, live) {
+    this.live = live;
+    this.host = document.createElement("div");
+    const root = this.host.attachShadow({ mode: "open" });
+    root.innerHTML = `<style>${STYLE}${STUDIO_STYLE}</style>${STUDIO_MARKUP}`;
+    element.append(this.host);
+    this.root = root;
+    this.part = (name) => root.querySelector(`.${name}`);
+    this.theme = {};
+    this.pictures = { count: 0, since: performance.now(), rate: 0 };
+    // As the system asks for: with less motion the drum stands until the reader lets it turn.
+    this.still = matchMedia("(prefers-reduced-motion: reduce)").matches;
+    this.ended = new AbortController();
+    this.listen(this.ended.signal);
+  }
+
+  listen(signal) {
+    const { live, root } = this;
+    const on = (name, event, act) => this.part(name).addEventListener(event, act, { signal });
+    on("play", "click", () => this.toggle());
+    on("reset", "click", () => this.ask("reset"));
+    on("one", "click", () => this.ask("step"));
+    on("rate", "change", ({ target }) => this.ask("rate", target.value ? Number(target.value) : null));
+    on("preset", "change", ({ target }) => this.ask("preset", target.value));
+    on("mode", "change", ({ target }) => this.setMode(target.value));
+    on("mark", "click", () => this.mark());
+    on("corotating", "change", ({ target }) => this.show({ corotating: target.checked }));
+    on("toml", "click", () => this.ask("case", "toml"));
+    on("python", "click", () => this.ask("case", "python"));
+    on("picture", "click", () => this.saveScreenshot());
+    on("film", "click", () => this.toggleFilm());
+    on("stage", "click", (event) => this.select(event));
+    this.part("film").hidden = !canRecord();
+    this.part("bar").style.background = GRADIENT;
+    this.sliders = new Sliders(this.part("sliders"), live, signal);
+    root.addEventListener("keydown", (event) => this.press(event), { signal });
+    live.addEventListener("open", () => this.connected(true), { signal });
+    live.addEventListener("lost", () => this.connected(false), { signal });
+    live.addEventListener("told", ({ detail }) => this.hear(detail), { signal });
+    live.addEventListener("frame", ({ detail }) => this.receive(detail), { signal });
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.refresh(), { signal });
+    this.sizes = new ResizeObserver(() => this.refresh());
+    this.sizes.observe(this.part("stage"));
+  }
+
+  destroy() {
+    this.ended.abort();
+    this.sizes.disconnect();
+    cancelAnimationFrame(this.next);
+    this.live.close();
+    this.host.remove();
+  }
+
+  ask(what, value) {
+    this.complain("");
+    this.live.ask({ do: what, value });
+  }
+
+  connected(isConnected) {
+    this.complain(isConnected ? "" : LOST);
+    if (isConnected) this.live.ask({ do: "frame" });
+  }
+
+  complain(text) {
+    const trouble = this.part("trouble");
+    // A text that stays is not to be read out again.
+    if (trouble.textContent !== text) trouble.textContent = text;
+    trouble.hidden = !text;
+  }
+
+  hear(told) {
+    if (told.kind === "start") this.begin(told);
+    else if (told.kind === "state") this.describe(told);
+    else if (told.kind === "measures") this.measure(told);
+    else if (told.kind === "case") this.copy(told);
+    else if (told.kind === "error") this.refuse(told.text);
+  }
+
+  refuse(text) {
+    this.complain(text);
+    this.sliders.restore();
+  }
+
+  // Another drum, or the same one from its start.
+  begin({ scene, controls, presets, preset }) {
+    const before = this.stage;
+    this.recording = unpack(scene);
+    this.stage = new Stage(this.part("stage"), this.recording, this.theme);
+    this.stage.corotating = before?.corotating ?? false;
+    const { name } = this.coloring ?? {};
+    this.coloring = new Coloring(this.recording);
+    if (modesOf(this.recording).includes(name)) this.coloring.name = name;
+    this.part("mode").replaceChildren(...modesOf(this.recording).map((mode) => new Option(MODES[mode].label, mode)));
+    this.part("preset").replaceChildren(...Object.entries(presets).map(([value, words]) => new Option(words, value)));
+    this.part("preset").value = preset;
+    this.sliders.show(controls);
+    this.part("tiles").replaceChildren();
+    this.part("panels").replaceChildren();
+    this.panels = [];
+    this.axes = { begin: 0, end: 0, window: null, panels: [] };
+    this.refresh();
+  }
+
+  describe({ title, facts, playing, rate, speed, said }) {
+    this.part("title").textContent = title;
+    this.part("facts").textContent = facts;
+    this.part("stage").setAttribute("aria-label", `The drum: ${title}`);
+    if (this.still) {
+      this.still = false;
+      if (playing) this.ask("pause");
+    }
+    this.playing = playing;
+    this.part("player").classList.toggle("playing", playing);
+    this.part("play").setAttribute("aria-label", playing ? "Pause" : "Play");
+    this.part("rate").value = rate ?? "";
+    this.sliders.setSpeed(speed);
+    const last = said.at(-1) ?? "";
+    if (this.part("said").textContent !== last) this.part("said").textContent = last;
+  }
+
+  measure({ window, tiles, panels, speedScale }) {
+    this.part("tiles").replaceChildren(...tiles.map(tileOf));
+    const [from, to] = window.map((time) => time.toFixed(2));
+    this.part("since").textContent = tiles.length ? `Means over ${from} to ${to}\u00a0s, since the last change, ± standard error.` : "";
+    this.recording.speedScale = speedScale;
+    Object.assign(this.axes, { end: window[1], window });
+    panels.map(unpackPanel).forEach((panel, k) => {
+      if (this.panels[k]) Object.assign(this.axes.panels[k], panel);
+      else this.addPanel(panel);
+      this.panels[k].plot.stale = true;
+      this.panels[k].draw(this.axes.end);
+    });
+  }
+
+  addPanel(panel) {
+    this.axes.panels.push(panel);
+    const options = { onSeek: () => {}, signal: this.ended.signal, level: 2 };
+    this.panels.push(new Panel(this.part("panels"), panel, this.axes, this.theme, options));
+  }
+
+  // Keep a picture, draw it with the screen's next one, and only then ask for another.
+  receive(buffer) {
+    const { recording } = this;
+    const [, time, drumAngle, spin, fastest, factor] = new Float64Array(buffer, 0, HEAD_NUMBERS);
+    const numbers = new Uint16Array(buffer, 8 * HEAD_NUMBERS);
+    const n = recording.count;
+    const arrays = inUnits(numbers.subarray(0, 2 * n), numbers.subarray(2 * n, 3 * n), numbers.subarray(3 * n), { reach: recording.reach, fastest });
+    if (time <= recording.end) recording.frames.pop();
+    recording.frames.push({ time, drumAngle, ...arrays });
+    this.forget(Math.max(Math.floor(MOST_KEPT / n), 2));
+    Object.assign(this, { spin, factor });
+    cancelAnimationFrame(this.next);
+    this.next = requestAnimationFrame(() => {
+      this.draw();
+      this.live.ask({ do: "frame" });
+    });
+  }
+
+  // Leave out the oldest pictures, but the one that colors refer to.
+  forget(most) {
+    const { coloring, recording } = this;
+    const { frames } = recording;
+    if (frames.length <= most) return;
+    // Many at once, so that it is seldom done.
+    const excess = Math.ceil(frames.length / 4);
+    const [marked] = coloring.mark < excess ? [frames[coloring.mark]] : [];
+    frames.splice(0, excess);
+    if (marked) frames.unshift(marked);
+    coloring.mark = marked ? 0 : coloring.mark - excess;
+  }
+
+  // Read colors and font anew, and draw everything.
+  refresh() {
+    Object.assign(this.theme, readTheme(this.host));
+    for (const panel of this.panels ?? []) {
+      panel.plot.stale = true;
+      panel.draw(this.axes.end);
+    }
+    this.draw();
+  }
+
+  draw() {
+    const { recording, stage, coloring } = this;
+    if (!recording) return;
+    const scene = recording.scene(recording.end);
+    scene.spin = this.spin ?? 0;
+    stage.draw(scene, coloring.shades(scene));
+    this.scene = scene;
+    this.count();
+    this.write();
+  }
+
+  count() {
+    const { pictures } = this;
+    pictures.count += 1;
+    const passed = (performance.now() - pictures.since) / 1000;
+    if (passed < 1) return;
+    Object.assign(pictures, { rate: pictures.count / passed, count: 0, since: performance.now() });
+  }
+
+  write() {
+    const { scene, recording, coloring, pictures, playing, factor } = this;
+    const rpm = (scene.spin * 30) / Math.PI;
+    this.part("time").textContent = `${scene.time.toFixed(2)} s`;
+    this.part("turning").textContent = `${rpm.toFixed(1).replace("-", "−")} rpm, ${Math.abs(scene.drumAngle / 2 / Math.PI).toFixed(2)} turns`;
+    this.part("pace").textContent = playing ? `${formatNumber(factor)} simulated seconds in a second, ${pictures.rate.toFixed(0)} pictures.` : "Paused.";
+    const { mode, mark } = coloring;
+    const text = (value) => (mode.name ? mode.name(recording, value) : formatNumber(value * mode.factor));
+    const [lowest, highest] = coloring.range(scene).map(text);
+    const moment = mode.marked ? `, t\u00a0=\u00a0${recording.frames[mark].time.toFixed(2)}\u00a0s` : "";
+    this.part("quantity").textContent = `${mode.label}${moment}${mode.unit && ` [${mode.unit}]`}`;
+    this.part("lowest").textContent = lowest;
+    this.part("highest").textContent = highest;
+    this.part("mode").value = coloring.name;
+  }
+
+  toggle() {
+    this.ask(this.playing ? "pause" : "play");
+  }
+
+  show(changes) {
+    Object.assign(this.stage, changes);
+    this.draw();
+  }
+
+  choose(bundles) {
+    this.show({ chosen: bundles });
+  }
+
+  select(event) {
+    const bundle = this.stage.bundleAt(event.offsetX, event.offsetY, this.scene);
+    this.choose(bundle === null ? [] : [bundle]);
+  }
+
+  setMode(name) {
+    this.coloring.name = name;
+    this.draw();
+  }
+
+  nextMode() {
+    const names = modesOf(this.recording);
+    this.setMode(names[(names.indexOf(this.coloring.name) + 1) % names.length]);
+  }
+
+  // From now on the colors say where each bundle is at this moment, so that mixing shows.
+  mark() {
+    this.coloring.mark = this.recording.frames.length - 1;
+    this.setMode(this.coloring.mode.marked ? this.coloring.name : "height");
+  }
+
+  async copy({ as, text }) {
+    const area = this.part("case");
+    Object.assign(area, { value: text, hidden: false });
+    const name = as === "toml" ? "case.toml" : "a script";
+    try {
+      await navigator.clipboard.writeText(text);
+      this.part("said").textContent = `Copied as ${name}.`;
+    } catch {
+      area.focus();
+      area.select();
+      this.part("said").textContent = `The browser does not let this page copy: ${name} is selected below.`;
+    }
+  }
+
+  get background() {
+    return getComputedStyle(this.part("player")).backgroundColor;
+  }
+
+  saveScreenshot() {
+    const canvas = this.part("stage");
+    const copy = Object.assign(document.createElement("canvas"), { width: canvas.width, height: canvas.height });
+    const pen = copy.getContext("2d");
+    pen.fillStyle = this.background;
+    pen.fillRect(0, 0, copy.width, copy.height);
+    pen.drawImage(canvas, 0, 0);
+    Object.assign(document.createElement("a"), { href: copy.toDataURL(), download: "drum.png" }).click();
+  }
+
+  toggleFilm() {
+    const button = this.part("film");
+    if (this.film) this.film.stop("drum");
+    this.film = this.film ? null : new Film(this.part("stage"), this.background);
+    button.textContent = this.film ? "Stop recording" : "Record";
+    button.setAttribute("aria-pressed", Boolean(this.film));
+  }
+
+  // Do what a key stands for, unless the control that has the focus needs the key itself.
+  press(event) {
+    const act = STUDIO_KEYS[event.key];
+    const inside = this.root.activeElement;
+    const own = inside?.matches("select, input[type=range], textarea") || (inside?.matches("button, input, summary") && event.key === " ");
+    if (!act || own || event.ctrlKey || event.metaKey || event.altKey) return;
+    event.preventDefault();
+    act(this);
+  }
+}
+
+function tileOf({ name, text, unit, meaning }) {
+  const tile = Object.assign(document.createElement("div"), { className: "tile", title: meaning });
+  const words = name.replaceAll("_", " ");
+  const value = Object.assign(document.createElement("dd"), { textContent: `${text.replace("-", "−")} ` });
+  value.append(Object.assign(document.createElement("small"), { textContent: unit }));
+  tile.append(Object.assign(document.createElement("dt"), { textContent: words[0].toUpperCase() + words.slice(1) }), value);
+  tile.dataset.name = name;
+  return tile;
+}
