@@ -87,17 +87,18 @@ clean: ## remove everything built
 	cargo clean
 	rm -rf $(VENV) $(OUT) dist python/drumrs/*.so
 
-# The Python dependencies are installed once and again when they change; a Rust edit only rebuilds the core.
+# The Python dependencies are installed once and again when they change; a Rust edit only rebuilds the core. The first time
+# it is compiled while they are fetched.
 $(STAMP): pyproject.toml Cargo.toml
 ifdef UV
 	test -x $(BIN)/python || $(UV) venv --python '>=3.11' $(VENV)
 	$(UV) pip install 'maturin>=1.13,<2'
-	$(BIN)/maturin develop --release --uv
+	$(BIN)/maturin develop --release --skip-install --quiet & $(BIN)/maturin develop --release --uv && wait
 else
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "drumrs needs Python 3.11 or later; set PYTHON=")'
 	test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
 	$(BIN)/python -m pip install --disable-pip-version-check --quiet 'maturin>=1.13,<2'
-	$(BIN)/maturin develop --release
+	$(BIN)/maturin develop --release --skip-install --quiet & $(BIN)/maturin develop --release && wait
 endif
 	@touch $@
 
