@@ -2,19 +2,21 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from drumrs.config import Config, anchored, read_layer
+from drumrs.config import Config, anchored
 from drumrs.config.layers import flat
 from drumrs.decide.emulator import Array
-from drumrs.decide.problem import refuse_unknown, share, whole
+from drumrs.decide.problem import read_file, refuse_unknown, share, whole
 from drumrs.decide.space import Space
 from drumrs.decide.targets import Target
 from drumrs.errors import ConfigError
-from drumrs.sweep.sweep_file import read_base, table_of
+from drumrs.sweep.sweep_file import table_of
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 _TABLES = ("base", "ranges", "measured", "candidate", "calibrate")
 _KEYS = ("runs", "discrepancy")
@@ -100,12 +102,7 @@ class Experiment:
         >>> str(experiment.measured[0]), experiment.runs
         ('drum specific power at rotation.rpm = 40', 12)
         """
-        content, folder = (
-            (source, Path()) if isinstance(source, Mapping) else (read_layer(source), Path(source).parent)
-        )
-        refuse_unknown(content, _TABLES, "", _WHAT)
-        base = content.get("base")
-        base = base if isinstance(base, Config) else read_base(content, folder)
+        base, content, folder = read_file(source, _TABLES, _WHAT)
         space = Space.read(flat(anchored(table_of(content, "ranges") or {}, folder)))
         if len(space) > _MOST_PARAMETERS:
             raise ConfigError(

@@ -137,12 +137,7 @@ class Problem:
         >>> str(problem.objectives[0]), str(problem.constraints[0]), problem.runs
         ('least drum specific power', 'dissipation_ratio >= 1.2', 20)
         """
-        content, folder = (
-            (source, Path()) if isinstance(source, Mapping) else (read_layer(source), Path(source).parent)
-        )
-        refuse_unknown(content, _TABLES, "", _WHAT)
-        base = content.get("base")
-        base = base if isinstance(base, Config) else read_base(content, folder)
+        base, content, folder = read_file(source, _TABLES, _WHAT)
         tables = {key: table_of(content, key) or {} for key in _TABLES[1:]}
         ranges, axes = (flat(anchored(tables[key], folder)) for key in ("ranges", "axes"))
         space, wanted = Space.read(ranges, axes), tables["optimize"]
@@ -181,6 +176,29 @@ class Problem:
         """What tells searches apart that go other ways: all but when to stop and how to confirm."""
         words = repr((self.base.digest, self.space, [(str(goal), goal.target.text) for goal in self.goals]))
         return hashlib.sha256(words.encode()).hexdigest()[:20]
+
+
+def read_file(
+    source: "str | Path | Mapping[str, Any]", known: tuple[str, ...], what: str
+) -> tuple[Config, Mapping[str, Any], Path]:
+    """Read the file of a decision, or a mapping of the same form, whose ``base`` may be a `Config`.
+
+    Returns
+    -------
+    tuple
+        What all runs share; the content, whose tables are among the known ones; the folder to which paths are relative.
+
+    Raises
+    ------
+    ConfigError
+        Where the file cannot be read, or a table or a key of ``[base]`` is not accepted.
+    """
+    content, folder = (
+        (source, Path()) if isinstance(source, Mapping) else (read_layer(source), Path(source).parent)
+    )
+    refuse_unknown(content, known, "", what)
+    base = content.get("base")
+    return base if isinstance(base, Config) else read_base(content, folder), content, folder
 
 
 def refuse_unknown(table: Mapping[str, Any], known: tuple[str, ...], at: str, what: str) -> None:

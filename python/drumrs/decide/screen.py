@@ -10,10 +10,10 @@ import numpy as np
 
 from drumrs.analysis import Interval
 from drumrs.analysis.blocks import Array
-from drumrs.config import Config, anchored, read_layer
+from drumrs.config import Config, anchored
 from drumrs.config.layers import flat
 from drumrs.decide.evaluate import Evaluator
-from drumrs.decide.problem import refuse_unknown
+from drumrs.decide.problem import read_file, refuse_unknown
 from drumrs.decide.sensitivity import Effect, Indices, morris, noise_of, saltelli, sobol, trajectories
 from drumrs.decide.space import Space
 from drumrs.decide.targets import Target
@@ -21,7 +21,7 @@ from drumrs.errors import ConfigError
 from drumrs.folders import claim, require_own
 from drumrs.pictures import attempt
 from drumrs.sweep import Case
-from drumrs.sweep.sweep_file import read_base, table_of
+from drumrs.sweep.sweep_file import table_of
 from drumrs.tables import write_table
 
 if TYPE_CHECKING:
@@ -99,12 +99,7 @@ class ScreeningPlan:
         ConfigError
             Where the file cannot be read, or a key or value is not accepted.
         """
-        content, folder = (
-            (source, Path()) if isinstance(source, Mapping) else (read_layer(source), Path(source).parent)
-        )
-        refuse_unknown(content, _TABLES, "", _WHAT)
-        base = content.get("base")
-        base = base if isinstance(base, Config) else read_base(content, folder)
+        base, content, folder = read_file(source, _TABLES, _WHAT)
         tables = {key: table_of(content, key) or {} for key in _TABLES[1:]}
         ranges, axes = (flat(anchored(tables[key], folder)) for key in ("ranges", "axes"))
         wanted = tables["screen"]

@@ -83,7 +83,7 @@ def occupancy(
     from scipy.spatial import KDTree
 
     drum_radius = _rim(frames)
-    seen = counter_clockwise(within(frames, window))
+    selected = counter_clockwise(within(frames, window))
     edges = np.asarray(layers, dtype=np.float64) * 2.0 * float(frames.radii.mean())
     across = np.arange(_ACROSS * (len(edges) - 1)) + 0.5
     depths = np.interp(across / _ACROSS, np.arange(len(edges)), edges)
@@ -95,10 +95,14 @@ def occupancy(
     tree = KDTree(places)
     shape = (len(edges) - 1, _ACROSS, bins, _ALONG)
     covered, left = [], []
-    for positions, angle in zip(seen.positions, seen.drum_angles, strict=True):
-        bare = from_solids(seen, places @ turn_back(angle)) > 0.0 if seen.baffles else np.ones(len(places))
+    for positions, angle in zip(selected.positions, selected.drum_angles, strict=True):
+        bare = (
+            from_solids(selected, places @ turn_back(angle)) > 0.0
+            if selected.baffles
+            else np.ones(len(places))
+        )
         hit = np.zeros(len(places))
-        hit[np.concatenate(tree.query_ball_point(positions, seen.radii)).astype(int)] = 1.0
+        hit[np.concatenate(tree.query_ball_point(positions, selected.radii)).astype(int)] = 1.0
         covered.append((hit * bare * areas).reshape(shape).sum(axis=(1, 3)))
         left.append((bare * areas).reshape(shape).sum(axis=(1, 3)))
     found = np.full((2, len(edges) - 1, bins), np.nan)
@@ -152,16 +156,16 @@ def charge(
     >>> 0.2 < found["filling"].value < 0.4, -1.0 < found["arm"].value < 1.0
     (True, True)
     """
-    seen = counter_clockwise(within(frames, window))
+    selected = counter_clockwise(within(frames, window))
     drum_radius, diameter = _rim(frames), 2.0 * float(frames.radii.mean())
-    every = FrameWindow.of(seen, window)
-    ways = np.diff(seen.drum_angles)
+    every = FrameWindow.of(selected, window)
+    ways = np.diff(selected.drum_angles)
     if -ways.clip(max=0.0).sum() > _BACK * abs(ways).sum():
         limit = (
             "one in which the drum turns one way: the charge lies on the other side after it has turned round"
         )
         raise ConfigError("window", window, limit)
-    weights = seen.radii**2 / (seen.radii**2).sum()
+    weights = selected.radii**2 / (selected.radii**2).sum()
     centers = np.einsum("fnk,n->fk", every.positions, weights)
 
     def of_frames(chosen: slice) -> dict[str, float]:

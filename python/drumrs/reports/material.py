@@ -62,18 +62,20 @@ class Material:
     def span(self) -> tuple[float, float]:
         """Start and end of the time in which motion is measured [s].
 
-        The window; where the drum's speed changes, the longest stretch at one speed instead, if there is any, the last
+        The window; where the drum's speed changes, the longest time at one speed instead, if there is any, the last
         of several: a mean over ways to and fro would be of neither.
         """
         if self.config.derived.angular_velocity is not None:
             return self.window
-        return max(reversed(self._stretches), key=lambda each: each[1] - each[0], default=self.window)
+        return max(
+            reversed(self._spans_of_one_speed), key=lambda each: each[1] - each[0], default=self.window
+        )
 
     @property
     def other_way(self) -> tuple[float, float] | None:
-        """Start and end [s] of the longest stretch in which the drum turns the other way; `None` where it does not."""
+        """Start and end [s] of the longest time in which the drum turns the other way; `None` where it does not."""
         turned = self._turned(self.span)
-        ways = [each for each in self._stretches if self._turned(each) * turned < 0.0]
+        ways = [each for each in self._spans_of_one_speed if self._turned(each) * turned < 0.0]
         return max(reversed(ways), key=lambda each: each[1] - each[0], default=None)
 
     def _turned(self, span: tuple[float, float]) -> float:
@@ -81,8 +83,8 @@ class Material:
         return float(np.diff(np.interp(span, times, angles))[0])
 
     @cached_property
-    def _stretches(self) -> list[tuple[float, float]]:
-        """Start and end of the stretches at one speed [s]."""
+    def _spans_of_one_speed(self) -> list[tuple[float, float]]:
+        """Start and end of the times at one speed [s]."""
         knots = self.config.rotation.knots
         last = (float(self.result.series["time"][-1]), knots[-1][1])
         return [

@@ -220,7 +220,7 @@ def skins() -> Evidence:
 def threads() -> Evidence:
     """Any number of threads gives the same trajectory: 9 000 bundles round five large discs.
 
-    Every bit: 0 numbers may differ. Each large disc touches bundles that different threads look after, so that an order
+    Every bit: 0 numbers may differ. Each large disc touches bundles of different threads, so that an order
     of sums that depended on threads would show.
     """
     config, start = _crowd()

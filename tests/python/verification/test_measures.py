@@ -19,8 +19,8 @@ WRONG = [
     (
         "occupancy",
         "shape",
-        "tree.query_ball_point(positions, seen.radii)",
-        "tree.query_ball_point(positions, seen.radii / 2)",
+        "tree.query_ball_point(positions, selected.radii)",
+        "tree.query_ball_point(positions, selected.radii / 2)",
     ),
     (
         "mixing-null",
