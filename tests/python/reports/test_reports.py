@@ -8,7 +8,7 @@ from itertools import pairwise
 import pytest
 
 import drumrs
-from drumrs.measures import flights, morrell
+from drumrs.measures import flights, hogg_fuerstenau, morrell
 from drumrs.reports import PAGES, catalog, content, power
 from drumrs.reports.material import Material
 from drumrs.reports.page import render
@@ -91,7 +91,7 @@ def test_a_page_says_which_record_to_add_and_is_whole_without(plain):
 def test_research_has_every_section():
     sections = {one for page in PAGES.values() for one in page.sections}
     missing = sections - set(PAGES["research"].sections)
-    assert {one.anchor for one in missing} == {"c-model"}
+    assert {one.anchor for one in missing} == {"models"}
 
 
 @pytest.mark.parametrize("name", PAGES)
@@ -115,22 +115,28 @@ def test_power_is_that_of_the_summary(recorded, pages):
     assert f"all {content.value(knocking)} " in section(pages["washer"], "handling")
 
 
-def test_the_c_model_is_asked_for_this_mill(recorded, pages):
-    config = recorded.config
+def test_models_are_asked_for_this_mill(recorded, pages):
+    config, material = recorded.config, Material(recorded)
     radius, speed = config.drum.diameter / 2.0, config.derived.angular_velocity
-    model = morrell.charge(config.fill / 0.82, speed * math.sqrt(radius / 9.81))
-    scale = Material(recorded).mass * 9.81 * radius * speed
-    told = section(pages["mill"], "c-model")
-    assert f" {content.value(model.arm * scale)} arm" in told
-    assert f" {content.value(math.degrees(model.toe))} shoulder" in told
+    filling = config.fill / 0.82
+    model = morrell.charge(filling, speed * math.sqrt(radius / 9.81))
+    flat = hogg_fuerstenau.arm(filling, material.charge["surface_slope"].value)
+    scale = material.mass * 9.81 * radius * speed
+    told = section(pages["mill"], "models")
+    powers = " ".join(content.value(arm * scale / 1e3) for arm in (model.arm, flat))
+    assert f" {powers} arm" in told
+    assert f" {content.value(math.degrees(model.toe))} – shoulder" in told
     own = recorded.summary.drum_power / scale
     assert f"arm: power over M g R Ω {content.value(own).split(' ')[0][:5]}" in told
+    angle = math.degrees(hogg_fuerstenau.lift_angle(filling, own))
+    assert f"at a lift angle of α = {angle:.1f}°" in told
 
 
-def test_the_c_model_needs_one_speed(program):
-    told = section(render(program, "mill"), "c-model")
+def test_models_of_mills_need_one_speed(program):
+    told = section(render(program, "mill"), "models")
     assert (
-        "not shown: rotation lets the drum rest or change its speed, but the C-model is of one speed." in told
+        "not shown: rotation lets the drum rest or change its speed, but models of mills are of one speed."
+        in told
     )
 
 
