@@ -57,6 +57,18 @@ def flow(of: "Material") -> "Iterator[Block]":
         + (" Summed up from the start of the window to the end of the run." if of.sums_fields else ""),
         draw,
     )
+    if not of.sums_fields:
+        return
+
+    def draw_stress() -> "Figure":
+        return figures.stress(found, of.frames.drum_radius)
+
+    yield Picture(
+        "What the load bears",
+        "Mean pressure, of contacts and of what the load trembles. The arms of a cross are its principal stresses over "
+        "the pressure: the longer one is the way forces go.",
+        draw_stress,
+    )
 
 
 def layer(of: "Material") -> "Iterator[Block]":
@@ -107,7 +119,8 @@ def _frames_for_flights(of: "Material") -> str:
         return ""
     return (
         f"Flights are seen in frames, {apart:.3g} s apart: shorter ones than twice that are missed. "
-        f"For all that last {value(least, digits=2)} s, set run.frame_every to {value(_FINE * least, digits=1)} s or less."
+        f"For all that last {value(least, digits=2)} s, set run.frame_every to {value(_FINE * least, digits=1)} s or "
+        "less."
     )
 
 
@@ -117,8 +130,8 @@ def circulation(of: "Material") -> "Iterator[Block]":
     rounds = measures.circulation(of.frames, of.span, center)
     yield measured(
         {"circulation": rounds},
-        f"The center of circulation lies at x = {value(center[0], digits=3)} m, y = {value(center[1], digits=3)} m. Every round brings a disc to "
-        "the surface once.",
+        f"The center of circulation lies at x = {value(center[0], digits=3)} m, y = {value(center[1], digits=3)} m. "
+        "Every round brings a disc to the surface once.",
     )
 
 
@@ -146,7 +159,7 @@ def visits(of: "Material") -> "Iterator[Block]":
 
 def _recorded_visits(table: "pl.DataFrame", zone: str, time: float) -> Table:
     """Return a table of the visits to a zone that were counted in some time [s]."""
-    found, entries = measures.recorded_visits(table, zone), float(table["entries"].mean() or 0.0)
+    found, entries = measures.recorded_visits(table, zone), float(table["entries"].to_numpy().mean())
     inside = table["time_inside"].to_numpy()
     spread = float(inside.std(ddof=1) / inside.mean()) if len(inside) > 1 else math.nan
     return Table(

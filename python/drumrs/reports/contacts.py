@@ -110,9 +110,9 @@ def wear(of: "Material") -> "Iterator[Block]":
     yield Table(
         ("part", "sliding: share [%]", "greatest", "impact: share [%]", "greatest"),
         rows,
-        "Sliding wear is Archard’s, impact wear Finnie’s. Greatest: the depth in the bin that wears most, over the mean "
-        "along all of the outline that the load can touch. An amount needs a coefficient of wear that somebody has "
-        "measured; the shape does not.",
+        "Sliding wear is Archard’s, impact wear Finnie’s. Greatest: the depth in the bin that wears most, over the "
+        "mean along all of the outline that the load can touch. An amount needs a coefficient of wear that somebody "
+        "has measured; the shape does not.",
     )
     speed = of.config.derived.angular_velocity
     way = "counter-clockwise" if speed is None or speed > 0.0 else "clockwise"

@@ -116,7 +116,8 @@ def mixing(of: "Material") -> "Iterator[Block]":
         ("colored by", "rate [per turn]", "end of the fit", "index at the end"),
         rows,
         "Lacey’s index, 0 apart, 1 as mixed as chance makes it: M∞ − (M∞ − M₀) exp(−k (n − τ)) fitted to the middle of "
-        "three sizes of cells. An end above 1 lies beyond this run: it is too short to tell. The first frame gives the colors: right half, upper half, inner half"
+        "three sizes of cells. An end above 1 lies beyond this run: it is too short to tell. The first frame gives the "
+        "colors: right half, upper half, inner half"
         + (f", and the species {species[0]}." if len(species) > 1 else "."),
     )
 

@@ -130,7 +130,7 @@ def by_phase(of: "Material") -> "Iterator[Block]":
     table = phases(of.result)
     if table.is_empty():
         return
-    rows, most = [], max(float(table["drum_specific_power"].abs().max() or 0.0), 1e-300)
+    rows, most = [], float(np.nanmax(np.abs(table["drum_specific_power"].to_numpy().astype(float))))
     for row in table.head(_MOST_PHASES).iter_rows(named=True):
         power, error = row.get("drum_specific_power"), row.get("drum_specific_power_error")
         if power is not None and abs(power) < _NOTHING * most:

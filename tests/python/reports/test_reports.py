@@ -8,6 +8,7 @@ from itertools import pairwise
 import pytest
 
 import drumrs
+from drumrs.analysis import rate_with_error
 from drumrs.measures import flights, hogg_fuerstenau, morrell
 from drumrs.reports import PAGES, catalog, content, power
 from drumrs.reports.material import Material
@@ -111,8 +112,11 @@ def test_power_is_that_of_the_summary(recorded, pages):
     summary = recorded.summary
     shown = content.value(summary.drum_specific_power, summary.drum_specific_power_error)
     assert f"drum specific power [W/kg] {shown} power of the drum" in section(pages["washer"], "power")
-    knocking = summary.dissipated_normal_power / Material(recorded).mass
-    assert f"all {content.value(knocking)} " in section(pages["washer"], "handling")
+    material = Material(recorded)
+    knocking = rate_with_error(recorded.series, "dissipated_normal", material.window)
+    assert knocking.value == pytest.approx(summary.dissipated_normal_power)
+    told = content.value(knocking.value / material.mass, knocking.error and knocking.error / material.mass)
+    assert f"all {told} " in section(pages["washer"], "handling")
 
 
 def test_models_are_asked_for_this_mill(recorded, pages):
