@@ -199,6 +199,21 @@ def test_a_drum_without_a_rim_still_has_a_page():
     assert "Every joule is accounted for" in told
 
 
+def test_visits_are_told_as_they_were_counted():
+    zone = {"name": "right", "corners": [[0.0, -0.3], [0.3, -0.3], [0.3, 0.3], [0.0, 0.3]]}
+    result = run(**{"run.zone": [zone], "run.duration": 3.0, "run.window": (1.0, 3.0)})
+    told, table = section(render(result, "coater"), "visits"), result.zone_visits
+    rate = 60.0 * table["entries"].mean() / (Material(result).duration - 1.0)
+    assert f"visits of a disc in a minute {content.value(rate)} " in told
+    inside = table["time_inside"].to_numpy()
+    spread = 100.0 * inside.std(ddof=1) / inside.mean()
+    assert f"after 2 s, counted [%] {content.value(spread)} " in told
+    assert (
+        f"after a minute, by one over the root of the time [%] {content.value(spread * math.sqrt(2.0 / 60.0))[:3]}"
+        in told
+    )
+
+
 def test_a_picture_that_fails_is_told(recorded, monkeypatch):
     def broken(*_, **__):
         raise ValueError("no font <here>")
