@@ -71,7 +71,8 @@ impl Simulation {
         let (particles, rotation) = (&self.state.particles, Rotation::new(self.drum_angle()));
         // Nearly all particles are so far from everything that their distance from the axis tells.
         let clear = drum.clear_radius() * drum.clear_radius();
-        let near = particles.positions.iter().enumerate().filter(|(_, position)| position.norm_squared() >= clear);
+        let near =
+            particles.positions.iter().enumerate().filter(|(_, position)| position.norm_squared() >= clear);
         let inside = |position: &Vec2| drum.solid_at(rotation.apply_inverse(*position));
         match near.into_iter().find_map(|(place, position)| Some((place, inside(position)?))) {
             Some((place, surface)) => Err(Error::Escaped {
