@@ -59,11 +59,7 @@ impl Ended {
 impl<V: MotionView> ChunkStep<'_, V> {
     /// Makes contacts of neighbors that have begun to touch. Returns whether the list has contacts.
     #[inline]
-    pub fn open<L: ContactLaw>(
-        &mut self,
-        list: &mut ContactList<L>,
-        neighbors: &mut Neighbors,
-    ) -> bool {
+    pub fn open<L: ContactLaw>(&mut self, list: &mut ContactList<L>, neighbors: &mut Neighbors) -> bool {
         let Scratch { opened, .. } = &mut *self.scratch;
         if !opened.is_empty() {
             let first = list.len();
