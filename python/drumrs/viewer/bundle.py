@@ -1,8 +1,9 @@
 """The player's JavaScript modules, joined into one, so that a page opens from disk without a server.
 
 Joining is plain text: each file once, after those it imports, without their lines ``import { name } from "./file.js";``
-and the word ``export``. So each import is one such line, only declarations are exported, and no two files declare one
-name. `assets.js` and `studio_assets.js` are made here: the texts of HTML and CSS files.
+and the word ``export``. So each import is one such line, only declarations are exported, but for the default of an
+entry, and no two files declare one name. `assets.js` and `studio_assets.js` are made here: the texts of HTML and CSS
+files.
 """
 
 import json

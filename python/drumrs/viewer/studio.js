@@ -19,7 +19,6 @@ import { STUDIO_MARKUP, STUDIO_STYLE } from "./studio_assets.js";
 const HEAD_NUMBERS = 6;
 // Bundles times pictures that are kept for paths.
 const MOST_KEPT = 500000;
-const LOST = "The simulation does not answer. Is drumrs studio still running? This page tries again.";
 
 const STUDIO_KEYS = {
   " ": (studio) => studio.toggle(),
@@ -94,7 +93,7 @@ export class Studio {
   }
 
   connected(isConnected) {
-    this.complain(isConnected ? "" : LOST);
+    this.complain(isConnected ? "" : this.live.silence);
     if (isConnected) this.live.ask({ do: "frame" });
   }
 
