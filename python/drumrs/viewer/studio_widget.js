@@ -25,6 +25,7 @@ class KernelLive extends EventTarget {
     else this.send(message);
     // It may have changed the picture that was not to be asked for before long.
     if (this.later) this.askForPicture();
+    if (this.isLost) this.lose();
   }
 
   // One at a time.
@@ -33,14 +34,21 @@ class KernelLive extends EventTarget {
     this.later = null;
     if (this.patience) return;
     this.send({ do: "frame" });
-    this.patience = setTimeout(() => {
-      this.isLost = true;
-      this.dispatchEvent(new Event("lost"));
-    }, PATIENCE);
+    this.patience = setTimeout(() => this.lose(), PATIENCE);
   }
 
   send(message) {
-    this.model.send({ ...message, page: this.page });
+    try {
+      this.model.send({ ...message, page: this.page });
+    } catch {
+      // Jupyter's line is gone with the kernel.
+      this.lose();
+    }
+  }
+
+  lose() {
+    this.isLost = true;
+    this.dispatchEvent(new Event("lost"));
   }
 
   // Each answer to what was asked for a picture has that or nothing, after what else is new.
@@ -68,10 +76,10 @@ class KernelLive extends EventTarget {
 
 function render({ model, el }) {
   const studio = new Studio(el, new KernelLive(model));
-  // In JupyterLab letters are commands: "m" would make the cell a text, were it not for this attribute. Other notebooks
-  // are not to hear of keys that were the studio's.
-  el.dataset.lmSuppressShortcuts = "true";
-  el.addEventListener("keydown", (event) => event.defaultPrevented && event.stopPropagation());
+  // In JupyterLab letters are commands: "m" would make the cell a text, "dd" delete it, were it not for this attribute.
+  // Other notebooks are not to hear of keys that were the studio's.
+  studio.host.dataset.lmSuppressShortcuts = "true";
+  studio.host.addEventListener("keydown", (event) => event.defaultPrevented && event.stopPropagation());
   return () => studio.destroy();
 }
 
