@@ -57,8 +57,10 @@ class KernelLive extends EventTarget {
       clearTimeout(this.patience);
       this.patience = null;
     }
-    if (this.isLost) this.dispatchEvent(new Event("open"));
-    this.isLost = false;
+    if (this.isLost) {
+      this.isLost = false;
+      this.dispatchEvent(new Event("open"));
+    }
     for (const detail of told) this.dispatchEvent(new CustomEvent("told", { detail }));
     for (const { buffer, byteOffset, byteLength } of buffers) {
       this.dispatchEvent(new CustomEvent("frame", { detail: buffer.slice(byteOffset, byteOffset + byteLength) }));
