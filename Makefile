@@ -17,6 +17,9 @@ PROGRAMS := target/programs/.installed
 export VIRTUAL_ENV := $(abspath $(VENV))
 unexport CONDA_PREFIX
 
+# Where the notebooks are that the widget is tried in.
+NOTEBOOKS := target/notebooks/.installed
+
 .DEFAULT_GOAL := help
 .PHONY: help run study test check-long develop lint bench docs wheel clean
 
@@ -38,7 +41,7 @@ test: develop $(TOOLS) ## test the physics, the package and the documentation
 	cargo test --doc
 	$(BIN)/python -m pytest --numprocesses 2 --dist loadfile -m "not slow"
 
-check-long: develop $(TOOLS) $(PROGRAMS) ## what takes hours: random loads, kills, long runs, fuzzing, the study in small, examples in full
+check-long: develop $(TOOLS) $(PROGRAMS) $(NOTEBOOKS) ## what takes hours: random loads, kills, long runs, fuzzing, the study in small, examples in full
 	$(BIN)/python -m pytest -m slow
 	PROPTEST_CASES=30000 cargo test --release --test random_loads
 	$(BIN)/python tests/endurance/kill_and_resume.py
@@ -58,6 +61,11 @@ check-long: develop $(TOOLS) $(PROGRAMS) ## what takes hours: random loads, kill
 $(PROGRAMS):
 	$(PYTHON) -m venv target/programs
 	target/programs/bin/python -m pip install --disable-pip-version-check --quiet 'vtk>=9.4' 'ovito>=3.12'
+	@touch $@
+
+$(NOTEBOOKS): $(TOOLS)
+	$(BIN)/python -m venv target/notebooks
+	target/notebooks/bin/python -m pip install --disable-pip-version-check --quiet 'jupyterlab>=4.4,<5' 'marimo>=0.20' 'anywidget>=0.10,<1'
 	@touch $@
 
 develop: $(STAMP) ## build the core into the environment (.venv)

@@ -20,6 +20,7 @@ MODULES = (
     "figures",
     "measures",
     "reports",
+    "studio",
     "sweep",
     "validation",
     "verification",
