@@ -125,6 +125,7 @@ def film(browser: Browser) -> list[Image.Image]:
             page = browser.new_page(viewport={"width": SIZE[0], "height": SIZE[1]}, color_scheme="light")
             page.clock.install()
             page.goto(server.address)
+            wait_until(lambda: shown.view.playing)
             camera = Camera(page, shown, clock)
             camera.go_on(LEAD, film=False)
             camera.go_on(2.5)
@@ -149,6 +150,14 @@ def slide(page: Page, key: str, value: float, *, release: bool = True) -> None:
     page.locator(f"input[data-key='{key}']").evaluate(script, [value, release])
 
 
+def write(pictures: list[Image.Image], path: Path, quality: int) -> None:
+    """Write the pictures as an animation that begins again at its end."""
+    first, *rest = pictures
+    first.save(
+        path, save_all=True, append_images=rest, duration=1000 // RATE, loop=0, quality=quality, method=6
+    )
+
+
 def main() -> None:
     """Write the film."""
     parser = argparse.ArgumentParser(description=__doc__)
@@ -158,17 +167,8 @@ def main() -> None:
     found = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
     with sync_playwright() as driver:
         browser = driver.chromium.launch(executable_path=found, args=["--no-sandbox"])
-        first, *rest = film(browser)
+        write(film(browser), given.out, given.quality)
         browser.close()
-    first.save(
-        given.out,
-        save_all=True,
-        append_images=rest,
-        duration=1000 // RATE,
-        loop=0,
-        quality=given.quality,
-        method=6,
-    )
 
 
 if __name__ == "__main__":
