@@ -22,7 +22,7 @@ import drumrs
 from drumrs.studio import Session, session
 from drumrs.studio.server import Server
 
-RATE = 15  # pictures in a second
+PICTURE = 80  # how long a picture of the film lasts [ms]
 _DRAWINGS = 4  # of the page within a picture of the film
 SIZE = (900, 690)
 LEAD = 3.0  # what passes before the film begins, so that the load tumbles and measures are there [s]
@@ -63,7 +63,7 @@ class Camera:
         self, seconds: float, act: Callable[[float], None] = lambda _: None, *, film: bool = True
     ) -> None:
         """Let time pass, and do something before each picture, which is told the share of the time that is over."""
-        count = round(seconds * RATE)
+        count = round(1000 * seconds / PICTURE)
         for k in range(count):
             act((k + 1) / count)
             self._go_on()
@@ -72,7 +72,7 @@ class Camera:
 
     def _go_on(self) -> None:
         before = self._moment
-        self.clock.advance(1.0 / RATE)
+        self.clock.advance(PICTURE / 1000)
         wait_until(lambda: self._moment != before)
         for _ in range(_DRAWINGS):
             self._draw()
@@ -83,7 +83,7 @@ class Camera:
 
     def _draw(self) -> None:
         """Let the page's time go on by one drawing; what it is sent it shows with the next one."""
-        self.page.clock.run_for(1000 // RATE // _DRAWINGS)
+        self.page.clock.run_for(PICTURE // _DRAWINGS)
 
     @property
     def _moment(self) -> tuple[float, float]:
@@ -118,23 +118,24 @@ def serving(server: Server) -> Iterator[None]:
 def film(browser: Browser) -> list[Image.Image]:
     """Return the pictures: the paper's drum, a higher speed, more bundles."""
     clock = Clock()
-    config = drumrs.baseline(fill=0.25, baffles=True).softer(100.0)
+    config = drumrs.baseline(fill=0.15, baffles=True).softer(100.0)
     with mock.patch.object(session, "time", clock), Session(config) as shown:
         server = Server(shown, "baseline")
         with serving(server):
             page = browser.new_page(viewport={"width": SIZE[0], "height": SIZE[1]}, color_scheme="light")
-            page.clock.install()
+            page.clock.install(time=0)
             page.goto(server.address)
+            page.clock.pause_at(60.0)
             wait_until(lambda: shown.view.playing)
             camera = Camera(page, shown, clock)
             camera.go_on(LEAD, film=False)
-            camera.go_on(2.5)
+            camera.go_on(2.4)
             camera.go_on(1.2, lambda share: slide(page, "rotation.rpm", round(54 + 26 * share)))
-            camera.go_on(2.8)
+            camera.go_on(2.2)
             camera.go_on(
-                0.8, lambda share: slide(page, "load.fill", 0.25 + 0.2 * share, release=share == 1.0)
+                0.8, lambda share: slide(page, "load.fill", 0.15 + 0.1 * share, release=share == 1.0)
             )
-            camera.go_on(3.7)
+            camera.go_on(2.4)
             page.close()
     return camera.pictures
 
@@ -153,8 +154,10 @@ def slide(page: Page, key: str, value: float, *, release: bool = True) -> None:
 def write(pictures: list[Image.Image], path: Path, quality: int) -> None:
     """Write the pictures as an animation that begins again at its end."""
     first, *rest = pictures
+    # Only the first picture is whole, the others are what has changed.
+    whole = {"kmin": len(rest), "kmax": len(rest) + 1}
     first.save(
-        path, save_all=True, append_images=rest, duration=1000 // RATE, loop=0, quality=quality, method=6
+        path, save_all=True, append_images=rest, duration=PICTURE, loop=0, quality=quality, method=4, **whole
     )
 
 
@@ -162,7 +165,7 @@ def main() -> None:
     """Write the film."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--out", type=Path, default=Path(__file__).with_name("studio.webp"))
-    parser.add_argument("--quality", type=int, default=55, help="of the pictures, at most 100")
+    parser.add_argument("--quality", type=int, default=30, help="of the pictures, at most 100")
     given = parser.parse_args()
     found = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
     with sync_playwright() as driver:
