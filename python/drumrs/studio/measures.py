@@ -12,11 +12,12 @@ from drumrs.measures import flight, mixed_in_a_turn
 from drumrs.registry import quantity
 from drumrs.result import Summary, with_error
 from drumrs.viewer.curves import panels_of_series
-from drumrs.viewer.recording import end_of_scale, packed_panel
+from drumrs.viewer.recording import end_of_force_scale, end_of_scale, packed_panel
 
 if TYPE_CHECKING:
     import polars as pl
 
+    from drumrs.config import Config
     from drumrs.simulation import Simulation
 
 # Frames kept for measures of motion: those of the last so many seconds, and no more bundles times frames than that.
@@ -61,6 +62,8 @@ class Sample:
 
     Attributes
     ----------
+    config
+        The configuration.
     series
         The series since the start.
     frames
@@ -71,6 +74,7 @@ class Sample:
         Averages over it, where it holds enough samples for any.
     """
 
+    config: "Config"
     series: "pl.DataFrame"
     frames: Frames | None
     window: tuple[float, float]
@@ -82,7 +86,8 @@ class Sample:
         time = simulation.time
         window = (since + _SETTLING * (time - since), time)
         enough = window[1] - window[0] >= _FEWEST * simulation.config.run.sample_every
-        return cls(simulation.series, recent.frames, window, simulation.summary(window) if enough else None)
+        summary = simulation.summary(window) if enough else None
+        return cls(simulation.config, simulation.series, recent.frames, window, summary)
 
     def measures(self) -> dict[str, Any]:
         """Return the tiles and curves of the page, ready for JSON."""
@@ -92,6 +97,7 @@ class Sample:
             "tiles": [_tile(name, mean) for name, mean in self._means()],
             "panels": [packed_panel(panel) for panel in panels_of_series(self.series)],
             "speedScale": end_of_scale(speeds),
+            "forceScale": None if self.frames is None else end_of_force_scale(self.config, self.frames),
         }
 
     def _means(self) -> Iterator[tuple[str, Mean | None]]:

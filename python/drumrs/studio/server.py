@@ -6,8 +6,9 @@ only from that page.
 
 From the page comes JSON: ``{"do": "frame"}`` asks for the next picture; ``play``, ``pause``, ``step``, ``reset``;
 ``rate`` with ``value``, null for as fast as can be; ``speed`` with ``value``; ``set`` with ``key`` and ``value``;
-``preset`` with ``value``; ``case`` with ``value``, ``"toml"`` or ``"python"``. To the page goes JSON with a ``kind``:
-``start``, ``state``, ``measures``, ``case``, ``error``; and pictures as bytes.
+``preset`` with ``value``; ``case`` with ``value``, ``"toml"`` or ``"python"``; ``forces`` with ``value``, true where
+this page is to get the forces at contacts behind each picture. To the page goes JSON with a ``kind``: ``start``,
+``state``, ``measures``, ``case``, ``error``; and pictures as bytes, which `scene` packs.
 """
 
 import asyncio
@@ -17,13 +18,15 @@ import math
 import secrets
 import socket
 from collections.abc import AsyncIterator, Callable
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from drumrs.errors import ConfigError, DrumrsError, missing_package
 from drumrs.studio.controls import controls
 from drumrs.studio.page import page
 from drumrs.studio.presets import preset, presets
-from drumrs.studio.session import Session, View
+from drumrs.studio.session import Session
+from drumrs.studio.view import View
 
 try:
     import uvicorn
@@ -45,6 +48,22 @@ _LONGEST_MESSAGE = 10_000
 _PATIENCE = 1.0
 # Why a WebSocket is closed that has no right to be there.
 _FORBIDDEN = 1008
+
+
+@dataclass
+class Wanted:
+    """What a page waits for.
+
+    Attributes
+    ----------
+    frame
+        Set while it waits for a picture.
+    forces
+        Whether the picture is to come with the forces at its contacts.
+    """
+
+    frame: asyncio.Event = field(default_factory=asyncio.Event)
+    forces: bool = False
 
 
 class Server:
@@ -147,7 +166,7 @@ class Server:
             return
         await socket.accept()
         await self._come(1)
-        wanted = asyncio.Event()
+        wanted = Wanted()
         sender = asyncio.create_task(self._send_frames(socket, wanted))
         try:
             while True:
@@ -172,20 +191,27 @@ class Server:
                 self._was_playing = session.view.playing
                 await asyncio.to_thread(session.pause)
 
-    async def _send_frames(self, socket: "WebSocket", wanted: asyncio.Event) -> None:
+    async def _send_frames(self, socket: "WebSocket", wanted: "Wanted") -> None:
         """Send the newest picture whenever one is wanted, and what has changed beside it."""
         known: View | None = None
+
+        def next_picture() -> tuple[View, bytes]:
+            number = -1 if known is None else known.number
+            view = self.session.wait(number, _PATIENCE)
+            if view.number == number:
+                return view, b""
+            return view, view.frame + view.forces if wanted.forces else view.frame
+
         with contextlib.suppress(WebSocketDisconnect, RuntimeError):
             while True:
-                await wanted.wait()
-                number = -1 if known is None else known.number
-                view = await asyncio.to_thread(self.session.wait, number, _PATIENCE)
-                if view.number == number:
+                await wanted.frame.wait()
+                view, picture = await asyncio.to_thread(next_picture)
+                if not picture:
                     continue
-                wanted.clear()
+                wanted.frame.clear()
                 for told in self._news(view, known):
                     await socket.send_text(json.dumps(told))
-                await socket.send_bytes(view.frame)
+                await socket.send_bytes(picture)
                 known = view
 
     def _news(self, view: View, known: View | None) -> list[dict[str, Any]]:
@@ -210,12 +236,16 @@ class Server:
             news.append({"kind": "measures", **view.measures})
         return news
 
-    async def _hear(self, socket: "WebSocket", text: str | None, wanted: asyncio.Event) -> None:
+    async def _hear(self, socket: "WebSocket", text: str | None, wanted: "Wanted") -> None:
         """Do what the page asks for; say so where that cannot be."""
         try:
             asked = _parse(text)
             if asked["do"] == "frame":
-                wanted.set()
+                wanted.frame.set()
+                return
+            if asked["do"] == "forces":
+                wanted.forces = asked.get("value") is True
+                await asyncio.to_thread(self.session.show)
                 return
             answer = await asyncio.to_thread(self._do, asked)
         except DrumrsError as error:
