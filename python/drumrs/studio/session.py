@@ -36,7 +36,7 @@ RAMP = 0.1
 # there is always one that is new.
 _PICTURE = 1.0 / 120.0
 # Measures are made anew after this time [s], and after so many times as long as it took to make the last ones.
-_MEASURE_EVERY, _MEASURE_SHARE = 0.5, 2.0
+_MEASURE_EVERY, _MEASURE_SHARE = 0.5, 3.0
 # What the series of a session may grow to, in simulated time [s]; some tens of megabytes.
 LONGEST = 600.0
 # A simulation that is behind its time by more than this [s] does not try to catch up.

@@ -83,7 +83,7 @@ def test_occupancy_is_where_bundles_are_how_often(show):
     script = """() => {
       const { map } = document.querySelector("drumrs-player").player.stage.occupancy;
       const cell = (place) => Math.floor((place / 0.2 + 1) * map.size / 2);
-      const at = (x, y) => map.shares[cell(y) * map.size + cell(x)];
+      const at = (x, y) => map.share(cell(y) * map.size + cell(x));
       return [at(0.0, -0.15), at(0.1, 0.0), at(0.0, 0.1), at(0.0, 0.0)];
     }"""
     # A disc of radius 0.04 that goes round at 0.1 covers a place while it is within 4 asin(0.2) of a turn.
