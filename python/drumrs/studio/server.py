@@ -6,9 +6,10 @@ address, and only from that page.
 
 From the page comes JSON: ``{"do": "frame"}`` asks for the next picture; ``play``, ``pause``, ``step``, ``reset``;
 ``rate`` with ``value``, null for as fast as can be; ``speed`` with ``value``; ``set`` with ``key`` and ``value``;
-``preset`` with ``value``; ``case`` with ``value``, ``"toml"`` or ``"python"``; ``forces`` with ``value``, true where
-this page is to get the forces at contacts behind each picture. To the page goes JSON with a ``kind``: ``start``,
-``state``, ``measures``, ``case``, ``error``; and pictures as bytes, which `scene` packs.
+``preset`` with ``value``; ``trade`` with ``value``, whose measures to make; ``case`` with ``value``, ``"toml"`` or
+``"python"``; ``forces`` with ``value``, true where this page is to get the forces at contacts behind each picture. To
+the page goes JSON with a ``kind``: ``start``, ``state``, ``measures``, ``case``, ``error``; and pictures as bytes, as
+`scene` packs them.
 """
 
 import asyncio
@@ -25,8 +26,9 @@ from typing import TYPE_CHECKING, Any
 from drumrs.errors import ConfigError, DrumrsError, missing_package
 from drumrs.studio.controls import controls
 from drumrs.studio.page import page
-from drumrs.studio.presets import preset, presets
+from drumrs.studio.presets import preset, presets, trade_of
 from drumrs.studio.session import Session
+from drumrs.studio.trades import TRADES
 from drumrs.studio.view import View
 
 try:
@@ -236,6 +238,7 @@ class Server:
                     "controls": controls(view.config, view.speed),
                     "presets": choices,
                     "preset": self._preset,
+                    "trades": list(TRADES),
                 }
             )
         state = _state(view)
@@ -264,15 +267,15 @@ class Server:
 
     def _do(self, asked: dict[str, Any]) -> dict[str, Any] | None:
         session, value = self.session, asked.get("value")
+        plain: dict[str, Callable[[], None]] = {
+            "play": session.play,
+            "pause": session.pause,
+            "step": lambda: session.advance(1),
+            "reset": session.reset,
+        }
         match asked["do"]:
-            case "play":
-                session.play()
-            case "pause":
-                session.pause()
-            case "step":
-                session.advance(1)
-            case "reset":
-                session.reset()
+            case what if what in plain:
+                plain[what]()
             case "rate":
                 session.set_rate(math.inf if value is None else _number("rate", value))
             case "speed":
@@ -285,6 +288,9 @@ class Server:
                 chosen = config if value == name else preset(str(value))
                 self._preset = str(value)
                 session.load(chosen)
+                session.set_trade(trade_of(self._preset))
+            case "trade":
+                session.set_trade(str(value))
             case "case":
                 return {"kind": "case", "as": value, "text": case_text(session.case(), str(value))}
             case unknown:
@@ -309,6 +315,7 @@ def _state(view: View) -> dict[str, Any]:
         "playing": view.playing,
         "rate": view.rate if math.isfinite(view.rate) else None,
         "speed": view.speed,
+        "trade": view.trade,
         "said": list(view.said),
     }
 

@@ -21,6 +21,7 @@ from drumrs.errors import ConfigError, DrumrsError, DrumrsWarning, UnstableError
 from drumrs.simulation import Simulation
 from drumrs.studio.measures import RecentFrames, Sample
 from drumrs.studio.scene import frame_now, pack_start
+from drumrs.studio.trades import TRADES
 from drumrs.studio.view import View
 
 if TYPE_CHECKING:
@@ -95,6 +96,7 @@ class Session:
         self._steps_per_second = 0.0
         self._starts = self._pictures = self._measured = 0
         self._said: tuple[str, ...] = ()
+        self._trade = next(iter(TRADES))
         self._measurer = ThreadPoolExecutor(1, "drumrs studio measures")
         self._begin(config)
         self._thread = threading.Thread(target=self._run, name="drumrs studio", daemon=True)
@@ -139,6 +141,18 @@ class Session:
         """Let so many simulated seconds pass in a second; fewer pass where the core cannot do more."""
         rate = _checked_rate(rate)
         self._ask(lambda: self._set_rate(rate))
+
+    def set_trade(self, name: str) -> None:
+        """Measure what a trade wants to know: a key of `TRADES`.
+
+        Raises
+        ------
+        ConfigError
+            Where there is no such trade.
+        """
+        if name not in TRADES:
+            raise ConfigError("trade", name, f"one of {', '.join(TRADES)}")
+        self._ask(lambda: self._set_trade(name))
 
     def advance(self, steps: int) -> None:
         """Do so many steps and stand still."""
@@ -282,6 +296,7 @@ class Session:
             playing=self._playing,
             rate=self._rate,
             speed=self._speed,
+            trade=self._trade,
             said=self._said,
         )
         with self._changed:
@@ -293,7 +308,7 @@ class Session:
         began, start = time.perf_counter(), self._starts
         # Not again before these are there.
         self._measure_at = math.inf
-        sample = Sample.of(self._simulation, self._recent, self._since)
+        sample = Sample.of(self._simulation, self._trade, self._recent, self._since)
 
         def put(made: Future[dict[str, Any]]) -> None:
             if start != self._starts:
@@ -350,6 +365,11 @@ class Session:
     def _set_rate(self, rate: float) -> None:
         self._rate = rate
         self._set_clock()
+        self._show()
+
+    def _set_trade(self, name: str) -> None:
+        self._trade = name
+        self._measure()
         self._show()
 
     def _advance(self, steps: int) -> None:

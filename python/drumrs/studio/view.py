@@ -41,6 +41,8 @@ class View:
         Simulated seconds in a second that were asked for; infinite for as many as can be.
     speed
         Speed of the drum that was asked for last, or with which it started [rpm].
+    trade
+        Whose measures are made.
     said
         What has been said so far, the last sentence last.
     """
@@ -58,6 +60,7 @@ class View:
     playing: bool = True
     rate: float = 1.0
     speed: float = 0.0
+    trade: str = ""
     said: tuple[str, ...] = ()
 
     @cached_property

@@ -65,7 +65,7 @@ export class Studio {
     on("reset", "click", () => this.ask("reset"));
     on("one", "click", () => this.ask("step"));
     on("rate", "change", ({ target }) => this.ask("rate", target.value ? Number(target.value) : null));
-    on("preset", "change", ({ target }) => this.ask("preset", target.value));
+    for (const name of ["preset", "trade"]) on(name, "change", ({ target }) => this.ask(name, target.value));
     on("mode", "change", ({ target }) => this.setMode(target.value));
     on("mark", "click", () => this.mark());
     for (const name of LAYERS) on(name, "change", ({ target }) => this.show({ [name]: target.checked }));
@@ -128,7 +128,7 @@ export class Studio {
   }
 
   // Another drum, or the same one from its start.
-  begin({ scene, controls, presets, preset }) {
+  begin({ scene, controls, presets, preset, trades }) {
     const before = this.stage;
     this.recording = unpack(scene);
     this.stage = new Stage(this.part("stage"), this.recording, this.theme);
@@ -141,6 +141,7 @@ export class Studio {
     this.part("mode").replaceChildren(...modesOf(this.recording).map((mode) => new Option(MODES[mode].label, mode)));
     this.part("preset").replaceChildren(...Object.entries(presets).map(([value, words]) => new Option(words, value)));
     this.part("preset").value = preset;
+    this.part("trade").replaceChildren(...trades.map((trade) => new Option(trade, trade)));
     this.sliders.show(controls);
     this.part("tiles").replaceChildren();
     this.part("panels").replaceChildren();
@@ -149,7 +150,7 @@ export class Studio {
     this.refresh();
   }
 
-  describe({ title, facts, playing, rate, speed, said }) {
+  describe({ title, facts, playing, rate, speed, trade, said }) {
     this.part("title").textContent = title;
     this.part("facts").textContent = facts;
     this.part("stage").setAttribute("aria-label", `The drum: ${title}`);
@@ -161,6 +162,7 @@ export class Studio {
     this.part("player").classList.toggle("playing", playing);
     this.part("play").setAttribute("aria-label", playing ? "Pause" : "Play");
     this.part("rate").value = rate ?? "";
+    this.part("trade").value = trade;
     this.sliders.setSpeed(speed);
     if (speed !== this.speed) {
       Object.assign(this, { speed, since: this.recording.end });
