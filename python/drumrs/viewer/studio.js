@@ -51,6 +51,7 @@ export class Studio {
     this.root = root;
     this.part = (name) => root.querySelector(`.${name}`);
     this.theme = {};
+    this.keys = STUDIO_KEYS;
     this.pictures = { count: 0, since: performance.now(), rate: 0 };
     // As the system asks for: with less motion the drum stands until the reader lets it turn.
     this.still = matchMedia("(prefers-reduced-motion: reduce)").matches;
@@ -102,7 +103,10 @@ export class Studio {
 
   connected(isConnected) {
     this.complain(isConnected ? "" : LOST);
-    if (!isConnected) return;
+    if (!isConnected) {
+      this.sliders.restore();
+      return;
+    }
     this.live.ask({ do: "forces", value: this.stage?.forces ?? false });
     this.live.ask({ do: "frame" });
   }
@@ -361,7 +365,7 @@ export class Studio {
 
   // Do what a key stands for, unless the control that has the focus needs the key itself.
   press(event) {
-    const act = STUDIO_KEYS[event.key];
+    const act = this.keys[event.key];
     const inside = this.root.activeElement;
     const own = inside?.matches("select, input[type=range], textarea") || (inside?.matches("button, input, summary") && event.key === " ");
     if (!act || own || event.ctrlKey || event.metaKey || event.altKey) return;
