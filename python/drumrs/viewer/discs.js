@@ -54,29 +54,28 @@ export class PixelDiscs {
     return this.ink;
   }
 
-  // One disc about a place. What part of a pixel is within a circle is told by the distance of its middle.
+  // One disc about a place, and over it the line round it. What part of a pixel is within a circle is told by the distance
+  // of its middle.
   disc(across, down, radius, { red, green, blue }, half, ink) {
     const { data, width, height } = this.image;
     const outer = radius + half + 0.5;
-    const inner = radius - half + 0.5;
     const [left, right] = [Math.max(Math.floor(across - outer), 0), Math.min(Math.ceil(across + outer), width)];
     const [top, bottom] = [Math.max(Math.floor(down - outer), 0), Math.min(Math.ceil(down + outer), height)];
     for (let row = top; row < bottom; row++) {
       for (let column = left; column < right; column++) {
         const dx = column + 0.5 - across;
         const dy = row + 0.5 - down;
-        const distance = Math.sqrt(dx * dx + dy * dy);
-        if (distance >= outer) continue;
-        const cover = Math.min(outer - distance, 1);
-        // How much of the outline's color lies over the disc's own.
-        const lined = ink.opacity * (1 - Math.min(Math.max(inner - distance, 0), 1));
+        const within = outer - Math.sqrt(dx * dx + dy * dy);
+        if (within <= 0) continue;
+        const filled = clamped(within - half);
+        const lined = ink.opacity * (clamped(within) - clamped(within - 2 * half));
         const at = 4 * (row * width + column);
-        // What is there already shows through as far as the pixel is not covered.
-        const below = (data[at + 3] / 255) * (1 - cover);
-        const all = cover + below;
+        // What is there already shows through as far as neither covers it.
+        const below = (data[at + 3] / 255) * (1 - filled) * (1 - lined);
+        const all = below + filled * (1 - lined) + lined;
         const over = below / all;
-        const line = (cover * lined) / all;
-        const own = cover / all - line;
+        const line = lined / all;
+        const own = 1 - over - line;
         data[at] = over * data[at] + own * red + line * ink.red;
         data[at + 1] = over * data[at + 1] + own * green + line * ink.green;
         data[at + 2] = over * data[at + 2] + own * blue + line * ink.blue;
@@ -84,4 +83,8 @@ export class PixelDiscs {
       }
     }
   }
+}
+
+function clamped(value) {
+  return Math.min(Math.max(value, 0), 1);
 }
