@@ -154,8 +154,8 @@ def slide(page: Page, key: str, value: float, *, release: bool = True) -> None:
 def write(pictures: list[Image.Image], path: Path, quality: int) -> None:
     """Write the pictures as an animation that begins again at its end."""
     first, *rest = pictures
-    # Only the first picture is whole, the others are what has changed.
-    whole = {"kmin": len(rest), "kmax": len(rest) + 1}
+    # Pictures are what has changed since the one before; a whole one now and then leaves no traces of older ones.
+    whole = {"kmin": 6, "kmax": 10}
     first.save(
         path, save_all=True, append_images=rest, duration=PICTURE, loop=0, quality=quality, method=4, **whole
     )
@@ -165,7 +165,7 @@ def main() -> None:
     """Write the film."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--out", type=Path, default=Path(__file__).with_name("studio.webp"))
-    parser.add_argument("--quality", type=int, default=30, help="of the pictures, at most 100")
+    parser.add_argument("--quality", type=int, default=25, help="of the pictures, at most 100")
     given = parser.parse_args()
     found = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
     with sync_playwright() as driver:

@@ -7,12 +7,14 @@ while counts as gone.
 
 import threading
 import time
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any
 
-from drumrs.errors import missing_package
-from drumrs.studio.responder import Responder, wants_picture
-from drumrs.studio.session import Session, View
+from drumrs.errors import DrumrsError, missing_package
+from drumrs.studio.responder import Responder, picture, wants_forces, wants_picture
+from drumrs.studio.session import Session
+from drumrs.studio.view import View
 from drumrs.viewer import module
 
 try:
@@ -28,11 +30,12 @@ _SOON = 1.0 / 60.0
 
 @dataclass
 class _Page:
-    """What a page knows, when it last asked for a picture, and whether it counts as there."""
+    """What a page knows, when it last asked for a picture, whether it counts as there, and whether it wants forces."""
 
     known: View | None = None
     asked: float = 0.0
     is_there: bool = False
+    forces: bool = False
 
 
 class StudioWidget(anywidget.AnyWidget):
@@ -85,13 +88,17 @@ class StudioWidget(anywidget.AnyWidget):
             self._show(name)
         elif isinstance(asked, dict) and asked.get("do") == "leave":
             self._leave(name)
+        elif (forces := wants_forces(asked)) is not None:
+            self._page(name).forces = forces
+            with suppress(DrumrsError):
+                self.session.show()
         elif (answer := self._responder.answer(asked)) is not None:
             self.send({"page": name, "told": [answer], "isPicture": False})
 
     def _show(self, name: str) -> None:
         """Send the newest picture, and before it what else is new; nothing where there is nothing new."""
+        page = self._page(name)
         with self._looking:
-            page = self._pages.setdefault(name, _Page())
             page.asked = time.monotonic()
             if not page.is_there:
                 page.is_there = True
@@ -101,7 +108,14 @@ class StudioWidget(anywidget.AnyWidget):
         is_new = known is None or view.number != known.number
         told = self._responder.news(view, known) if is_new else []
         page.known = view
-        self.send({"page": name, "told": told, "isPicture": True}, [view.frame] if is_new else [])
+        self.send(
+            {"page": name, "told": told, "isPicture": True},
+            [picture(view, forces=page.forces)] if is_new else [],
+        )
+
+    def _page(self, name: str) -> _Page:
+        with self._looking:
+            return self._pages.setdefault(name, _Page())
 
     def _leave(self, name: str) -> None:
         with self._looking:

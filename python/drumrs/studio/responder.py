@@ -1,21 +1,28 @@
 """What pages ask of a session, and what they are told: the same through a WebSocket and in a notebook.
 
-A page asks for the next picture when it has drawn one, and gets the newest: nothing is queued, so a page that is slow
-or stands still costs nothing. A page says objects: ``{"do": "frame"}`` asks for the next picture; ``play``, ``pause``,
-``step``, ``reset``; ``rate`` with ``value``, null for as fast as can be; ``speed`` with ``value``; ``set`` with ``key``
-and ``value``; ``preset`` with ``value``; ``case`` with ``value``, ``"toml"`` or ``"python"``. A page is told objects
-with a ``kind``: ``start``, ``state``, ``measures``, ``case``, ``error``; and pictures as bytes.
+A page asks for a picture, and gets the newest: it has one to draw and one under way, and nothing is queued, so a page
+that is slow or stands still costs nothing. A page says objects: ``{"do": "frame"}`` asks for the next picture;
+``play``, ``pause``, ``step``, ``reset``; ``rate`` with ``value``, null for as fast as can be; ``speed`` with ``value``;
+``set`` with ``key`` and ``value``; ``preset`` with ``value``; ``trade`` with ``value``, whose measures to make;
+``case`` with ``value``, ``"toml"`` or ``"python"``; ``forces`` with ``value``, true where this page is to get the
+forces at contacts behind each picture. A page is told objects with a ``kind``: ``start``, ``state``, ``measures``,
+``case``, ``error``; and pictures as bytes, as `scene` packs them.
 """
 
 import math
 import threading
 from contextlib import suppress
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from drumrs.errors import ConfigError, DrumrsError
 from drumrs.studio.controls import controls
-from drumrs.studio.presets import preset, presets
-from drumrs.studio.session import Session, View
+from drumrs.studio.presets import preset, presets, trade_of
+from drumrs.studio.session import Session
+from drumrs.studio.trades import TRADES
+from drumrs.studio.view import View
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
 
 class Responder:
@@ -65,6 +72,7 @@ class Responder:
                     "controls": controls(view.config, view.speed),
                     "presets": choices,
                     "preset": self._preset,
+                    "trades": list(TRADES),
                 }
             )
         state = _state(view)
@@ -75,7 +83,7 @@ class Responder:
         return news
 
     def answer(self, asked: Any) -> dict[str, Any] | None:
-        """Do what a page asks for, but for pictures; return what it is to be told of that, if anything."""
+        """Do what a page asks for, but for pictures and forces; return what it is to be told of that, if anything."""
         try:
             return self._do(_understood(asked))
         except DrumrsError as error:
@@ -83,15 +91,15 @@ class Responder:
 
     def _do(self, asked: dict[str, Any]) -> dict[str, Any] | None:
         session, value = self.session, asked.get("value")
+        plain: dict[str, Callable[[], None]] = {
+            "play": session.play,
+            "pause": session.pause,
+            "step": lambda: session.advance(1),
+            "reset": session.reset,
+        }
         match asked["do"]:
-            case "play":
-                session.play()
-            case "pause":
-                session.pause()
-            case "step":
-                session.advance(1)
-            case "reset":
-                session.reset()
+            case what if what in plain:
+                plain[what]()
             case "rate":
                 session.set_rate(math.inf if value is None else _number("rate", value))
             case "speed":
@@ -104,6 +112,9 @@ class Responder:
                 chosen = config if value == name else preset(str(value))
                 self._preset = str(value)
                 session.load(chosen)
+                session.set_trade(trade_of(self._preset))
+            case "trade":
+                session.set_trade(str(value))
             case "case":
                 return {"kind": "case", "as": value, "text": case_text(session.case(), str(value))}
             case unknown:
@@ -114,6 +125,18 @@ class Responder:
 def wants_picture(asked: Any) -> bool:
     """Say whether a page asks for the next picture."""
     return isinstance(asked, dict) and asked.get("do") == "frame"
+
+
+def wants_forces(asked: Any) -> bool | None:
+    """Say whether a page asks for forces behind its pictures, or for none; `None` where it asks for something else."""
+    if not isinstance(asked, dict) or asked.get("do") != "forces":
+        return None
+    return asked.get("value") is True
+
+
+def picture(view: View, *, forces: bool) -> bytes:
+    """Return the picture of a view, with the forces at contacts behind it for who wants them."""
+    return view.frame + view.forces if forces else view.frame
 
 
 def case_text(config: Any, kind: str) -> str:
@@ -133,6 +156,7 @@ def _state(view: View) -> dict[str, Any]:
         "playing": view.playing,
         "rate": view.rate if math.isfinite(view.rate) else None,
         "speed": view.speed,
+        "trade": view.trade,
         "said": list(view.said),
     }
 

@@ -9,13 +9,16 @@ import contextlib
 import json
 import secrets
 import socket
+import sys
 from collections.abc import AsyncIterator, Callable
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from drumrs.errors import ConfigError, missing_package
+from drumrs.errors import ConfigError, DrumrsError, missing_package
 from drumrs.studio.page import page
-from drumrs.studio.responder import Responder, wants_picture
-from drumrs.studio.session import Session, View
+from drumrs.studio.responder import Responder, picture, wants_forces, wants_picture
+from drumrs.studio.session import Session
+from drumrs.studio.view import View
 
 try:
     import uvicorn
@@ -35,8 +38,27 @@ HOST = "127.0.0.1"
 _LONGEST_MESSAGE = 10_000
 # How long to wait for a picture before looking whether the page is still there [s].
 _PATIENCE = 1.0
+# Threads of Python wait for one another no longer than this [s], so that pictures need not wait for measures; it is a
+# fifth of what they do unless told.
+_SWITCH = 0.001
 # Why a WebSocket is closed that has no right to be there.
 _FORBIDDEN = 1008
+
+
+@dataclass
+class Wanted:
+    """What a page waits for.
+
+    Attributes
+    ----------
+    frame
+        Set while it waits for a picture.
+    forces
+        Whether the picture is to come with the forces at its contacts.
+    """
+
+    frame: asyncio.Event = field(default_factory=asyncio.Event)
+    forces: bool = False
 
 
 class Server:
@@ -101,7 +123,12 @@ class Server:
             timeout_graceful_shutdown=1,
         )
         self._uvicorn = uvicorn.Server(config)
-        self._uvicorn.run(sockets=[self._socket])
+        before = sys.getswitchinterval()
+        sys.setswitchinterval(_SWITCH)
+        try:
+            self._uvicorn.run(sockets=[self._socket])
+        finally:
+            sys.setswitchinterval(before)
 
     def stop(self) -> None:
         """End `serve`; safe from any thread."""
@@ -135,7 +162,7 @@ class Server:
             return
         await socket.accept()
         await asyncio.to_thread(self._responder.come)
-        wanted = asyncio.Event()
+        wanted = Wanted()
         sender = asyncio.create_task(self._send_frames(socket, wanted))
         try:
             while True:
@@ -149,27 +176,39 @@ class Server:
             sender.cancel()
             await asyncio.to_thread(self._responder.leave)
 
-    async def _send_frames(self, socket: "WebSocket", wanted: asyncio.Event) -> None:
+    async def _send_frames(self, socket: "WebSocket", wanted: "Wanted") -> None:
         """Send the newest picture whenever one is wanted, and what has changed beside it."""
         known: View | None = None
+
+        def next_picture() -> tuple[View, bytes]:
+            number = -1 if known is None else known.number
+            view = self.session.wait(number, _PATIENCE)
+            if view.number == number:
+                return view, b""
+            return view, picture(view, forces=wanted.forces)
+
         with contextlib.suppress(WebSocketDisconnect, RuntimeError):
             while True:
-                await wanted.wait()
-                number = -1 if known is None else known.number
-                view = await asyncio.to_thread(self.session.wait, number, _PATIENCE)
-                if view.number == number:
+                await wanted.frame.wait()
+                view, shown = await asyncio.to_thread(next_picture)
+                if not shown:
                     continue
-                wanted.clear()
+                wanted.frame.clear()
                 for told in self._responder.news(view, known):
                     await socket.send_text(json.dumps(told))
-                await socket.send_bytes(view.frame)
+                await socket.send_bytes(shown)
                 known = view
 
-    async def _hear(self, socket: "WebSocket", text: str | None, wanted: asyncio.Event) -> None:
+    async def _hear(self, socket: "WebSocket", text: str | None, wanted: "Wanted") -> None:
         """Do what the page asks for; say so where that cannot be."""
         asked = _read(text)
         if wants_picture(asked):
-            wanted.set()
+            wanted.frame.set()
+            return
+        if (forces := wants_forces(asked)) is not None:
+            wanted.forces = forces
+            with contextlib.suppress(DrumrsError):
+                await asyncio.to_thread(self.session.show)
             return
         answer = await asyncio.to_thread(self._responder.answer, asked)
         if answer is not None:

@@ -29,7 +29,7 @@ def module(*entries: str) -> str:
     --------
     >>> from drumrs.viewer import module
     >>> module("player.js", "recording.js").splitlines()[-1]
-    'export { Player, Recording, DIRECTIONS, unpack, inUnits, unpackPanel, mix };'
+    'export { Player, Recording, DIRECTIONS, unpack, unpackFrame, unpackPanel, mix };'
     """
     texts: dict[str, str] = {}
     for entry in entries:

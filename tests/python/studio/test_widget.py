@@ -90,6 +90,16 @@ def test_what_is_refused_is_said_where_it_was_asked(show, widget):
     assert widget._responder.answer({"do": "set", "key": "load.fill", "value": 5}).keys() == {"kind", "text"}
 
 
+def test_forces_come_to_the_page_that_asks_for_them(show, widget):
+    notebook = show()
+    notebook.page.evaluate("void show('two')")
+    notebook.wait_for_time(0.1)
+    notebook.part("forces").check()
+    notebook.wait("root.querySelector('.layers').textContent.includes('normal force')")
+    assert sorted(page.forces for page in widget._pages.values()) == [False, True]
+    assert notebook.part("layers", "two").inner_text() == ""
+
+
 def test_it_stands_still_while_no_page_asks(show, widget):
     first = show()
     first.wait_for_time(0.1)
