@@ -23,7 +23,7 @@ from drumrs.studio import Session, session
 from drumrs.studio.server import Server
 
 PICTURE = 80  # how long a picture of the film lasts [ms]
-_DRAWINGS = 4  # of the page within a picture of the film
+_DRAWINGS = 5  # of the page within a picture of the film
 SIZE = (900, 690)
 LEAD = 3.0  # what passes before the film begins, so that the load tumbles and measures are there [s]
 
@@ -74,7 +74,7 @@ class Camera:
         before = self._moment
         self.clock.advance(PICTURE / 1000)
         wait_until(lambda: self._moment != before)
-        for _ in range(_DRAWINGS):
+        for _ in range(_DRAWINGS - 1):
             self._draw()
         wait_until(
             lambda: self.page.evaluate("studio.recording?.end ?? -1") == self._moment[1] or self._draw()
