@@ -70,8 +70,8 @@ def screen(
 
 def _announce(plan: "ScreeningPlan", jobs: int | None) -> None:
     from drumrs.jobs import effective_jobs
-    from drumrs.paper.reproduction import measure_speed
     from drumrs.progress import format_duration
+    from drumrs.sweep.throughput import measure_speed
 
     count = effective_jobs(jobs)
     spent = format_duration(plan.cost / measure_speed(count))
