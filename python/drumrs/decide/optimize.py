@@ -55,7 +55,8 @@ def optimize(
         Folder for history.parquet, optimization.png, best.toml and the runs. The same call goes on where an earlier one
         was interrupted, with the same points; nothing is simulated twice.
     executor, jobs
-        Who runs the cases, and how many at once, as for `drumrs.Sweep.run`.
+        Who runs the cases, and how many at once, as for `drumrs.Sweep.run`. Of an executor that is given nobody knows
+        how many it takes: say it in ``optimize.batch``, or as jobs.
     progress
         Whether to show progress.
 
@@ -83,9 +84,9 @@ def optimize(
     """
     require_packages("an optimization", "sklearn")
     wanted = problem if isinstance(problem, Problem) else Problem.read(problem)
-    folder, jobs = Path(out), effective_jobs(jobs)
+    folder = Path(out)
     require_own(folder, "optimization", FILES)
-    log = _Log(folder, wanted, jobs)
+    log = _Log(folder, wanted, effective_jobs(jobs))
     claim(folder, "optimization", " and ".join(map(str, wanted.objectives)), wanted.digest)
     ask = Evaluator(
         [goal.target for goal in wanted.goals],
