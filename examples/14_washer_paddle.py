@@ -14,7 +14,7 @@ import drumrs
 
 HEIGHTS = (45, 60, 75)  # mm
 FALL, RUBBING = "falls_per_turn * mean_drop", "dissipated_sliding_specific_power"
-QUESTIONS = ((FALL, True), (RUBBING, False), (f"{FALL} / ({RUBBING})", True))
+QUESTIONS = ((FALL, True), (RUBBING, False), (f"{FALL} / {RUBBING}", True))
 
 
 def main() -> None:

@@ -175,9 +175,8 @@ def test_a_real_drum_gives_its_friction_back_on_the_command_line(tmp_path, capsy
     assert "contact.drum.friction is " in told
 
 
-@pytest.mark.parametrize(("page", "counts"), [("calibrate.md", [3, 1, 3]), ("friction.md", [4, 4, 2])])
-def test_the_examples_of_the_pages_are_experiments(page, counts):
-    text = (Path(__file__).parents[3] / "docs" / "decisions" / page).read_text(encoding="utf-8")
+def test_the_example_of_the_page_is_an_experiment():
+    text = (Path(__file__).parents[3] / "docs/decisions/calibrate.md").read_text(encoding="utf-8")
     experiment = Experiment.read(tomllib.loads(re.search(r"```toml\n(.*?)```", text, re.DOTALL)[1]))
-    assert [len(part) for part in (experiment.measured, experiment.candidates, experiment.drums)] == counts
+    assert [len(part) for part in (experiment.measured, experiment.candidates, experiment.drums)] == [3, 1, 3]
     assert experiment.discrepancy == pytest.approx(0.03)
