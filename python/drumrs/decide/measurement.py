@@ -160,6 +160,9 @@ def _measurement(table: Mapping[str, Any], at: str, base: Config) -> Measurement
 
 def _number(table: Mapping[str, Any], key: str, at: str, target: Target) -> float:
     value = table.get(key)
+    unit = "a number" if target.unit == "1" else f"a number in {target.unit}"
+    if value is None:
+        raise ConfigError(f"{at}.{key}", problem=f"is missing, but must be {unit}")
     if isinstance(value, bool) or not isinstance(value, (int, float)):
-        raise ConfigError(f"{at}.{key}", value, f"a number in {target.unit}")
+        raise ConfigError(f"{at}.{key}", value, unit)
     return float(value)

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from drumrs.config import Config
 from drumrs.decide.confirmed import Confirmed
 from drumrs.decide.emulator import Array, require_packages
 from drumrs.decide.evaluate import Evaluator
@@ -87,7 +88,6 @@ def optimize(
     folder = Path(out)
     require_own(folder, "optimization", FILES)
     log = _Log(folder, wanted, effective_jobs(jobs))
-    claim(folder, "optimization", " and ".join(map(str, wanted.objectives)), wanted.digest)
     ask = Evaluator(
         [goal.target for goal in wanted.goals],
         folder / "runs",
@@ -103,6 +103,9 @@ def optimize(
         wanted.tolerance.is_relative,
         log.batches,
     )
+    for config in _configs(wanted, search.start(), 0):
+        ask.case(config)
+    claim(folder, "optimization", " and ".join(map(str, wanted.objectives)), wanted.digest)
     with Task("optimization", wanted.runs, detail="0 runs", show=progress) as task:
 
         def evaluate(points: Array, first: int) -> tuple[Array, Array]:
@@ -125,14 +128,17 @@ def optimize(
     return found
 
 
+def _configs(problem: Problem, points: Array, first: int) -> list[Config]:
+    """Return the configurations of points, each with a seed of its own."""
+    values = (problem.space.values(point) for point in points)
+    seed = problem.base.run.seed + first
+    return [problem.base.replace({**each, "run.seed": seed + k}) for k, each in enumerate(values)]
+
+
 def _measure(problem: Problem, ask: Evaluator, points: Array, first: int) -> tuple[Array, Array]:
     """Run points, each with a seed of its own; return signed values and errors, shape (n, goals) each."""
-    configs = [
-        problem.base.replace({**problem.space.values(point), "run.seed": problem.base.run.seed + first + k})
-        for k, point in enumerate(points)
-    ]
     try:
-        means = ask.means(configs)
+        means = ask.means(_configs(problem, points, first))
     except ConfigError as error:
         # Where all of a later batch fail the search goes on elsewhere.
         if error.key != "configs" or not first:
@@ -146,9 +152,8 @@ def _measure(problem: Problem, ask: Evaluator, points: Array, first: int) -> tup
             str(goal.target) for k, goal in enumerate(problem.goals) if np.isnan(signed[:, k, 0]).all()
         ]
         named = " and ".join(missing or (str(goal.target) for goal in problem.goals))
-        raise ConfigError(
-            "optimize", problem=f"asks for {named}, which none of the first {len(points)} runs has"
-        )
+        lacks = f"asks for {named}, which none of the first {len(points)} runs has"
+        raise ConfigError("optimize", problem=lacks, hint="run longer, or in other ranges")
     return signed[..., 0], signed[..., 1]
 
 

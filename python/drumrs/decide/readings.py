@@ -5,6 +5,7 @@ The series tells most of them; what is measured on frames and records is in `mea
 
 import difflib
 import math
+import re
 from collections.abc import Iterable, Sequence
 from dataclasses import fields
 from functools import cache
@@ -22,6 +23,7 @@ from drumrs.frames import COLUMNS
 from drumrs.result import Summary
 
 if TYPE_CHECKING:
+    from drumrs.config import Config
     from drumrs.result import Result
 
 # How the columns end whose sum is a number of the summary.
@@ -93,6 +95,63 @@ def needs_frames(name: str) -> bool:
     return how is not None and how.needs == "frames"
 
 
+def check(config: "Config", name: str, phase: str | None) -> None:
+    """Refuse, before it is run, a configuration whose run will not have a quantity.
+
+    Raises
+    ------
+    ConfigError
+        Where there is no such phase or part, or too few frames for what is measured on them.
+    """
+    if name in _FACTS:
+        return
+    windows = windows_of(config, name, phase, config.run.duration)
+    counts = {"baffle": config.drum.baffles.count, "rail": config.drum.liner.rail.count}
+    part = re.match(rf"({'|'.join(counts)})_(\d+)_", name)
+    if part is not None and int(part[2]) > counts[part[1]]:
+        raise not_there(config, name)
+    start, end = windows[0]
+    every, slack = config.run.frame_every, 1e-3 * (end - start)
+    if needs_frames(name) and math.floor((end + slack) / every) <= math.ceil((start - slack) / every):
+        limit = f"small enough for two frames from {start:.4g} to {end:.4g} s: {name} is measured on them"
+        raise ConfigError("run.frame_every", every, limit)
+
+
+def windows_of(config: "Config", name: str, phase: str | None, ended: float) -> list[Window]:
+    """Return the windows over which a quantity is taken of a run that has ended at a time.
+
+    Raises
+    ------
+    ConfigError
+        Where there is no such phase, or the quantity is not that of one, or of nothing else.
+    """
+    if phase is None:
+        if name in _OF_PHASES:
+            raise ConfigError(_called(name), name, problem="is that of a phase", hint=f"write {name}[PHASE]")
+        return [config.run.averaging_window]
+    called, intervals, how = _called(f"{name}[{phase}]"), config.rotation.intervals, measured.measured(name)
+    if how is not None and not how.has_window:
+        problem = f"is that of a whole run from t = 0 on, not of a phase: {how.needs!r} adds up all of it"
+        raise ConfigError(called, phase, problem=problem)
+    if not intervals:
+        raise ConfigError(called, phase, problem="is that of a phase, but the run has no rotation.phase")
+    wanted = [each for each in intervals if each.name == phase]
+    if not wanted and phase.isdigit() and 0 < int(phase) <= len(intervals):
+        wanted = [intervals[int(phase) - 1]]
+    windows = [(each.start, min(each.end, ended)) for each in wanted if each.start < ended]
+    if not windows:
+        known = ", ".join(dict.fromkeys(each.name for each in intervals))
+        limit = f"in a phase that the run has gone through: {known}"
+        raise ConfigError(called, phase, problem=f"must be {limit}")
+    return windows
+
+
+def not_there(config: "Config", name: str) -> ConfigError:
+    """Return the error that the drum of a run does not have the part that a quantity is of."""
+    problem = f"is of a part that the drum of this run does not have ({config.drum.fittings})"
+    return ConfigError(_called(name), name, problem=problem)
+
+
 def _why_not(quantity: registry.Quantity) -> str:
     """Say why a quantity is no target."""
     if quantity.reading == "error":
@@ -154,34 +213,9 @@ class Readings:
                 raise ConfigError("run.record", problem=problem, hint=f"add {record!r} to it and run again")
         if name in _FACTS:
             return self._fact(name)
-        how = measured.measured(name)
-        if how is not None and not how.has_window and phase is not None:
-            problem = f"is that of a whole run from t = 0 on, not of a phase: {how.needs!r} adds up all of it"
-            raise ConfigError(_called(f"{name}[{phase}]"), phase, problem=problem)
-        if phase is None:
-            if name in _OF_PHASES:
-                problem = "is that of a phase"
-                raise ConfigError(_called(name), name, problem=problem, hint=f"write {name}[PHASE]")
-            return self._over(name, self.result.config.run.averaging_window)
-        windows = self._windows(name, phase)
+        windows = windows_of(self.result.config, name, phase, float(self.result.series["time"][-1]))
         means = [self._over(name, window) for window in windows]
         return _together(means, windows, registry.quantity(name).reading, name)
-
-    def _windows(self, name: str, phase: str) -> list[Window]:
-        intervals = self.result.config.rotation.intervals
-        if not intervals:
-            problem = "is that of a phase, but the run has no rotation.phase"
-            raise ConfigError(_called(f"{name}[{phase}]"), phase, problem=problem)
-        wanted = [each for each in intervals if each.name == phase]
-        if not wanted and phase.isdigit() and 0 < int(phase) <= len(intervals):
-            wanted = [intervals[int(phase) - 1]]
-        ended = float(self.result.series["time"][-1])
-        windows = [(each.start, min(each.end, ended)) for each in wanted if each.start < ended]
-        if not windows:
-            known = ", ".join(dict.fromkeys(each.name for each in intervals))
-            limit = f"in a phase that the run has gone through: {known}"
-            raise ConfigError(_called(f"{name}[{phase}]"), phase, problem=f"must be {limit}")
-        return windows
 
     def _fact(self, name: str) -> Mean:
         config, summary = self.result.config, self.result.summary
@@ -198,7 +232,7 @@ class Readings:
     def _of_measures(self, how: measured.Measured, name: str, window: Window) -> Mean | float | None:
         means: Means = self._measured(how, window)
         if name not in means:
-            raise self._not_there(name)
+            raise not_there(self.result.config, name)
         return means[name]
 
     def _of_series(self, name: str, window: Window) -> Mean | None:
@@ -221,7 +255,7 @@ class Readings:
             return self._of_column(name, window)
         summary = summary_of_rows(self.result.config, rows, self._mass())
         if name not in summary:
-            raise self._not_there(name)
+            raise not_there(self.result.config, name)
         value = summary[name]
         return None if value is None else Mean(value, self._error_of_sum(name, window))
 
@@ -233,10 +267,6 @@ class Readings:
         terms = _SUMS.get(name, ())
         columns = [rows.column(column)[1:] for column in rows.rows.columns if column.endswith(terms)]
         return mean_with_error(sum(columns), rows.interval).error if columns else None
-
-    def _not_there(self, name: str) -> ConfigError:
-        problem = f"is of a part that the drum of this run does not have ({self.result.config.drum.fittings})"
-        return ConfigError(_called(name), name, problem=problem)
 
     def _of_column(self, name: str, window: Window) -> Mean:
         rows = SeriesWindow.of(self.result.series, window)

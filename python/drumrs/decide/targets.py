@@ -9,12 +9,13 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, NamedTuple
 
 from drumrs.analysis import Estimate, Mean, estimate
-from drumrs.decide.readings import Readings, find, needs_frames, record_of
+from drumrs.decide.readings import Readings, check, find, needs_frames, record_of
 from drumrs.decide.readings import names as quantity_names
 from drumrs.decide.units import PLAIN, Unit, format_unit, parse_unit, product
 from drumrs.errors import ConfigError
 
 if TYPE_CHECKING:
+    from drumrs.config import Config
     from drumrs.result import Result
 
 _OPERATORS: Mapping[type[ast.AST], Callable[[float, float], float]] = MappingProxyType(
@@ -203,6 +204,20 @@ class Target:
         if self.own is not None:
             return self.own.needs_frames
         return any(needs_frames(name.quantity) for name in self.names)
+
+    def check(self, config: "Config") -> None:
+        """Refuse, before it is run, a configuration whose run will not have the target.
+
+        Raises
+        ------
+        ConfigError
+            Where it keeps too few frames, or has no such phase or part.
+        """
+        if self.needs_frames and not config.run.frame_every < config.run.duration:
+            limit = f"smaller than run.duration = {config.run.duration}: {self} is measured on frames"
+            raise ConfigError("run.frame_every", config.run.frame_every, limit)
+        for name in self.names if self.own is None else ():
+            check(config, *name)
 
     def mean(self, result: "Result | Readings") -> Mean:
         """Return the value of one run with its standard error, as its blocks tell.

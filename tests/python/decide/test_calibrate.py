@@ -35,7 +35,7 @@ class MadeUp:
     """Stands in for the evaluator: slope and power as above, errors of runs known."""
 
     def __init__(self, targets, *_, **__):
-        self.targets = list(targets)
+        self.targets = list(map(str, targets))
 
     def means(self, configs):
         return [tuple(self._of(config, text) for text in self.targets) for config in configs]
@@ -118,7 +118,7 @@ def test_what_does_not_matter_is_said(tmp_path, monkeypatch):
         ({"measured": []}, r"measured is \[\], but must be one table"),
         (
             {"measured": [{"target": SLOPE, "value": 30.0}]},
-            r"measured\[0\].error is None, but must be a number in",
+            r"measured\[0\].error is missing, but must be a number in",
         ),
         (
             {"measured": [{"target": SLOPE, "value": 30.0, "error": 0.0}]},

@@ -266,3 +266,37 @@ def test_overlap_and_size_are_those_of_one_size_and_linear_springs():
     with pytest.raises(ConfigError, match="follows from the energy in linear springs"):
         Target.parse("mean_overlap_ratio")(hertz)
     assert Target.parse("size_ratio")(hertz).mean == pytest.approx(20.0)
+
+
+@pytest.mark.parametrize(
+    ("target", "changes", "told"),
+    [
+        (
+            "falls_per_turn",
+            {"run.frame_every": 0.12},
+            "run.frame_every is 0.12, but must be small enough for two",
+        ),
+        (
+            "falls_per_turn",
+            {"run.frame_every": 1.0},
+            "run.frame_every is 1.0, but must be smaller than run.duration",
+        ),
+        ("baffle_4_torque", {}, "is of a part that the drum of this run does not have (3 baffles)"),
+        ("baffle_1_impact_rate", {"drum.baffles.count": 0}, "does not have (no baffles)"),
+        ("rail_1_work", {}, "is of a part that the drum of this run does not have"),
+        ("drum_power[spin]", {}, "is that of a phase, but the run has no rotation.phase"),
+        ("wear_peak[spin]", {}, "is that of a whole run from t = 0 on, not of a phase"),
+        ("phase_work", {}, "is that of a phase; write phase_work[PHASE]"),
+    ],
+)
+def test_what_a_run_will_not_have_is_refused_before_it_is_run(tmp_path, target, changes, told):
+    config = drumrs.baseline(fill=0.1, baffles=True).replace({"run.duration": 0.4, **changes})
+    with pytest.raises(ConfigError, match=re.escape(told)):
+        Evaluator([target], tmp_path / "runs", progress=False).means([config])
+    assert not (tmp_path / "runs").exists()
+
+
+def test_two_frames_are_enough_and_names_that_are_no_parts_of_a_kind_are_left_to_the_run(tmp_path):
+    ask = Evaluator(["falls_per_turn", "lid_1_work"], tmp_path, progress=False)
+    config = drumrs.baseline(fill=0.1).replace({"run.duration": 0.3, "run.frame_every": 0.1})
+    assert ask.case(config).wants_frames
