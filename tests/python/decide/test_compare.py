@@ -116,4 +116,4 @@ def test_a_file_that_is_given_twice_is_named(tmp_path, capsys):
     with pytest.raises(SystemExit) as left:
         main(["compare", str(case), str(case), "--out", str(tmp_path / "out")])
     assert left.value.code == 2
-    assert "a.toml, but must be another file than the others; it is given twice" in capsys.readouterr().err
+    assert "a.toml', but must be another file than the others; it is given twice" in capsys.readouterr().err
