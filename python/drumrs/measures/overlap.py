@@ -43,8 +43,8 @@ def mean_overlap_ratio(
     >>> import polars as pl
     >>> from drumrs.measures import mean_overlap_ratio
     >>> series = pl.DataFrame({"time": [0.0, 1.0], "elastic_normal": [0.0, 4.0], "contact_count": [0, 2]})
-    >>> mean_overlap_ratio(series, (0.0, 1.0), stiffness=1e4, radius=0.1)
-    Mean(value=0.2, error=None)
+    >>> round(mean_overlap_ratio(series, (0.0, 1.0), stiffness=1e4, radius=0.1).value, 12)
+    0.2
     """
     rows = SeriesWindow.of(series, window)
     energy = ratio_of_sums(*(rows.column(name)[1:] for name in ("elastic_normal", "contact_count")))
