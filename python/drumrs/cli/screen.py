@@ -77,7 +77,7 @@ def _announce(plan: "ScreeningPlan", jobs: int | None) -> None:
     spent = format_duration(plan.cost / measure_speed(count))
     further = f", then at most {plan.most_runs - plan.first_runs} for Sobol's indices" if plan.points else ""
     note(
-        f"{len(plan.space)} keys: {plan.first_runs} runs for Morris's effects{further}; {plan.cost:.2g} "
+        f"{', '.join(plan.space.keys)}: {plan.first_runs} runs for Morris's effects{further}; {plan.cost:.2g} "
         f"particle-steps in all, about {spent} at most on {count} core{'s' if count > 1 else ''}"
     )
 
