@@ -57,13 +57,9 @@ impl Ended {
 }
 
 impl<V: MotionView> ChunkStep<'_, V> {
-    /// Makes contacts of neighbors that have begun to touch. Returns the sums to add to, none where the list is empty.
+    /// Makes contacts of neighbors that have begun to touch. Returns whether the list has contacts.
     #[inline]
-    pub fn open<L: ContactLaw>(
-        &mut self,
-        list: &mut ContactList<L>,
-        neighbors: &mut Neighbors,
-    ) -> Option<Totals<F64x4>> {
+    pub fn open<L: ContactLaw>(&mut self, list: &mut ContactList<L>, neighbors: &mut Neighbors) -> bool {
         let Scratch { opened, .. } = &mut *self.scratch;
         if !opened.is_empty() {
             let first = list.len();
@@ -73,7 +69,7 @@ impl<V: MotionView> ChunkStep<'_, V> {
             }
         }
         self.scratch.ended.clear(list.blocks.len());
-        (!list.is_empty()).then(|| self.totals.open())
+        !list.is_empty()
     }
 
     /// Keeps the sums, of which depths are in units of `unit`, and takes out contacts that have ended.

@@ -41,7 +41,10 @@ pub fn evaluate<L: ContactLaw, V: MotionView>(
     surfaces: &mut [SurfaceLoad],
 ) {
     find_spots(list, neighbors, step);
-    let Some(mut totals) = step.open(list, neighbors) else { return };
+    if !step.open(list, neighbors) {
+        return;
+    }
+    let mut totals = step.totals.open();
     let ChunkStep { motion, inputs, sums, totals: kept, scratch: Scratch { spots, ended, .. }, .. } =
         &mut *step;
     let motion = *motion;

@@ -40,7 +40,10 @@ pub fn evaluate<L: ContactLaw, V: MotionView>(
     step: &mut ChunkStep<V>,
 ) {
     find_touching(neighbors, step);
-    let Some(mut totals) = step.open(list, neighbors) else { return };
+    if !step.open(list, neighbors) {
+        return;
+    }
+    let mut totals = step.totals.open();
     let ContactList { ids, blocks, other_moments, tallies, parameters, .. } = list;
     let lists = PassLists { ids, blocks, other_moments, tallies };
     let unit = match parameters {

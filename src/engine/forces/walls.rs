@@ -37,7 +37,10 @@ pub fn evaluate_rim<L: ContactLaw, V: MotionView>(
     step: &mut ChunkStep<V>,
 ) -> SurfaceLoad {
     find_touching_rim(neighbors, step);
-    let Some(mut totals) = step.open(list, neighbors) else { return SurfaceLoad::default() };
+    if !step.open(list, neighbors) {
+        return SurfaceLoad::default();
+    }
+    let mut totals = step.totals.open();
     let ContactList { ids, blocks, tallies, parameters, .. } = list;
     let (load, unit) = match parameters {
         ListParameters::Same(same) => {
