@@ -132,7 +132,9 @@ def _tile(name: str, mean: Mean | None) -> dict[str, Any]:
         "name": name,
         "value": number,
         # A small number with a large error is best told by the error's digits.
-        "text": with_error(number, error) if number and error and abs(number) < 1.0 else value(number, error),
+        "text": with_error(number, error)
+        if number and error and abs(number) < 1.0
+        else value(number, error, 3),
         "unit": "" if unit == "1" else unit,
         "meaning": about.meaning,
     }

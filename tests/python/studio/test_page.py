@@ -28,6 +28,12 @@ def test_it_runs_the_moment_it_opens(show):
     studio.wait("!studio.playing")
     simulation = studio.session._simulation
     studio.wait(f"Math.abs(studio.recording.end - {simulation.time}) < 1e-9")
+    studio.wait("studio.axes.window?.[1] > studio.recording.end - 1e-9")
+    # A heading follows its panel, whose means become longer.
+    studio.page.evaluate("studio.axes.panels[0].title = 'Power, means over 77 s'")
+    studio.page.evaluate("studio.panels[0].draw(studio.axes.end)")
+    heading = studio.page.locator(".panel .heading").first
+    assert heading.inner_text() == "Power, means over 77 s [W/m]"
     places = studio.page.evaluate("[...studio.recording.frames.at(-1).positions]")
     assert places == pytest.approx(simulation.positions.ravel().tolist(), abs=1e-5)
 
