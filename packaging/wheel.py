@@ -25,7 +25,7 @@ WORK = ROOT / "target" / "wheel"
 TOOLS = ["maturin[zig]>=1.13,<2", "twine", "check-wheel-contents", "abi3audit", "auditwheel"]
 IS_LINUX = sys.platform == "linux"
 HAS_TWO_CORES = platform.machine().lower() in {"x86_64", "amd64"}
-MOST_BYTES = 4_000_000  # of a core
+MOST_BYTES = 2_500_000  # of a core
 MOST_SECONDS = 30.0  # from the wheel to the first picture
 
 
@@ -52,7 +52,9 @@ def main() -> None:
 def build(tools: Path, cpu: str, folder: Path) -> Path:
     """Build a wheel for a kind of CPU into a folder, and return its path."""
     shutil.rmtree(folder, ignore_errors=True)
-    flags = {"RUSTFLAGS": f"-C target-cpu={cpu}"} if cpu else {}
+    # What a step calls is inlined in any case; inlining less of the rest makes a core 6 % smaller.
+    rust = "-C llvm-args=--inline-threshold=50" + (f" -C target-cpu={cpu}" if cpu else "")
+    flags = {"RUSTFLAGS": rust}
     # Each kind of CPU has a folder of its own, so that neither builds what the other has.
     target = {"CARGO_TARGET_DIR": str(WORK / f"target-{cpu or 'any'}")}
     portable = ["--zig", "--compatibility", "manylinux2014"] if IS_LINUX else []

@@ -202,7 +202,9 @@ impl Engine {
     /// The longest displacement of a particle in the last drift, as seen from the drum [m].
     pub fn measure_displacements(&mut self, particles: &Particles, world: World, drum: DrumMotion) -> f64 {
         let inputs = self.inputs(particles, world, drum);
-        with_arrays!(&mut self.arrays, arrays => self.list.measure_displacements(arrays.lend().0, &inputs))
+        with_arrays!(&mut self.arrays, arrays => {
+            self.list.measure_displacements(arrays.lend::<false>().0, &inputs)
+        })
     }
 
     /// Brings the pair list up to date with the positions.

@@ -5,6 +5,7 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
+use rayon::ThreadPool;
 use rayon::iter::{IndexedParallelIterator, IntoParallelIterator, ParallelIterator};
 
 use crate::error::Error;
@@ -29,14 +30,14 @@ pub struct Threads {
 #[derive(Debug)]
 struct Pool {
     /// None only while it is dropped.
-    threads: Option<rayon::ThreadPool>,
+    threads: Option<ThreadPool>,
     home: u32,
 }
 
 impl Pool {
     fn is_at_home(&self) -> bool {
         // To ask for the process takes a call of the system; a thread of the pool needs none.
-        let is_one = |threads: &rayon::ThreadPool| threads.current_thread_index().is_some();
+        let is_one = |threads: &ThreadPool| threads.current_thread_index().is_some();
         self.threads.as_ref().is_some_and(is_one) || std::process::id() == self.home
     }
 }
@@ -74,7 +75,7 @@ impl Threads {
     /// Number of threads.
     pub fn count(&self) -> usize {
         let threads = self.pool.as_ref().and_then(|pool| pool.threads.as_ref());
-        threads.map_or(1, rayon::ThreadPool::current_num_threads)
+        threads.map_or(1, ThreadPool::current_num_threads)
     }
 
     /// Whether work on `count` particles is worth handing over to other threads.
@@ -83,7 +84,7 @@ impl Threads {
     }
 
     /// The pool where it is here and pays for `count` particles.
-    fn pool_for(&self, count: usize) -> Option<&rayon::ThreadPool> {
+    fn pool_for(&self, count: usize) -> Option<&ThreadPool> {
         let pool = self.pool.as_ref().filter(|pool| count >= PARALLEL_THRESHOLD && pool.is_at_home());
         pool.and_then(|pool| pool.threads.as_ref())
     }
@@ -131,7 +132,7 @@ impl Threads {
         kernel: impl Fn(W) + Sync,
     ) {
         match self.pool_for(count) {
-            Some(pool) => pool.install(|| share(tasks, &kernel, pool.current_num_threads())),
+            Some(pool) => share(pool, tasks, &kernel),
             None => tasks.for_each(kernel),
         }
     }
@@ -144,19 +145,24 @@ const PARALLEL_THRESHOLD: usize = 4096;
 
 /// Gives each thread as many tasks in a row, the same in every pass, so that it finds in its own cache what it left there.
 /// A thread that is done takes what others have not come to: one whose CPU is busy with something else holds no other up.
-fn share<W: Send>(tasks: impl Iterator<Item = W>, kernel: &(impl Fn(W) + Sync), threads: usize) {
+fn share<W: Send>(pool: &ThreadPool, tasks: impl Iterator<Item = W>, kernel: &(dyn Fn(W) + Sync)) {
     let tasks: Vec<_> = tasks.map(|task| Mutex::new(Some(task))).collect();
-    let members = threads.min(tasks.len());
+    let members = pool.current_num_threads().min(tasks.len());
     let own = |number: usize| &tasks[tasks.len() * number / members..tasks.len() * (number + 1) / members];
     let take = |task: &Mutex<Option<W>>| {
         let taken = task.lock().unwrap_or_else(PoisonError::into_inner).take();
         taken.into_iter().for_each(kernel);
     };
-    // Split until each has a thread of its own, if there are as many.
-    (0..members).into_par_iter().with_max_len(1).for_each(|number| {
+    run_members(pool, members, &|number| {
         own(number).iter().for_each(take);
         for other in (1..members).map(|turn| (number + turn) % members) {
             own(other).iter().rev().for_each(take);
         }
     });
+}
+
+/// Runs `work` with the number of each member, on a thread of its own if there are as many. Compiled once for all kinds of work:
+/// what splits and joins is ten times as large as a kernel's own loop.
+fn run_members(pool: &ThreadPool, members: usize, work: &(dyn Fn(usize) + Sync)) {
+    pool.install(|| (0..members).into_par_iter().with_max_len(1).for_each(work));
 }

@@ -71,10 +71,10 @@ impl Simulation {
         let (particles, rotation) = (&self.state.particles, Rotation::new(self.drum_angle()));
         // Nearly all particles are so far from everything that their distance from the axis tells.
         let clear = drum.clear_radius() * drum.clear_radius();
-        let is_near = |&place: &usize| particles.positions[place].norm_squared() >= clear;
-        let inside = |place: usize| drum.solid_at(rotation.apply_inverse(particles.positions[place]));
-        let mut near = (0..particles.len()).filter(is_near);
-        match near.find_map(|place| Some((place, inside(place)?))) {
+        let near =
+            particles.positions.iter().enumerate().filter(|(_, position)| position.norm_squared() >= clear);
+        let inside = |position: &Vec2| drum.solid_at(rotation.apply_inverse(*position));
+        match near.into_iter().find_map(|(place, position)| Some((place, inside(position)?))) {
             Some((place, surface)) => Err(Error::Escaped {
                 incident: self.incident(place),
                 surface: drum.surface_name(surface).to_owned(),

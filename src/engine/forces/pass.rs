@@ -17,7 +17,7 @@ use super::{Bodies, StepInputs, Totals, outlines, pairs, walls};
 use crate::engine::contacts::{ContactEvent, ContactList, ListKind, ListParameters};
 use crate::engine::motion::verlet::{DriftSums, Verlet, WHOLE};
 use crate::engine::motion::{
-    Arrays, CHUNK_FLAT, MotionArrays, MotionView, at_offset, far, inside, with_arrays,
+    Arrays, CHUNK_FLAT, FlatArrays, MotionArrays, MotionView, at_offset, far, inside, with_arrays,
 };
 use crate::engine::pair_list::{ChunkNeighbors, Opened, PairList};
 use crate::engine::parallel::{CHUNK, Threads, chunk_count};
@@ -131,6 +131,57 @@ impl<L: ContactLaw> Pass<L> {
         }
     }
 
+    /// Whether there is code of its own for a load of one chunk, whose contacts need not ask whether a particle is another chunk's.
+    /// Asking costs 1 to 5 %. Laws with terms do without: there are many, and each takes its share of the program's size.
+    const KNOWS_ONE_CHUNK: bool = !L::HAS_TERMS;
+
+    /// Chunk after chunk, and each is moved on while it is in the cache.
+    fn evaluate_in_turn<const N: usize, const M: usize, const H: usize, const ONE_CHUNK: bool>(
+        &mut self,
+        list: &mut PairList,
+        arrays: &mut FlatArrays<N, M, H>,
+        inputs: &StepInputs,
+        advance: &impl Fn(MotionArrays, &mut DriftSums),
+        sums: &mut [DriftSums],
+    ) {
+        for (index, sums) in sums.iter_mut().enumerate() {
+            let (motion, forces) = arrays.lend::<ONE_CHUNK>();
+            let own = (&mut forces.force[index], &mut forces.torque[index]);
+            let (outcome, neighbors) = (&mut self.outcomes[index], &mut list.chunks[index]);
+            self.chunks[index].evaluate(outcome, neighbors, motion, inputs, own);
+            let first = index * CHUNK;
+            let mut own = arrays.part(first..self.count.min(first + CHUNK));
+            if !ONE_CHUNK {
+                self.gather(&mut own);
+            }
+            advance(own, sums);
+        }
+    }
+
+    /// All chunks at a time; they are moved on when all are evaluated.
+    fn evaluate_in_parallel<const N: usize, const M: usize, const H: usize>(
+        &mut self,
+        list: &mut PairList,
+        arrays: &mut FlatArrays<N, M, H>,
+        inputs: &StepInputs,
+        advance: &(impl Fn(MotionArrays, &mut DriftSums) + Sync),
+        sums: &mut [DriftSums],
+        threads: &Threads,
+    ) {
+        let (motion, forces) = arrays.lend::<false>();
+        // The arrays are longer than the load.
+        let own = self.outcomes.iter_mut().zip(forces.force.iter_mut().zip(forces.torque));
+        let chunks = self.chunks.iter_mut().zip(&mut list.chunks).zip(own);
+        threads.for_each(self.count, chunks, |((chunk, neighbors), (outcome, own))| {
+            chunk.evaluate(outcome, neighbors, motion, inputs, own);
+        });
+        let chunks = arrays.part(0..self.count).chunks().zip(sums);
+        threads.for_each(self.count, chunks, |(mut own, sums)| {
+            self.gather(&mut own);
+            advance(own, sums);
+        });
+    }
+
     /// Adds the reactions on a chunk's particles, in the order of the chunks that sent them.
     fn gather(&self, own: &mut MotionArrays) {
         let chunk = own.first / CHUNK;
@@ -162,37 +213,21 @@ impl<L: ContactLaw> ForcePass for Pass<L> {
         sums: &mut [DriftSums],
         threads: &Threads,
     ) {
-        let advance = |own: MotionArrays, sums: &mut DriftSums| {
+        let advance = &|own: MotionArrays, sums: &mut DriftSums| {
             if let Some(verlet) = integrator {
                 *sums = verlet.advance::<WHOLE>(own);
             }
         };
-        with_arrays!(arrays, arrays => if threads.serve(self.count) {
-            let (motion, forces) = arrays.lend();
-            // The arrays are longer than the load.
-            let own = self.outcomes.iter_mut().zip(forces.force.iter_mut().zip(forces.torque));
-            let chunks = self.chunks.iter_mut().zip(&mut list.chunks).zip(own);
-            threads.for_each(self.count, chunks, |((chunk, neighbors), (outcome, own))| {
-                chunk.evaluate(outcome, neighbors, motion, inputs, own);
-            });
-            let chunks = arrays.part(0..self.count).chunks().zip(sums);
-            threads.for_each(self.count, chunks, |(mut own, sums)| {
-                self.gather(&mut own);
-                advance(own, sums);
-            });
-        } else {
-            // Chunk after chunk, and each is moved on while it is in the cache.
-            for (index, sums) in sums.iter_mut().enumerate() {
-                let (motion, forces) = arrays.lend();
-                let own = (&mut forces.force[index], &mut forces.torque[index]);
-                let (outcome, neighbors) = (&mut self.outcomes[index], &mut list.chunks[index]);
-                self.chunks[index].evaluate(outcome, neighbors, motion, inputs, own);
-                let first = index * CHUNK;
-                let mut own = arrays.part(first..self.count.min(first + CHUNK));
-                self.gather(&mut own);
-                advance(own, sums);
+        match arrays {
+            Arrays::Small(arrays) if Self::KNOWS_ONE_CHUNK && self.chunks.len() == 1 => {
+                self.evaluate_in_turn::<_, _, _, true>(list, arrays, inputs, advance, sums);
             }
-        });
+            arrays => with_arrays!(arrays, arrays => if threads.serve(self.count) {
+                self.evaluate_in_parallel(list, arrays, inputs, advance, sums, threads);
+            } else {
+                self.evaluate_in_turn::<_, _, _, false>(list, arrays, inputs, advance, sums);
+            }),
+        }
         self.add_up();
     }
 }
@@ -235,7 +270,9 @@ impl<L: ContactLaw> Chunk<L> {
         if neighbors.horizon.is_over() {
             neighbors.refresh(motion, inputs);
         }
-        remote.clear();
+        if !V::ONE_CHUNK {
+            remote.clear();
+        }
         let chunk = neighbors.particles.start / CHUNK as u32;
         let sums = ChunkSums { chunk, force, torque, remote, view: PhantomData };
         let step = &mut ChunkStep { motion, inputs, sums, totals, events, scratch };

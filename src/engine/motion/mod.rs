@@ -76,7 +76,7 @@ impl<'a> MotionArrays<'a> {
 /// array, and a CPU that sees a load follow a store to such an address waits for the store. The arrays are longer than most
 /// loads: memory that is not used is not touched.
 #[derive(Debug, Clone)]
-pub struct FlatArrays<const N: usize, const M: usize, const H: usize, const ONE_CHUNK: bool> {
+pub struct FlatArrays<const N: usize, const M: usize, const H: usize> {
     /// Positions, velocities, forces; angles, angular velocities, torques.
     numbers: Box<[f64]>,
     /// Where they begin: at a line of the cache, so that four numbers are never on two of them.
@@ -89,18 +89,15 @@ const SKEW: usize = 11 * LINE;
 const LINE: usize = 8;
 
 /// Arrays that offsets of 16 bits reach: the cheapest masks there are.
-pub type SmallArrays<const ONE_CHUNK: bool> =
-    FlatArrays<{ 1 << 16 }, { (1 << 16) + SKEW }, { (1 << 15) + SKEW }, ONE_CHUNK>;
+pub type SmallArrays = FlatArrays<{ 1 << 16 }, { (1 << 16) + SKEW }, { (1 << 15) + SKEW }>;
 /// Arrays for 16 million particles.
-pub type LargeArrays = FlatArrays<{ 1 << 25 }, { (1 << 25) + SKEW }, { (1 << 24) + SKEW }, false>;
+pub type LargeArrays = FlatArrays<{ 1 << 25 }, { (1 << 25) + SKEW }, { (1 << 24) + SKEW }>;
 
 /// Arrays of the size that a load needs.
 #[derive(Debug, Clone)]
 pub enum Arrays {
-    /// For one chunk, whose contacts need not ask whether a particle is another chunk's.
-    OneChunk(SmallArrays<true>),
     /// Up to 32 766 particles.
-    Small(SmallArrays<false>),
+    Small(SmallArrays),
     /// More.
     Large(LargeArrays),
 }
@@ -109,7 +106,6 @@ pub enum Arrays {
 macro_rules! with_arrays {
     ($arrays:expr, $own:ident => $work:expr) => {
         match $arrays {
-            $crate::engine::motion::Arrays::OneChunk($own) => $work,
             $crate::engine::motion::Arrays::Small($own) => $work,
             $crate::engine::motion::Arrays::Large($own) => $work,
         }
@@ -122,8 +118,7 @@ impl Arrays {
     /// everything, and one at `inside`, where it touches no rim.
     pub fn new(count: usize, inside: f64) -> Self {
         match count {
-            0..=CHUNK => Self::OneChunk(FlatArrays::new(count, inside)),
-            _ if count <= 32_766 => Self::Small(FlatArrays::new(count, inside)),
+            0..=32_766 => Self::Small(FlatArrays::new(count, inside)),
             _ => Self::Large(FlatArrays::new(count, inside)),
         }
     }
@@ -134,7 +129,7 @@ impl Arrays {
     }
 }
 
-impl<const N: usize, const M: usize, const H: usize, const ONE_CHUNK: bool> FlatArrays<N, M, H, ONE_CHUNK> {
+impl<const N: usize, const M: usize, const H: usize> FlatArrays<N, M, H> {
     fn new(count: usize, inside: f64) -> Self {
         // Zeros take no memory until they are written to.
         let numbers = vec![0.0; 3 * M + 3 * H + LINE].into_boxed_slice();
@@ -153,9 +148,9 @@ impl<const N: usize, const M: usize, const H: usize, const ONE_CHUNK: bool> Flat
         (three(vectors), three(scalars))
     }
 
-    /// How the particles move, to read; forces and torques by chunk, to write to.
+    /// How the particles move, to read; forces and torques by chunk, to write to. `ONE_CHUNK`: there is no more than one.
     #[inline(always)]
-    pub fn lend(&mut self) -> (FlatView<'_, N, M, H, ONE_CHUNK>, ChunkForces<'_>) {
+    pub fn lend<const ONE_CHUNK: bool>(&mut self) -> (FlatView<'_, N, M, H, ONE_CHUNK>, ChunkForces<'_>) {
         let ([position, velocity, force], [_, angular_velocity, torque]) = self.split();
         let forces = ChunkForces { force: force.as_chunks_mut().0, torque: torque.as_chunks_mut().0 };
         (FlatView { position, velocity, angular_velocity }, forces)

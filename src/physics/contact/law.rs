@@ -53,6 +53,8 @@ pub trait ContactLaw: Copy + Debug + Default + PartialEq + Send + Sync + 'static
     const FLOWS: Flows<bool>;
     /// Whether the moments on the two bodies can differ where their arms are equal.
     const ROLLS: bool;
+    /// Whether terms act beside the base law.
+    const HAS_TERMS: bool = false;
     /// Whether more is recorded of its contacts than the ledger needs.
     const IS_RECORDED: bool = false;
 
@@ -138,6 +140,7 @@ impl<B: ContactLaw, T: ContactTerm> ContactLaw for (B, T) {
     type History = (B::History, T::History);
     const FLOWS: Flows<bool> = B::FLOWS.union(T::FLOWS);
     const ROLLS: bool = B::ROLLS || T::ROLLS;
+    const HAS_TERMS: bool = true;
 
     fn between(parameters: &ContactParameters, bodies: BodyPair) -> Of<Self::Parameters, f64> {
         (B::between(parameters, bodies), T::between(parameters, bodies))

@@ -19,18 +19,16 @@ pub enum Model {
     Clipped,
     /// The linear law with all terms.
     Full,
-    /// Hertz–Mindlin alone.
-    Hertz,
     /// Hertz–Mindlin with the terms that do not go with the tangential stiffness.
-    FullHertz,
+    Hertz,
     /// `Bare` with records.
     RecordedBare,
     /// `Clipped` with records.
     RecordedClipped,
     /// `Full` with records.
     RecordedFull,
-    /// `FullHertz` with records.
-    RecordedFullHertz,
+    /// `Hertz` with records.
+    RecordedHertz,
 }
 
 impl Model {
@@ -44,9 +42,8 @@ impl Model {
             (Base::Linear, true, false) if table.clips() => Self::RecordedClipped,
             (Base::Linear, true, false) => Self::RecordedBare,
             (Base::Linear, true, true) => Self::RecordedFull,
-            (Base::Hertz, false, false) => Self::Hertz,
-            (Base::Hertz, false, true) => Self::FullHertz,
-            (Base::Hertz, true, _) => Self::RecordedFullHertz,
+            (Base::Hertz, false, _) => Self::Hertz,
+            (Base::Hertz, true, _) => Self::RecordedHertz,
         }
     }
 }
@@ -56,11 +53,11 @@ macro_rules! with_law {
     ($model:expr, $law:ident => $work:expr) => {
         $crate::physics::contact::model::with_law!($model, $law => $work;
             Bare: Linear<false>, Clipped: Linear<true>, Full: (Linear<true>, Terms),
-            Hertz: Hertz, FullHertz: (Hertz, Adhesion),
+            Hertz: (Hertz, Adhesion),
             RecordedBare: WithRecords<Linear<false>>,
             RecordedClipped: WithRecords<Linear<true>>,
             RecordedFull: WithRecords<(Linear<true>, Terms)>,
-            RecordedFullHertz: WithRecords<(Hertz, Adhesion)>)
+            RecordedHertz: WithRecords<(Hertz, Adhesion)>)
     };
     ($model:expr, $law:ident => $work:expr; $($value:ident: $type:ty),*) => {{
         use $crate::physics::contact::model::{Model, Terms};
