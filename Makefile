@@ -82,9 +82,9 @@ docs: develop $(TOOLS) ## build the documentation site, out/docs/index.html
 
 # Within wasm/, whose own settings hold there. It takes the target: rustup target add wasm32-unknown-unknown.
 wasm: ## build the core for WebAssembly; the first page of the site then has a drum that runs in it
-	cd wasm && cargo build --release --locked --lib --target wasm32-unknown-unknown
-	cd wasm && cargo run --release --locked --quiet --package bindings -- \
-	    ../target/wasm/wasm32-unknown-unknown/release/drumrs_wasm.wasm ../target/wasm/web
+	cd wasm && cargo build --profile web --locked --lib --target wasm32-unknown-unknown
+	cd wasm && cargo run --locked --quiet --package bindings -- \
+	    ../target/wasm/wasm32-unknown-unknown/web/drumrs_wasm.wasm ../target/wasm/page
 
 wheel: ## build the wheel for this machine into dist/, check it, and try it where there is no Rust
 	$(PYTHON) packaging/wheel.py

@@ -14,7 +14,7 @@ from drumrs.viewer import module
 
 ROOT = Path(__file__).parents[1]
 # Where `make wasm` writes to.
-BUILT = ROOT / "target" / "wasm" / "web"
+BUILT = ROOT / "target" / "wasm" / "page"
 # Springs softer by this factor than the paper's let a phone keep up with real time.
 _SOFTER = 100.0
 # Keys that the core's configuration has under the same name, so that a page can set them by itself.

@@ -7,6 +7,12 @@ import { createHash } from "node:crypto";
 import { readFileSync } from "node:fs";
 import { join, resolve } from "node:path";
 
+// Node would tell where in the module by quoting all of it.
+process.on("uncaughtException", ({ message }) => {
+  process.stderr.write(message);
+  process.exit(1);
+});
+
 const folder = resolve(process.argv[2]);
 const text = readFileSync(join(folder, "drumrs.js"));
 // A data URL, for a file named .js in a folder without a package is no module to node.
