@@ -18,6 +18,7 @@ const LATE = 0.1;
 // Over how long the simulated seconds in a second are counted [ms].
 const COUNTED = 500;
 const SEED = 1;
+const SPEED = "rotation.rpm";
 const FULL = 65535;
 const TURN = 65536;
 
@@ -34,8 +35,8 @@ export class Session {
     try {
       if (what === "frame") this.wanted = true;
       else if (what === "play" || what === "pause") this.playing = what === "play";
-      else if (what === "step") this.advance(1);
-      else if (what === "reset") this.start(this.name, this.config, `Started anew from seed ${SEED}.`);
+      else if (what === "step") this.step();
+      else if (what === "reset") this.start(this.name, this.steady, `Started anew from seed ${SEED}.`);
       else if (what === "rate") this.rate = value ?? Infinity;
       else if (what === "speed") this.setSpeed(value);
       else if (what === "set") this.set(key, value);
@@ -54,8 +55,9 @@ export class Session {
 
   load(name) {
     const { config, controls } = this.machines[name];
-    this.controls = controls;
     this.start(name, config, "");
+    this.controls = controls;
+    this.rpm = controls.find((one) => one.key === SPEED).value;
   }
 
   start(name, config, said) {
@@ -63,7 +65,17 @@ export class Session {
     this.simulation?.free();
     Object.assign(this, { simulation, name, config, said, fastest: 1, started: true, changed: true, due: null });
     this.starts += 1;
-    this.rpm = (config.rotation.knots.at(-1)[1] * 30) / Math.PI;
+  }
+
+  // The configuration at the present speed from its start on.
+  get steady() {
+    return { ...this.config, rotation: { knots: [[0, radians(this.rpm)]] } };
+  }
+
+  // Do one step and stand still.
+  step() {
+    this.playing = false;
+    this.advance(1);
   }
 
   // Change to another speed now and stay there.
@@ -71,7 +83,7 @@ export class Session {
     const { simulation } = this;
     // The step after the next one is the first of which nothing is known yet.
     const earliest = Math.ceil(1e3 * (simulation.time + 3 * simulation.time_step)) / 1e3;
-    const knots = withSpeed(this.config.rotation.knots, (rpm * Math.PI) / 30, earliest);
+    const knots = withSpeed(this.config.rotation.knots, radians(rpm), earliest);
     const config = { ...this.config, rotation: { knots } };
     simulation.change(JSON.stringify(config));
     Object.assign(this, { config, rpm });
@@ -79,11 +91,10 @@ export class Session {
 
   // Start anew with another value of a key, at the present speed.
   set(key, value) {
-    const config = structuredClone(this.config);
+    const config = structuredClone(this.steady);
     const names = key.split(".");
     const last = names.pop();
     names.reduce((table, name) => table[name], config)[last] = value;
-    config.rotation.knots = [[0, (this.rpm * Math.PI) / 30]];
     const control = this.controls.find((one) => one.key === key);
     this.start(this.name, config, `Started anew with ${control.label.toLowerCase()} ${value}.`);
     this.controls = this.controls.map((one) => (one === control ? { ...one, value } : one));
@@ -194,6 +205,11 @@ export function withSpeed(knots, speed, earliest) {
   if (before.length && after.length && before.at(-1)[1] !== after[0][1]) before.push(after[0]);
   else if (!before.length || before.at(-1)[0] < earliest) before.push([earliest, (before.at(-1) ?? after[0])[1]]);
   return [...before, [before.at(-1)[0] + RAMP, speed]];
+}
+
+// Radians in a second of turns in a minute, with the bits of config/to_core.py.
+function radians(rpm) {
+  return (rpm * 2 * Math.PI) / 60;
 }
 
 function base64(array) {

@@ -116,6 +116,11 @@ def test_other_machines_steps_and_a_reset(drum):
     assert drum.read("studio.recording.end") - stands == pytest.approx(step)
     drum.page.locator(".reset").click()
     drum.wait("studio.recording.end === 0")
+    # A step stands still; a reset keeps the speed that was chosen.
+    assert not drum.read("studio.playing")
+    drum.slide("rotation.rpm", 30)
+    drum.page.locator(".reset").click()
+    drum.wait("studio.recording.end === 0 && Math.abs(studio.spin * 30 / Math.PI - 30) < 1e-9")
     assert not drum.page.locator(".toml").is_visible()
 
 
