@@ -21,7 +21,7 @@ unexport CONDA_PREFIX
 NOTEBOOKS := target/notebooks/.installed
 
 .DEFAULT_GOAL := help
-.PHONY: help run study test check-long develop lint bench docs wheel clean
+.PHONY: help run study test check-long develop lint bench docs wasm wheel clean
 
 help: ## list the commands
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-11s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -87,6 +87,12 @@ bench: ## measure the speed of a step
 docs: develop $(TOOLS) ## build the documentation site, out/docs/index.html
 	RUSTDOCFLAGS="-D warnings" cargo doc --no-deps --quiet
 	$(BIN)/python -m sphinx --fail-on-warning --keep-going -b html docs $(OUT)/docs
+
+# Within wasm/, whose own settings hold there. It takes the target: rustup target add wasm32-unknown-unknown.
+wasm: ## build the core for WebAssembly; the first page of the site then has a drum that runs in it
+	cd wasm && cargo build --profile web --locked --lib --target wasm32-unknown-unknown
+	cd wasm && cargo run --locked --quiet --package bindings -- \
+	    ../target/wasm/wasm32-unknown-unknown/web/drumrs_wasm.wasm ../target/wasm/page
 
 wheel: ## build the wheel for this machine into dist/, check it, and try it where there is no Rust
 	$(PYTHON) packaging/wheel.py
