@@ -189,8 +189,8 @@ PUBLISHED_DRUMS = (
         "mean",
         "angular velocity of the bed below the flowing layer, over the drum's",
     ),
-    made("toe_angle", "rad", "mean", "angle of the lower end of the charge at a mill's shell"),
-    made("shoulder_angle", "rad", "mean", "angle of the upper end of the charge at a mill's shell"),
+    made("toe_angle", "rad", "mean", "angle of the lower end of the charge at the drum's shell"),
+    made("shoulder_angle", "rad", "mean", "angle of the upper end of the charge at the drum's shell"),
 )
 
 # What `drumrs.measures` returns by name, beyond that.

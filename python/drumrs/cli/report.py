@@ -16,7 +16,7 @@ def report(run: Path, /, *, page: str = "research", out: Annotated[Path | None, 
 
     - `washer`: falls, knocking and rubbing, slip, unbalance, phase by phase
     - `dryer`: openness, curtain, falls
-    - `mill`: power beside Morrell's C-model, toe and shoulder, collisions, wear of the liner
+    - `mill`: power beside two models of mills, toe and shoulder, collisions, wear of the liner
     - `coater`: visits to the spray, circulation, mixing, the flowing layer
     - `research`: all that is measured
 

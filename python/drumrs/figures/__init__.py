@@ -1,7 +1,7 @@
 """Pictures: frames and tables in, matplotlib figures out; one function a figure, none sees a simulation.
 
 Those of the load and its history: `snapshot`, `snapshots`, `time_series`, `curves`. Those of what `drumrs.measures`
-returns: `flow`, `wall_profile`, `collision_spectrum`, `mixing_curve`, `landing_rose`, `unbalance_histogram`,
+returns: `flow`, `stress`, `wall_profile`, `collision_spectrum`, `mixing_curve`, `landing_rose`, `unbalance_histogram`,
 `regime_map`. Those of decisions: `differences`, `effects`, `indices`.
 
 A figure of one's own has their style where it is made with `new_figure` within `drumrs_style`, and written by `write`.
@@ -10,7 +10,7 @@ A figure of one's own has their style where it is made with `new_figure` within 
 import drumrs.figures.backend  # noqa: F401 - imports matplotlib, so it comes first
 from drumrs.figures.curves import Labels, curves
 from drumrs.figures.film import Film
-from drumrs.figures.flow import flow
+from drumrs.figures.flow import flow, stress
 from drumrs.figures.history import time_series
 from drumrs.figures.landing import landing_rose
 from drumrs.figures.mixing import mixing_curve
@@ -43,6 +43,7 @@ __all__ = [
     "render",
     "snapshot",
     "snapshots",
+    "stress",
     "time_series",
     "unbalance_histogram",
     "wall_profile",

@@ -17,6 +17,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+# Energies below this share of the greatest are not shown.
+_REST = 1e-9
 # Beyond so many lines across a panel there is nothing else to be seen.
 _MOST_LINES = 60
 
@@ -107,9 +109,14 @@ def draw_power(axes: "Axes", columns: dict[str, Array]) -> None:
 def _energies(axes: "Axes", columns: dict[str, Array]) -> None:
     axes.set_title(labels.ENERGY_STORED)
     axes.set_yscale("log")
+    most = 0.0
     for label, values in energies_to_show(columns).items():
         time, smooth = _thinned(columns["time"], values)
         axes.plot(time, np.where(smooth > 0.0, smooth, np.nan), label=label)
+        most = max(most, float(np.max(smooth, initial=0.0)))
+    # A load at rest trembles for ever less; it leaves the picture.
+    lowest, highest = axes.get_ylim()
+    axes.set_ylim(max(lowest, _REST * most) if most else lowest, highest)
 
 
 def _ledger(axes: "Axes", columns: dict[str, Array]) -> None:

@@ -8,7 +8,10 @@ import numpy as np
 from matplotlib.collections import LineCollection
 from matplotlib.colors import Normalize
 
+from drumrs.errors import ConfigError
+from drumrs.figures.lifters import draw_lifter, draw_unrolled
 from drumrs.figures.shared import Array, drumrs_style, line_colors, new_figure
+from drumrs.measures import folded_lifter
 
 if TYPE_CHECKING:
     import polars as pl
@@ -20,7 +23,7 @@ _TYPICAL = 0.98
 _RIM = "rim"
 
 
-def wall_profile(profile: "pl.DataFrame", column: str, label: str) -> "Figure":
+def wall_profile(profile: "pl.DataFrame", column: str, label: str, *, clockwise: bool = False) -> "Figure":
     """Draw a column of the wall profile: on the drum's outline in color, and along its parts.
 
     Parameters
@@ -31,13 +34,17 @@ def wall_profile(profile: "pl.DataFrame", column: str, label: str) -> "Figure":
         What is drawn.
     label
         Its name, with the unit.
+    clockwise
+        Whether the drum turned clockwise, which tells the leading faces of lifters from the trailing ones.
 
     Returns
     -------
     Figure
-        On the left the outline in the drum's own frame, at its angle 0. On the right the column along the outline of
-        each kind of part, such as the baffles: the mean over all of a kind, within a band from the least to the
-        greatest. The rim is drawn there where it is the only part.
+        On the left the outline in the drum's own frame, at its angle 0. On the right, in a drum whose lifters are
+        alike, the column unrolled over one of them, face by face, and over the shell up to the next one: the mean over
+        all lifters, within a band from the least to the greatest; one lifter is drawn large in the middle of the
+        outline. In other drums it is drawn along the outline of each kind of part; the rim is drawn there where it is
+        the only part.
 
     Raises
     ------
@@ -58,19 +65,33 @@ def wall_profile(profile: "pl.DataFrame", column: str, label: str) -> "Figure":
     """
     if profile.is_empty():
         raise ValueError("profile is empty, but must hold at least one bin")
+    try:
+        folded = folded_lifter(profile, column, clockwise=clockwise)
+    except ConfigError:
+        folded = None
     with drumrs_style():
         figure = new_figure(9.0, 3.9)
-        outline, along = figure.subplots(1, 2, width_ratios=(1.0, 1.1))
+        grid = figure.add_gridspec(1, 2, width_ratios=(1.0, 1.1))
+        left, right = (figure.add_subfigure(grid[0, k]) for k in (0, 1))
         values = profile[column].to_numpy()
         norm = Normalize(0.0, float(np.quantile(values, _TYPICAL)) or float(values.max()) or 1.0)
-        lines = LineCollection(list(_bins(profile)), array=values, cmap="viridis", norm=norm, linewidths=5.0)
+        outline = left.subplots()
+        width = 5.0 if folded is None else 2.5
+        lines = LineCollection(
+            list(_bins(profile)), array=values, cmap="viridis", norm=norm, linewidths=width
+        )
         lines.set_capstyle("butt")
         outline.add_collection(lines)
         outline.set(aspect="equal", xlabel="x in the drum’s frame [m]", ylabel="y in the drum’s frame [m]")
         outline.autoscale_view()
-        figure.colorbar(lines, ax=outline, location="left", shrink=0.8, pad=0.03, extend="max")
-        _draw_parts(along, profile, column)
-        along.set(ylabel=label, ylim=(0.0, None))
+        if folded is not None:
+            draw_lifter(outline, folded, norm)
+            draw_unrolled(right, folded, label)
+        else:
+            along = right.subplots()
+            _draw_parts(along, profile, column)
+            along.set(ylabel=label, ylim=(0.0, None))
+        left.colorbar(lines, ax=outline, location="left", shrink=0.8, pad=0.03, extend="max")
     return figure
 
 

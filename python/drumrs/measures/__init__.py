@@ -5,7 +5,8 @@
 - mixing and segregation: `colors`, `cells`, `segregation`, `rate`, `neighbors`
 - fields, and the flowing layer: `coarse_graining`, `cell_sums`, `profile`
 - unbalance: `balance`
-- collisions and walls: `spectra`, `collisions`, `walls`; torque and forces over frequency: `signals`
+- collisions and walls: `spectra`, `collisions`, `walls`, `lifters`; torque and forces over frequency: `signals`
+- models of mills to compare with: `morrell`, `hogg_fuerstenau`
 - washing and drying: `laundry`
 - the regime: `regimes`
 - flight and fall: `airborne`, `orbit`; visits to a zone: `zones`
@@ -37,6 +38,7 @@ from drumrs.measures.laundry import (
     shape_factor,
     washing,
 )
+from drumrs.measures.lifters import FoldedLifter, exposed, folded_lifter
 from drumrs.measures.masses import disc_masses
 from drumrs.measures.motion import along_the_rim, carried_round, circulation, sticking, wall_slip
 from drumrs.measures.neighbors import mixed_in_a_turn, mixing
@@ -64,6 +66,7 @@ __all__ = [
     "COLORINGS",
     "Exceedance",
     "Fields",
+    "FoldedLifter",
     "FreeSurface",
     "MixingRate",
     "Occupancy",
@@ -90,11 +93,13 @@ __all__ = [
     "enduring",
     "entropy",
     "exceedance",
+    "exposed",
     "fields",
     "finnie_f",
     "flight",
     "flights",
     "flowing_layer",
+    "folded_lifter",
     "free_surface",
     "frequency_spectrum",
     "impact_rates",

@@ -1,9 +1,12 @@
 """Flight, fall and landing of the discs, from frames that count contacts.
 
 A disc flies while it is without contact for longer than ½ √(2 d/g), half the time of a fall by its diameter d: in a
-bed that is stirred, most discs touch nothing for shorter times. Places are those of frames, so a flight is known to the
-way between two of them: ten frames in a flight do. Angles are those of a drum that turns counter-clockwise, or of the
-mirror image.
+bed that is stirred, most discs touch nothing for shorter times. Frames do not show a knock between them, but what it
+does to the velocity: a flight goes on from a frame to the next where the velocity has changed as gravity alone changes
+it. Without that a disc that is knocked about, and in two frames happens to touch nothing, would count as flying.
+Places are those of frames, so a flight is known to the way between two of them: ten frames in a flight do, and one that
+is seen in a single frame is not counted. Angles are those of a drum that turns counter-clockwise, or of the mirror
+image.
 """
 
 import math
@@ -24,6 +27,10 @@ if TYPE_CHECKING:
 Indices = NDArray[np.signedinteger[Any]]
 
 _GRAVITY = 9.81
+# Change of the velocity between frames, but for gravity's, over gravity's, up to which nothing has knocked the disc.
+_UNDISTURBED = 0.1
+# Frames in which a flight is seen at least: of one alone it is not known how long it lasts.
+_FEWEST = 2
 # A disc that lands no further from the drum than this, over its radius, lands on it.
 _NEAR = 0.1
 # So much of the flying mass stays below the head, and so much of the landing energy lies beyond the impact toe.
@@ -96,12 +103,23 @@ def _spells(frames: "Frames", gravity: float) -> tuple[Indices, Indices, Indices
     """Return disc, first frame and frame after the last of every flight, by disc and time, cut ones included."""
     lonely = np.zeros((frames.count, len(frames) + 2), dtype=bool)
     lonely[:, 1:-1] = (frames.contacts == 0).T
+    goes_on = np.zeros((frames.count, len(frames) + 1), dtype=bool)
+    goes_on[:, 1:-1] = _undisturbed(frames, gravity).T & lonely[:, 1:-2] & lonely[:, 2:-1]
     # By disc, then by time: the k-th beginning belongs to the k-th end.
-    disc, first = np.nonzero(lonely[:, 1:] & ~lonely[:, :-1])
-    _, end = np.nonzero(~lonely[:, 1:] & lonely[:, :-1])
+    disc, first = np.nonzero(lonely[:, 1:] & ~goes_on)
+    _, end = np.nonzero(lonely[:, :-1] & ~goes_on)
     interval = float(frames.times[-1] - frames.times[0]) / (len(frames) - 1)
-    flies = (end - first) * interval > 0.5 * np.sqrt(4.0 * frames.radii[disc] / gravity)
+    seen = end - first
+    flies = (seen >= _FEWEST) & (seen * interval > 0.5 * np.sqrt(4.0 * frames.radii[disc] / gravity))
     return disc[flies], first[flies], end[flies]
+
+
+def _undisturbed(frames: "Frames", gravity: float) -> NDArray[np.bool_]:
+    """Tell which discs nothing but gravity has moved from each frame to the next, shape (frames - 1, n)."""
+    gained = gravity * np.diff(frames.times)[:, np.newaxis]
+    across, upwards = np.moveaxis(np.diff(frames.velocities.astype(np.float64), axis=0), -1, 0)
+    undisturbed: NDArray[np.bool_] = np.hypot(across, upwards + gained) <= _UNDISTURBED * gained
+    return undisturbed
 
 
 def _at_the_drum(frames: "Frames", index: Indices, disc: Indices) -> NDArray[np.bool_]:

@@ -21,7 +21,11 @@ _STRESS = ("contact_stress_xx", "contact_stress_xy", "contact_stress_yx", "conta
 
 
 def recorded_fields(
-    table: "pl.DataFrame | None", width: float | None = None, *, clockwise: bool = False
+    table: "pl.DataFrame | None",
+    width: float | None = None,
+    *,
+    clockwise: bool = False,
+    relative_to: float = 0.0,
 ) -> Fields:
     """Return the coarse-grained fields of a run that has recorded "fields", the stress of contacts included.
 
@@ -38,6 +42,9 @@ def recorded_fields(
         they are.
     clockwise
         Whether the drum turned clockwise: fields are then those of the mirror image, as `fields` has them.
+    relative_to
+        Angular velocity [rad/s], without its sign, of a frame that turns with the drum: velocities are relative to it.
+        A load that turns as one body with it has none, whatever the cells.
 
     Raises
     ------
@@ -107,6 +114,8 @@ def recorded_fields(
     gradient = np.nan_to_num(sheared) @ np.linalg.pinv(known, rcond=1e-6, hermitian=True)
     within = known + side**2 / 12.0 * np.eye(2)
     of_flow = _product(velocity, velocity) + gradient @ within @ np.swapaxes(gradient, -1, -2)
+    # In the turning frame, which sees each cell's mass where it has its center.
+    velocity = velocity - relative_to * np.stack([-center[..., 1], center[..., 0]], axis=-1)
     kinetic = flux - np.nan_to_num(density[..., np.newaxis, np.newaxis] * of_flow)
     return Fields(
         x=line,

@@ -62,6 +62,26 @@ class Fields:
         return temperature
 
     @property
+    def stress(self) -> Array:
+        """The stress of contacts and of fluctuations [Pa], shape (k, k, 2, 2).
+
+        Raises
+        ------
+        ConfigError
+            Where the fields are made of frames, which have no forces.
+        """
+        if self.contact_stress is None:
+            problem = "lacks 'fields', needed for the stress of contacts"
+            raise ConfigError("run.record", problem=problem, hint="add 'fields' to it and run again")
+        return self.contact_stress + self.kinetic_stress
+
+    @property
+    def pressure(self) -> Array:
+        """Half of the trace of `stress` [Pa], shape (k, k)."""
+        pressure: Array = 0.5 * np.trace(self.stress, axis1=-2, axis2=-1)
+        return pressure
+
+    @property
     def bed(self) -> NDArray[np.bool_]:
         """Where the bed is: nodes with half of the solid fraction of dense ones, and more; shape (k, k)."""
         reached = self.solid_fraction[self.solid_fraction > 0.0]

@@ -169,7 +169,7 @@ def flowing_layer(frames: "Frames", window: tuple[float, float]) -> dict[str, Me
     -------
     dict
         By name of the registry, with standard errors:
-        ``surface_slope`` [rad], by the center of mass; ``bed_depth`` [m], from the surface to the rim;
+        ``center_slope`` [rad], by the center of mass; ``bed_depth`` [m], from the surface to the rim;
         ``surface_velocity_ratio``, velocity down the slope at the surface over Ω R; ``layer_thickness`` [m], down to
         where the velocity vanishes in the laboratory; ``layer_to_solid_rotation`` [m], down to where the straight part
         of its profile, drawn on, meets solid rotation; ``core_velocity_ratio``, angular velocity below it over Ω.
@@ -205,7 +205,7 @@ def layer_in(seen: FrameWindow, diameter: float, drum_radius: float) -> dict[str
             "layer_thickness": found.layer,
             "layer_to_solid_rotation": found.layer_to_solid_rotation,
             "core_velocity_ratio": found.core_velocity_ratio,
-            "surface_slope": found.slope,
+            "center_slope": found.slope,
         }
 
     return with_errors(of, seen.times)

@@ -18,7 +18,7 @@ def required(table: "pl.DataFrame | None", record: str, measure: str) -> "pl.Dat
     record
         Its name in ``run.record``.
     measure
-        What is made of it, in words.
+        What it is needed for, in words.
 
     Raises
     ------
@@ -26,7 +26,7 @@ def required(table: "pl.DataFrame | None", record: str, measure: str) -> "pl.Dat
         Where it was not recorded.
     """
     if table is None:
-        problem = f"lacks {record!r}, which {measure} is made of"
+        problem = f"lacks {record!r}, needed for {measure}"
         raise ConfigError("run.record", problem=problem, hint=f"add {record!r} to it and run again")
     return table
 

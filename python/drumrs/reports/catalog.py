@@ -43,7 +43,7 @@ class Page:
 
 _MOTION = Section("motion", "See it move", charge.motion)
 _POWER = Section("power", "Power", power.power)
-_C_MODEL = Section("c-model", "Beside Morrell’s C-model", power.beside_the_c_model)
+_MODELS = Section("models", "Beside models of mills", power.beside_models)
 _PHASES = Section("phases", "Phase by phase", power.by_phase)
 _LEDGER = Section("ledger", "Energy ledger", power.ledger)
 _SHAPE = Section("shape", "Toe, shoulder and shape", charge.shape)
@@ -89,7 +89,7 @@ PAGES = {
         "What the mill does with its power",
         "How much power does the charge draw, where does it lie and land, how hard does it hit, and where does the "
         "liner wear?",
-        (_POWER, _C_MODEL, _SHAPE, _FLOW, _FLIGHT, _COLLISIONS, _WEAR, _SPLIT, _MOTION, _LEDGER),
+        (_POWER, _MODELS, _SHAPE, _FLOW, _FLIGHT, _COLLISIONS, _WEAR, _SPLIT, _MOTION, _LEDGER),
         (
             "There is no slurry, no breakage and no discharge; the charge stays what it was at the start.",
             "Cylinders hit and pack otherwise than balls: impacts of a plane are between rods a meter long, so that "

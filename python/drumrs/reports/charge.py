@@ -19,6 +19,8 @@ if TYPE_CHECKING:
     from drumrs.reports.content import Block
     from drumrs.reports.material import Material
 
+# Frames no further apart than this share of the shortest flight see nearly all.
+_FINE = 0.4
 # Half the width of the zone of a spray, over the drum's radius.
 _SPRAY = 0.25
 _MIRROR = "of a drum that turns counter-clockwise; one that turns the other way is shown in the mirror."
@@ -51,8 +53,21 @@ def flow(of: "Material") -> "Iterator[Block]":
 
     yield Picture(
         "Where the load is, and how it moves",
-        f"Mean solid fraction and velocity, coarse-grained over {found.width:.3g} m, {_MIRROR}",
+        f"Mean solid fraction and velocity, coarse-grained over {found.width:.3g} m, {_MIRROR}"
+        + (" Summed up from the start of the window to the end of the run." if of.sums_fields else ""),
         draw,
+    )
+    if not of.sums_fields:
+        return
+
+    def draw_stress() -> "Figure":
+        return figures.stress(found, of.frames.drum_radius)
+
+    yield Picture(
+        "What the load bears",
+        "Mean pressure, of contacts and of what the load trembles. The arms of a cross are its principal stresses over "
+        "the pressure: the longer one is the way forces go.",
+        draw_stress,
     )
 
 
@@ -69,7 +84,9 @@ def regime(of: "Material") -> "Iterator[Block]":
     found = measures.regime(of.frames, of.span, gravity=of.gravity, surface=of.surface)
     yield f"The load is {found.name}, by the first of the limits in docs/measures/regimes.md that holds."
     numbers = [
-        (name.replace("_", " "), value(one)) for name, one in asdict(found).items() if isinstance(one, float)
+        (name.replace("_", " ").replace("froude", "Froude"), value(one))
+        for name, one in asdict(found).items()
+        if isinstance(one, float)
     ]
     yield Table(("what decides", "value"), numbers)
 
@@ -78,7 +95,7 @@ def flight(of: "Material") -> "Iterator[Block]":
     """Write how much of the load flies and falls, and where it lands."""
     from drumrs import figures
 
-    yield measured(measures.flight(of.frames, of.span, of.masses, of.gravity))
+    yield measured(measures.flight(of.frames, of.span, of.masses, of.gravity), _frames_for_flights(of))
     falls = of.flights.filter("is_fall")
     if falls.is_empty():
         yield "No disc falls."
@@ -94,14 +111,27 @@ def flight(of: "Material") -> "Iterator[Block]":
     )
 
 
+def _frames_for_flights(of: "Material") -> str:
+    """Say how fine frames should be, where flights are missed between them."""
+    least = math.sqrt(float(of.frames.radii.mean()) / of.gravity) if of.gravity else math.inf
+    apart = of.config.run.frame_every
+    if apart <= _FINE * least:
+        return ""
+    return (
+        f"Flights are seen in frames, {apart:.3g} s apart: shorter ones than twice that are missed. "
+        f"For all that last {value(least, digits=2)} s, set run.frame_every to {value(_FINE * least, digits=1)} s or "
+        "less."
+    )
+
+
 def circulation(of: "Material") -> "Iterator[Block]":
     """Write how often discs go round."""
     center = measures.center_of_circulation(of.fields)
     rounds = measures.circulation(of.frames, of.span, center)
     yield measured(
         {"circulation": rounds},
-        f"The center of circulation lies at x = {center[0]:.3g} m, y = {center[1]:.3g} m. Every round brings a disc to "
-        "the surface once.",
+        f"The center of circulation lies at x = {value(center[0], digits=3)} m, y = {value(center[1], digits=3)} m. "
+        "Every round brings a disc to the surface once.",
     )
 
 
@@ -110,12 +140,7 @@ def visits(of: "Material") -> "Iterator[Block]":
     table = of.result.zone_visits
     if table is not None:
         for zone in table["zone"].unique(maintain_order=True):
-            found, inside = measures.recorded_visits(table, zone), table.filter(zone=zone)["time_inside"]
-            counted = (
-                "spread of the time in the zone in this run, counted [%]",
-                value(100.0 * _spread(inside)),
-            )
-            yield _visits(found, f"The zone is {zone!r} of run.zone.", counted)
+            yield _recorded_visits(table.filter(zone=zone), zone, of.duration - of.window[0])
         return
     seen = counter_clockwise(of.frames)
     surface, diameter = of.surface, 2.0 * float(of.frames.radii.mean())
@@ -132,13 +157,35 @@ def visits(of: "Material") -> "Iterator[Block]":
     yield _visits(found, where)
 
 
-def _spread(times: "pl.Series") -> float:
-    """Return the standard deviation over the mean."""
-    values = times.to_numpy()
-    return float(values.std(ddof=1) / values.mean()) if len(values) > 1 else math.nan
+def _recorded_visits(table: "pl.DataFrame", zone: str, time: float) -> Table:
+    """Return a table of the visits to a zone that were counted in some time [s]."""
+    found, entries = measures.recorded_visits(table, zone), float(table["entries"].to_numpy().mean())
+    inside = table["time_inside"].to_numpy()
+    spread = float(inside.std(ddof=1) / inside.mean()) if len(inside) > 1 else math.nan
+    return Table(
+        ("", "value"),
+        [
+            ("visits of a disc in a minute", value(60.0 * entries / time)),
+            ("time of a visit [s]", value(float(inside.mean()) / entries)),
+            (f"discs that did not come in {time:.3g} s [%]", value(100.0 * float((inside == 0.0).mean()))),
+            (f"spread of the time in the zone after {time:.3g} s, counted [%]", value(100.0 * spread)),
+            *(
+                (
+                    f"after {name}, by one over the root of the time [%]",
+                    value(100.0 * spread * math.sqrt(time / long)),
+                )
+                for name, long in (("a minute", 60.0), ("an hour", 3600.0))
+            ),
+            (f"after {time:.3g} s, were all visits chance alike [%]", value(100.0 * found.spread(time))),
+        ],
+        f"The zone is {zone!r} of run.zone; counted over the last {time:.3g} s. Spread: standard "
+        "deviation over discs, over the mean, as the motion alone makes it. The last row is reckoned from the "
+        f"{found.count} visits that another one followed: where it is below what was counted, discs that seldom come "
+        "stay so, or the time is short for their cycles.",
+    )
 
 
-def _visits(found: "measures.Visits", where: str, *more: tuple[str, str]) -> Table:
+def _visits(found: "measures.Visits", where: str) -> Table:
     """Return a table of visits to a zone."""
     return Table(
         ("", "value"),
@@ -150,7 +197,6 @@ def _visits(found: "measures.Visits", where: str, *more: tuple[str, str]) -> Tab
                 (f"spread of the time in the zone after {name} [%]", value(100.0 * found.spread(time)))
                 for name, time in (("a minute", 60.0), ("an hour", 3600.0))
             ),
-            *more,
         ],
         f"{where} From {found.count} visits that another one followed. Spread: standard deviation over "
         "discs, over the mean, as the motion alone makes it; it falls as one over the root of the time.",

@@ -4,6 +4,7 @@ import math
 from typing import TYPE_CHECKING
 
 from drumrs import measures
+from drumrs.analysis import rate_with_error
 from drumrs.measures.recorded import required
 from drumrs.reports.content import Picture, Table, value
 
@@ -87,7 +88,8 @@ def wear(of: "Material") -> "Iterator[Block]":
     from drumrs import figures
 
     profile = required(of.result.wall_profile, "wall_profile", "wear along the outline")
-    worn = {law: measures.wear(profile, law, turns=max(of.turns, 1e-9)) for law in _WEAR}
+    shown = measures.exposed(profile)
+    worn = {law: measures.wear(shown, law, turns=max(of.turns, 1e-9)) for law in _WEAR}
     length = (pl.col("arc_end") - pl.col("arc_start")).sum()
     tables = {
         law: rows.group_by(_kind("part"), maintain_order=True).agg(
@@ -106,23 +108,30 @@ def wear(of: "Material") -> "Iterator[Block]":
             ]
         rows.append(cells)
     yield Table(
-        ("part", "Archard: share [%]", "greatest", "Finnie: share [%]", "greatest"),
+        ("part", "sliding: share [%]", "greatest", "impact: share [%]", "greatest"),
         rows,
-        "Greatest: the depth in the bin that wears most, over the mean along all of the outline. An amount needs a "
-        "coefficient of wear that somebody has measured; the shape does not.",
+        "Sliding wear is Archard’s, impact wear Finnie’s. Greatest: the depth in the bin that wears most, over the "
+        "mean along all of the outline that the load can touch. An amount needs a coefficient of wear that somebody "
+        "has measured; the shape does not.",
     )
+    speed = of.config.derived.angular_velocity
+    way = "counter-clockwise" if speed is None or speed > 0.0 else "clockwise"
     for law, label in _WEAR.items():
         shown = worn[law]
         if not float(shown["wear_volume"].sum()):
             continue
 
         def draw(shown: "pl.DataFrame" = shown, label: str = label) -> "Figure":
-            return figures.wall_profile(shown, "relative_wear", f"{label} over its mean")
+            return figures.wall_profile(
+                shown, "relative_wear", f"{label} over its mean", clockwise=way == "clockwise"
+            )
 
         yield Picture(
             label[0].upper() + label[1:],
             "Depth of wear over its mean along the whole outline. Left: the drum in its own frame, the color of the "
-            "2 % that wear most being that of the rest’s greatest. Right: along the outline of the parts.",
+            "2 % that wear most being that of the rest’s greatest; lifters that are alike are drawn large as their "
+            "mean, with an arrow for the way they go. Right: along the outline of the parts, unrolled over one lifter "
+            f"where they are alike, of a drum that turns {way}; line: mean, band: least and greatest.",
             draw,
         )
 
@@ -182,11 +191,21 @@ def _with_spread(values: "NDArray[np.number]") -> str:
 
 def handling(of: "Material") -> "Iterator[Block]":
     """Write how hard the load is knocked and rubbed, by itself and by the drum."""
-    summary = of.summary
-    rubbing = summary.dissipated_sliding_power + summary.dissipated_tangential_power
+    knocking, *rubbing = (
+        rate_with_error(of.result.series, f"dissipated_{kind}", of.window)
+        for kind in ("normal", "sliding", "tangential")
+    )
+    rubs = sum(one.value for one in rubbing) / of.mass
     yield Table(
         ("in the window", "knocking [W/kg]", "rubbing [W/kg]"),
-        [("all", value(summary.dissipated_normal_power / of.mass), value(rubbing / of.mass))],
+        [
+            (
+                "all",
+                value(knocking.value / of.mass, knocking.error and knocking.error / of.mass),
+                # Errors of rates that go together add up at most.
+                value(rubs, sum(one.error or 0.0 for one in rubbing) / of.mass),
+            )
+        ],
         "Knocking is what normal damping takes, rubbing what sliding and tangential damping take.",
     )
     found = measures.knocking_and_rubbing(of.result.ledger_split, of.mass, of.duration)
@@ -196,6 +215,6 @@ def handling(of: "Material") -> "Iterator[Block]":
         [(names[name], value(knocks), value(rubs)) for name, (knocks, rubs) in found.items()],
     )
     yield (
-        "They are mechanical action: they stand for what fabric suffers only once they are fitted to loss of threads "
-        "or fraying, and soil removal is another thing."
+        "They are mechanical action. For what fabric or tablets suffer they stand only once they are fitted to loss of "
+        "threads, to fraying or to attrition; soil removal is another thing."
     )

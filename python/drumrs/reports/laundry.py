@@ -1,12 +1,13 @@
 """Sections on how a load slips, opens to the air and mixes, and how far off balance it is."""
 
 import math
+from dataclasses import astuple
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from drumrs import measures
-from drumrs.analysis import mean_with_error
+from drumrs.analysis import Mean, mean_with_error
 from drumrs.errors import ConfigError
 from drumrs.measures.airborne import in_flight
 from drumrs.measures.frame_window import within
@@ -68,9 +69,17 @@ def balance(of: "Material") -> "Iterator[Block]":
     speed = of.config.derived.angular_velocity
     force = value(found["turning_unbalance"].value * speed**2, digits=3) if speed else ""
     note = f" Bearings feel {force} N/m of it that turns with the drum." if force else ""
+    radius, depth = of.config.drum.area_diameter / 2.0, of.config.drum.depth
+    if depth is not None:
+        rim = Mean(*(part and 1e3 * part * depth / radius for part in astuple(found["unbalance"])))
+        note += f" With a depth of {depth:.3g} m it is {value(rim.value, rim.error)} g at the rim."
+    if of.config.rotation.phase:
+        note += (
+            " A load that tumbles is off balance as it lies; before a spin, see the unbalance phase by phase."
+        )
     yield measured(
         found,
-        f"Over the drum’s radius, {of.config.drum.area_diameter / 2.0:.3g} m, and times its depth it is the mass at "
+        f"Over the drum’s radius, {radius:.3g} m, and times its depth it is the mass at "
         f"the rim, as the trade has it.{note} To judge a distribution, run many seeds: it is a matter of chance.",
     )
     lengths = np.hypot(*measures.unbalance_vectors(of.frames, of.span, of.masses).T)
@@ -107,7 +116,8 @@ def mixing(of: "Material") -> "Iterator[Block]":
         ("colored by", "rate [per turn]", "end of the fit", "index at the end"),
         rows,
         "Lacey’s index, 0 apart, 1 as mixed as chance makes it: M∞ − (M∞ − M₀) exp(−k (n − τ)) fitted to the middle of "
-        "three sizes of cells. The first frame gives the colors: right half, upper half, inner half"
+        "three sizes of cells. An end above 1 lies beyond this run: it is too short to tell. The first frame gives the "
+        "colors: right half, upper half, inner half"
         + (f", and the species {species[0]}." if len(species) > 1 else "."),
     )
 

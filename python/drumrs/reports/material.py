@@ -134,11 +134,16 @@ class Material:
         """The free surface of the load."""
         return measures.free_surface(self.frames, self.span)
 
+    @property
+    def sums_fields(self) -> bool:
+        """Whether fields are sums of the run: of a drum that turns at one speed, where they were recorded."""
+        return self.result.fields is not None and bool(self.config.derived.angular_velocity)
+
     @cached_property
     def fields(self) -> "Fields":
         """Fields of density and velocity, from sums where these are recorded, else from frames that are plenty."""
-        speed = self.config.derived.angular_velocity
-        if self.result.fields is not None and speed:
+        if self.sums_fields:
+            speed = self.config.derived.angular_velocity or 0.0
             return measures.recorded_fields(self.result.fields, clockwise=speed < 0.0)
         inside = within(self.frames, self.span)
         few = inside.picked(slice(None, None, max(1, len(inside) // _PLENTY)))
@@ -154,6 +159,6 @@ class Material:
         """
         speed = self.config.derived.angular_velocity
         if not speed:
-            problem = "lets the drum rest or change its speed, but the C-model is of one speed"
+            problem = "lets the drum rest or change its speed, but models of mills are of one speed"
             raise ConfigError("rotation", problem=problem)
         return abs(speed)

@@ -5,11 +5,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from drumrs.analysis import Mean, phases
+from drumrs.analysis import Mean, mean_with_error, phases, rate_with_error
 from drumrs.config.load import SOLID_FRACTION
 from drumrs.energies import powers_to_show
 from drumrs.errors import ConfigError
-from drumrs.measures import flight, morrell, unbalance, wall_slip
+from drumrs.measures import flight, hogg_fuerstenau, morrell, unbalance, wall_slip
 from drumrs.measures.frame_window import within
 from drumrs.registry import quantity
 from drumrs.reports.content import Picture, Table, measured, value
@@ -25,62 +25,104 @@ if TYPE_CHECKING:
 
 # Phases of a program that a page lists.
 _MOST_PHASES = 24
+# A power below this share of the greatest of all phases is none.
+_NOTHING = 1e-6
+# Samples of a window below which its mean has no error.
+_FEWEST = 2
 # The records that split what contacts took, by what of them adds up to it.
 _SPLITS = {"contacts": "dissipated_", "ledger_split": "dissipated_", "discs": "received_"}
 
 
 def power(of: "Material") -> "Iterator[Block]":
     """Write what the drum gives, and what takes it."""
-    summary = of.summary
+    summary, series, window = of.summary, of.result.series, of.window
     error = summary.drum_specific_power_error
     found = {
         "drum_specific_power": Mean(summary.drum_specific_power, error),
         "drum_power": Mean(summary.drum_power, error and error * of.mass),
-        "drum_torque": Mean(summary.drum_torque, None),
-        "dissipated_normal_power": Mean(summary.dissipated_normal_power, None),
-        "dissipated_sliding_power": Mean(summary.dissipated_sliding_power, None),
+        "drum_torque": Mean(summary.drum_torque, _torque_error(of)),
     }
-    for name in ("dissipated_tangential_power", "dissipated_rolling_power"):
-        if getattr(summary, name):
-            found[name] = Mean(getattr(summary, name), None)
-    yield measured(
-        found, "Per meter of depth: times the depth of the drum, each is the machine’s. W/kg needs no depth."
-    )
+    for name in ("normal", "sliding", "tangential", "rolling"):
+        rate = rate_with_error(series, f"dissipated_{name}", window)
+        if rate.value or name in ("normal", "sliding"):
+            found[f"dissipated_{name}_power"] = rate
+    yield measured(found, _of_the_machine(of))
+    if of.config.derived.angular_velocity is None:
+        yield (
+            "The speed changes within the window: the errors take that for chance. Means phase by phase are sharper, "
+            "and a torque that turns the load clockwise is negative."
+        )
 
 
-def beside_the_c_model(of: "Material") -> "Iterator[Block]":
-    """Write power, toe and shoulder beside those of Morrell's C-model."""
+def _torque_error(of: "Material") -> float | None:
+    """Return the standard error of the mean torque, from the means between the samples of the window."""
+    inside = of.result.series.filter(of.result.series["time"].is_between(*of.window))
+    times, torques = (inside[name].to_numpy() for name in ("time", "drum_torque"))
+    return mean_with_error(torques[1:], float(np.diff(times).mean())).error if len(times) > _FEWEST else None
+
+
+def _of_the_machine(of: "Material") -> str:
+    """Say what numbers per meter of depth are for the machine."""
+    depth, error = of.config.drum.depth, of.summary.drum_specific_power_error
+    if depth is None:
+        return "Per meter of depth: times the depth of the drum, each is the machine’s. W/kg needs no depth."
+    own = value(of.summary.drum_power * depth, error and error * of.mass * depth)
+    return f"Per meter of depth. With a depth of {depth:.3g} m the drum takes {own} W. W/kg needs no depth."
+
+
+def beside_models(of: "Material") -> "Iterator[Block]":
+    """Write power, toe and shoulder beside those of Morrell's C-model and of Hogg and Fuerstenau's flat charge."""
     speed, radius, load = of.require_speed(), of.config.drum.area_diameter / 2.0, of.config.load
     if not of.gravity:
-        raise ConfigError("gravity", 0.0, "more than 0, to compare with the C-model")
+        raise ConfigError("gravity", 0.0, "more than 0, to compare with models of mills")
     filling = load.bulk_fill or of.summary.fill / (load.solid_fraction or SOLID_FRACTION)
     critical = speed * math.sqrt(radius / of.gravity)
     model, ours = morrell.charge(filling, critical), of.charge
+    slope = of.charge["surface_slope"].value
+    flat = hogg_fuerstenau.arm(filling, slope)
     scale = of.mass * of.gravity * radius * speed
     own, error = abs(of.summary.drum_power), of.summary.drum_specific_power_error
+    own_arm = Mean(own / scale, error and error * of.mass / scale)
     rows = [
-        ("power [W/m]", value(own, error and error * of.mass), value(model.arm * scale)),
         (
-            "arm: power over M g R Ω",
-            value(own / scale, error and error * of.mass / scale),
-            value(model.arm),
+            "power [kW/m]",
+            value(1e-3 * own, error and 1e-3 * error * of.mass),
+            *(value(1e-3 * arm * scale) for arm in (model.arm, flat)),
         ),
+        ("arm: power over M g R Ω", _shown(own_arm), value(model.arm), value(flat)),
     ]
     for name, angle in (("toe", model.toe), ("shoulder", model.shoulder)):
-        mean = ours[f"{name}_angle"]
-        shown = value(math.degrees(mean.value), mean.error and math.degrees(mean.error))
-        rows.append((f"{name} [°]", shown, value(math.degrees(angle))))
+        rows.append((f"{name} [°]", _degrees(ours[f"{name}_angle"]), value(math.degrees(angle)), "–"))
+    rows.append(("surface slope, lift angle α [°]", _degrees(ours["surface_slope"]), "–", "this run’s"))
     yield Table(
-        ("", "this run", "C-model"),
+        ("", "this run", "Morrell", "Hogg–Fuerstenau"),
         rows,
         f"Filling J = {100.0 * filling:.3g} %, {100.0 * critical:.3g} % of the critical speed √(g/R). Angles are "
         "counter-clockwise from the horizontal, of a mill that turns counter-clockwise.",
     )
     yield (
         "Morrell’s C-model (Trans. Inst. Min. Metall. C 105 (1996) 43 and 54) was fitted to wet industrial mills, "
-        "which it meets within about 10 %; a dry, two-dimensional charge may well be further off. It is a line to "
-        "compare with, not a law."
+        "which it meets within about 10 %; a dry, two-dimensional charge may well be further off. Hogg and "
+        "Fuerstenau’s formula (Trans. SME-AIME 252 (1972) 418; 0.238 D³·⁵ (L/D) φ ρ (J − 1.065 J²) sin α, in feet, "
+        f"t/m³ and kW) is of a flat charge of which nothing is thrown. {_lift_angle(filling, own_arm.value)} Both are "
+        "lines to compare with, not laws."
     )
+
+
+def _lift_angle(filling: float, arm: float) -> str:
+    try:
+        angle = math.degrees(hogg_fuerstenau.lift_angle(filling, arm))
+    except ConfigError:
+        return "No lift angle gives this run’s power."
+    return f"It gives this run’s power at a lift angle of α = {angle:.1f}°; 35° to 45° are usual."
+
+
+def _shown(mean: Mean) -> str:
+    return value(mean.value, mean.error)
+
+
+def _degrees(mean: Mean) -> str:
+    return value(math.degrees(mean.value), mean.error and math.degrees(mean.error))
 
 
 def by_phase(of: "Material") -> "Iterator[Block]":
@@ -88,8 +130,12 @@ def by_phase(of: "Material") -> "Iterator[Block]":
     table = phases(of.result)
     if table.is_empty():
         return
-    rows = []
+    rows, most = [], float(np.nanmax(np.abs(table["drum_specific_power"].to_numpy().astype(float))))
     for row in table.head(_MOST_PHASES).iter_rows(named=True):
+        power, error = row.get("drum_specific_power"), row.get("drum_specific_power_error")
+        if power is not None and abs(power) < _NOTHING * most:
+            # A load at rest takes nothing, but for what still trembles.
+            power, error = 0.0, None
         span = (row["start"], row["end"])
         rubbing = [row.get(f"dissipated_{kind}_power") for kind in ("sliding", "tangential")]
         knocking = row.get("dissipated_normal_power")
@@ -97,7 +143,7 @@ def by_phase(of: "Material") -> "Iterator[Block]":
             (
                 f"{row['phase']} {row['number']}",
                 f"{span[0]:.3g}–{span[1]:.3g}",
-                value(row.get("drum_specific_power"), row.get("drum_specific_power_error")),
+                value(power, error),
                 value(None if knocking is None else knocking / of.mass),
                 value(None if rubbing[0] is None else sum(one or 0.0 for one in rubbing) / of.mass),
                 *_in_phase(of, span),
@@ -117,7 +163,9 @@ def _in_phase(of: "Material", span: tuple[float, float]) -> tuple[str, ...]:
     """Return share in flight, falls in a turn, slip and unbalance in a phase; dashes where it holds too few frames."""
     try:
         found = flight(of.frames, span, of.masses, of.gravity)
-        found |= {"slip": wall_slip(of.frames, span) if _turns(of.frames, span) else None}
+        turns = _turns(of.frames, span)
+        found |= {"slip": wall_slip(of.frames, span) if turns else None}
+        found |= {} if turns else {"falls_per_turn": None}
         found |= unbalance(of.frames, span, of.masses)
     except ConfigError:
         return ("–",) * 4

@@ -105,7 +105,7 @@ def _checks(results: Results) -> list[Check]:
         Check(
             "slope of the surface",
             NOTHING,
-            times(results.estimate(plain, "surface_slope"), 180.0 / math.pi),
+            times(results.estimate(plain, "center_slope"), 180.0 / math.pi),
             unit="°",
         ),
         Check(

@@ -135,7 +135,7 @@ def flowing_layer() -> Evidence:
     made: dict[str, Any] = {"times": times, "drum_angles": omega * times}
     seen = measures.flowing_layer(made_up.frames(places, 0.5 * disc, **made), (0.0, step))
     rows = [
-        ("surface_slope", "rad", slope, 0.03),
+        ("center_slope", "rad", slope, 0.03),
         ("bed_depth", "m", 1.0 + surface, 0.5 * disc),
         ("surface_velocity_ratio", "1", top / omega, 0.03 * top / omega),
         ("layer_thickness", "m", top / shear, 0.6 * disc),

@@ -86,6 +86,22 @@ def test_looks_are_no_further_apart_than_windows(monkeypatch):
     assert _next_end(simulation, Goal(0.01, 0.2)) is None
 
 
+def test_fields_and_visits_go_on_with_the_window():
+    zone = {"name": "right", "corners": [[0.0, -0.3], [0.3, -0.3], [0.3, 0.3], [0.0, 0.3]]}
+    keys = {"run.duration": 0.3, "run.window": [0.1, 0.3], "run.record": ["fields"], "run.zone": [zone]}
+    simulation = drumrs.Simulation(drumrs.baseline(fill=0.1).softer(100.0).replace(keys))
+    run_until_precise(simulation, Goal(1e-9, 0.8), progress=False)
+    config = simulation.config
+    assert config.run.window == (0.1, 0.8)
+    at_once = drumrs.Simulation(config)
+    at_once.run_to_step(at_once.last_step)
+    tables, same = (each.records.contact_tables() for each in (simulation, at_once))
+    for name in ("fields", "zone_visits"):
+        assert tables[name].equals(same[name])
+    # They began with the window: bundles are in the zone or not, and no longer than it has lasted.
+    assert 0.5 < tables["zone_visits"]["time_inside"].max() <= 0.7 + 2e-3
+
+
 def test_a_load_without_power_ends_at_the_limit():
     config = drumrs.baseline(fill=0.05).replace(
         {"run.duration": 0.2, "rotation.rpm": 0.0, "run.sample_every": 0.04, "run.window": [0.1, 0.2]}

@@ -34,18 +34,19 @@ def test_flow_has_arrows_where_the_load_is():
 
 
 def profile(*values: tuple[str, list[float]]) -> pl.DataFrame:
-    """Return a wall profile with bins of 0.1 m, all on one spot."""
+    """Return a wall profile with bins of 0.1 m on a circle of 1 m; each part begins at the angle 0."""
     rows = [
-        {"part": part, "arc_start": 0.1 * k, "arc_end": 0.1 * (k + 1), "x": 1.0, "y": 0.0, "wear": one}
+        {"part": part, "arc_start": 0.1 * k, "arc_end": 0.1 * (k + 1), "angle": 0.1 * k, "wear": one}
         for part, own in values
         for k, one in enumerate(own)
     ]
-    return pl.DataFrame(rows).with_columns(normal_x=-1.0, normal_y=0.0)
+    x, y = pl.col("angle").cos(), pl.col("angle").sin()
+    return pl.DataFrame(rows).with_columns(x=x, y=y, normal_x=-x, normal_y=-y)
 
 
-def test_wall_profile_colors_the_outline_and_averages_parts_of_a_kind():
-    table = profile(("rim", [1.0, 1.0]), ("rail 1", [2.0, 4.0]), ("rail 2", [4.0, 8.0]))
-    outline, along, _ = figures.wall_profile(table, "wear", "wear [m]").axes
+def test_wall_profile_colors_the_outline_and_unrolls_lifters_that_are_alike():
+    table = profile(("rim", [1.0] * 62), ("rail 1", [2.0, 4.0]), ("rail 2", [4.0, 8.0]))
+    outline, along, shell, bar = figures.wall_profile(table, "wear", "wear [m]").axes
     (bins,) = outline.collections
     np.testing.assert_array_equal(bins.get_array(), table["wear"])
     np.testing.assert_allclose(bins.get_segments()[0], [[1.0, 0.05], [1.0, -0.05]])
@@ -53,8 +54,17 @@ def test_wall_profile_colors_the_outline_and_averages_parts_of_a_kind():
     np.testing.assert_allclose(mean.values, [3.0, 6.0])
     np.testing.assert_allclose(mean.edges, [0.0, 0.1, 0.2])
     np.testing.assert_allclose([band.baseline, band.values], [[2.0, 4.0], [4.0, 8.0]])
-    assert (along.get_xlabel(), along.get_ylabel()) == ("way along the rail [m]", "wear [m]")
-    assert along.get_title(loc="left") == "mean of 2; band: least and greatest"
+    assert (along.get_xlabel(), along.get_ylabel()) == ("way over a rail [m]", "wear [m]")
+    assert set(shell.patches[0].get_data().values) == {1.0}
+    assert shell.get_xlabel() == "way along the shell [m]"
+    assert along.get_ylim() == shell.get_ylim()
+    assert [text.get_text() for axes in (along, shell) for text in axes.texts] == ["top", "shell"]
+    (large,) = outline.child_axes
+    assert large.get_title(loc="left") == "mean of 2 rails"
+    np.testing.assert_allclose(large.collections[0].get_array()[:2], [3.0, 6.0])
+    # It stands at the bottom, with its tops up.
+    assert np.asarray(large.collections[0].get_segments())[:2, :, 1].mean() == pytest.approx(-1.0, abs=0.01)
+    assert bar.get_ylim()[0] == 0.0
 
 
 def test_wall_profile_shows_the_rim_where_there_is_nothing_else():

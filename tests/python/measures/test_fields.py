@@ -7,7 +7,8 @@ import numpy as np
 import polars as pl
 import pytest
 
-from drumrs import measures
+import drumrs
+from drumrs import Simulation, State, measures
 from drumrs.contact_records import FIELDS
 from drumrs.errors import ConfigError
 from drumrs.verification import made_up
@@ -103,6 +104,56 @@ def test_what_trembles_in_one_cell_is_fluctuation_and_what_flows_is_not():
     assert alone.fluctuation[1, 2] == 2.0
     moving = cells(density=density, momentum_x=2.0 * density, momentum_flux_xx=flux)
     assert measures.recorded_fields(moving, 0.0).kinetic_stress[1, 2, 0, 0] == 0.0
+
+
+@pytest.mark.parametrize("width", [0.0, 1.5])
+def test_what_turns_with_the_drum_has_no_velocity_relative_to_it(width):
+    middles, speed = np.arange(-1.5, 2.0), 3.0
+    x, y = np.meshgrid(middles, middles, indexing="ij")
+    density = np.random.default_rng(3).uniform(1.0, 2.0, (4, 4))
+    turning = cells(density=density, momentum_x=-speed * density * y, momentum_y=speed * density * x)
+    seen = measures.recorded_fields(turning, width, relative_to=speed)
+    assert np.nanmax(np.abs(seen.velocity)) < 1e-12
+    # At rest, it is left behind.
+    resting = measures.recorded_fields(cells(density=density), 0.0, relative_to=speed)
+    assert np.allclose(resting.velocity, speed * np.stack([y, -x], axis=-1))
+
+
+def test_a_ring_that_a_drum_carries_along_rests_in_its_frame():
+    """What is left of the velocity of a load that clings to the drum comes of the width of cells."""
+    rows = {"run.duration": 2.0, "run.window": [1.5, 2.0], "run.record": ["fields"], "rotation.rpm": 100.0}
+    rows |= {f"contact.{body}.rolling_friction": 0.3 for body in ("bundle", "drum")}
+    config = drumrs.baseline(fill=0.1, baffles=True).softer(100.0).replace(rows)
+    result = drumrs.run(config, progress=False)
+    speed = config.derived.angular_velocity
+    still, seen = (measures.recorded_fields(result.fields, relative_to=turning) for turning in (0.0, speed))
+    clings = seen.solid_fraction > 0.2
+    fast, slow = (np.hypot(*each.velocity[clings].T).mean() for each in (still, seen))
+    assert fast == pytest.approx(speed * (0.2375 - 0.011875), rel=0.1)
+    assert slow < 0.03 * fast
+
+
+def test_a_stack_at_rest_bears_the_weight_above():
+    radius, count = 0.011875, 5
+    rows = {"rotation.rpm": 0.0, "run.record": ["fields"], "run.duration": 0.6, "run.window": [0.4, 0.6]}
+    config = drumrs.baseline(fill=0.1).softer(100.0).replace({**rows, "run.cell": 0.25 * radius})
+    heights = radius * (1.0 + 2.0 * np.arange(count)) - 0.2375
+    simulation = Simulation(config, state=State(np.column_stack([np.zeros(count), heights])))
+    simulation.run(0.6)
+    found = measures.recorded_fields(simulation.records.contact_tables()["fields"], 0.0)
+    side = found.x[1] - found.x[0]
+    borne = side * found.contact_stress[..., 1, 1].sum(axis=0)
+    weight = 1000.0 * math.pi * radius**2 * 9.81
+    for level in range(count):
+        # Below the center of a disc, where its own weight is borne, too.
+        row = int(np.abs(found.y - (heights[level] - 0.5 * radius)).argmin())
+        assert borne[row] == pytest.approx((count - level) * weight, rel=0.01)
+    assert side * found.pressure.sum(axis=0)[row] == pytest.approx(0.5 * borne[row], rel=1e-3)
+
+
+def test_frames_know_no_pressure():
+    with pytest.raises(ConfigError, match="lacks 'fields'"):
+        _ = measures.fields(made_up.frames(np.full((4, 1, 2), 0.3), 0.05), WINDOW, [1.0]).pressure
 
 
 @pytest.mark.parametrize("width", [-1.0, math.nan])

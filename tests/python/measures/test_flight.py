@@ -12,9 +12,15 @@ from drumrs.verification import made_up
 WINDOW = (0.0, 1.0)
 
 
-def path(heights, contacts, x=0.0):
+def path(heights, contacts, x=0.0, knocked=()):
+    """Return a disc at these heights that gravity alone makes faster, but for knocks just before some frames."""
     places = np.column_stack([np.full(len(heights), x), heights])[:, np.newaxis]
-    return made_up.frames(places, 0.01, contacts=np.array(contacts, dtype=np.uint16)[:, np.newaxis])
+    knocks = np.isin(np.arange(len(heights)), knocked).cumsum()
+    speeds = np.column_stack([0.02 * knocks, -9.81 * made_up.INTERVAL * np.arange(len(heights))])[
+        :, np.newaxis
+    ]
+    touches = np.array(contacts, dtype=np.uint16)[:, np.newaxis]
+    return made_up.frames(places, 0.01, contacts=touches, velocities=speeds)
 
 
 def test_a_flight_lasts_longer_than_half_the_time_of_a_fall_by_a_diameter():
@@ -26,6 +32,25 @@ def test_a_flight_lasts_longer_than_half_the_time_of_a_fall_by_a_diameter():
     assert table.select("start", "end", "start_y", "end_y").row(0) == pytest.approx(
         (0.0, 0.05, 0.0, heights[5]), rel=1e-6
     )
+
+
+def test_a_knock_between_two_frames_ends_a_flight():
+    heights, aloft = np.linspace(0.0, -0.5, 10), [1, *[0] * 8, 1]
+    assert len(measures.flights(path(heights, aloft), WINDOW)) == 1
+    # Three frames, too few, then five.
+    table = measures.flights(path(heights, aloft, knocked=[4]), WINDOW)
+    assert table.select("start", "end").rows() == [pytest.approx((0.03, 0.09))]
+
+
+def test_what_is_knocked_about_between_coarse_frames_does_not_fly():
+    # Every frame is further apart than the shortest flight is long, and by chance there is no contact in any.
+    heights, aloft = np.zeros(20), [0] * 20
+    frames = path(heights, aloft, knocked=range(20))
+    coarse = replace(frames, times=5.0 * frames.times, velocities=5.0 * frames.velocities)
+    assert measures.flight(coarse, (0.0, 2.0))["share_in_flight"].value == 0.0
+    falling = path(heights, aloft)
+    coarse = replace(falling, times=5.0 * falling.times, velocities=5.0 * falling.velocities)
+    assert measures.flight(coarse, (0.0, 2.0))["share_in_flight"].value == 1.0
 
 
 def test_a_fall_drops_by_more_than_a_diameter():

@@ -8,7 +8,8 @@ from itertools import pairwise
 import pytest
 
 import drumrs
-from drumrs.measures import flights, morrell
+from drumrs.analysis import rate_with_error
+from drumrs.measures import flights, hogg_fuerstenau, morrell
 from drumrs.reports import PAGES, catalog, content, power
 from drumrs.reports.material import Material
 from drumrs.reports.page import render
@@ -91,7 +92,7 @@ def test_a_page_says_which_record_to_add_and_is_whole_without(plain):
 def test_research_has_every_section():
     sections = {one for page in PAGES.values() for one in page.sections}
     missing = sections - set(PAGES["research"].sections)
-    assert {one.anchor for one in missing} == {"c-model"}
+    assert {one.anchor for one in missing} == {"models"}
 
 
 @pytest.mark.parametrize("name", PAGES)
@@ -111,26 +112,35 @@ def test_power_is_that_of_the_summary(recorded, pages):
     summary = recorded.summary
     shown = content.value(summary.drum_specific_power, summary.drum_specific_power_error)
     assert f"drum specific power [W/kg] {shown} power of the drum" in section(pages["washer"], "power")
-    knocking = summary.dissipated_normal_power / Material(recorded).mass
-    assert f"all {content.value(knocking)} " in section(pages["washer"], "handling")
+    material = Material(recorded)
+    knocking = rate_with_error(recorded.series, "dissipated_normal", material.window)
+    assert knocking.value == pytest.approx(summary.dissipated_normal_power)
+    told = content.value(knocking.value / material.mass, knocking.error and knocking.error / material.mass)
+    assert f"all {told} " in section(pages["washer"], "handling")
 
 
-def test_the_c_model_is_asked_for_this_mill(recorded, pages):
-    config = recorded.config
+def test_models_are_asked_for_this_mill(recorded, pages):
+    config, material = recorded.config, Material(recorded)
     radius, speed = config.drum.diameter / 2.0, config.derived.angular_velocity
-    model = morrell.charge(config.fill / 0.82, speed * math.sqrt(radius / 9.81))
-    scale = Material(recorded).mass * 9.81 * radius * speed
-    told = section(pages["mill"], "c-model")
-    assert f" {content.value(model.arm * scale)} arm" in told
-    assert f" {content.value(math.degrees(model.toe))} shoulder" in told
+    filling = config.fill / 0.82
+    model = morrell.charge(filling, speed * math.sqrt(radius / 9.81))
+    flat = hogg_fuerstenau.arm(filling, material.charge["surface_slope"].value)
+    scale = material.mass * 9.81 * radius * speed
+    told = section(pages["mill"], "models")
+    powers = " ".join(content.value(arm * scale / 1e3) for arm in (model.arm, flat))
+    assert f" {powers} arm" in told
+    assert f" {content.value(math.degrees(model.toe))} – shoulder" in told
     own = recorded.summary.drum_power / scale
     assert f"arm: power over M g R Ω {content.value(own).split(' ')[0][:5]}" in told
+    angle = math.degrees(hogg_fuerstenau.lift_angle(filling, own))
+    assert f"at a lift angle of α = {angle:.1f}°" in told
 
 
-def test_the_c_model_needs_one_speed(program):
-    told = section(render(program, "mill"), "c-model")
+def test_models_of_mills_need_one_speed(program):
+    told = section(render(program, "mill"), "models")
     assert (
-        "not shown: rotation lets the drum rest or change its speed, but the C-model is of one speed." in told
+        "not shown: rotation lets the drum rest or change its speed, but models of mills are of one speed."
+        in told
     )
 
 
@@ -187,6 +197,21 @@ def test_a_drum_without_a_rim_still_has_a_page():
     told = words(render(run(**shell), "research"))
     assert "not shown: drum.rim is False, but must be true" in told
     assert "Every joule is accounted for" in told
+
+
+def test_visits_are_told_as_they_were_counted():
+    zone = {"name": "right", "corners": [[0.0, -0.3], [0.3, -0.3], [0.3, 0.3], [0.0, 0.3]]}
+    result = run(**{"run.zone": [zone], "run.duration": 3.0, "run.window": (1.0, 3.0)})
+    told, table = section(render(result, "coater"), "visits"), result.zone_visits
+    rate = 60.0 * table["entries"].mean() / (Material(result).duration - 1.0)
+    assert f"visits of a disc in a minute {content.value(rate)} " in told
+    inside = table["time_inside"].to_numpy()
+    spread = 100.0 * inside.std(ddof=1) / inside.mean()
+    assert f"after 2 s, counted [%] {content.value(spread)} " in told
+    assert (
+        f"after a minute, by one over the root of the time [%] {content.value(spread * math.sqrt(2.0 / 60.0))[:3]}"
+        in told
+    )
 
 
 def test_a_picture_that_fails_is_told(recorded, monkeypatch):
