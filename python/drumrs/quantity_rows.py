@@ -166,7 +166,14 @@ PUBLISHED_DRUMS = (
         symbol="δ/r",
         formula="√(2 ΣE_normal / (k n)) / r",
     ),
-    made("surface_slope", "rad", "mean", "angle of the bed's surface to the horizontal"),
+    made(
+        "center_slope",
+        "rad",
+        "mean",
+        "slope of the bed by its center of mass",
+        symbol="α",
+        formula="atan2(x, −y)",
+    ),
     made("bed_depth", "m", "mean", "depth of the bed, from its surface to the rim, under the axis"),
     made(
         "surface_velocity_ratio", "1", "mean", "velocity down the slope at the bed's surface, over the rim's"
@@ -196,14 +203,7 @@ PUBLISHED_DRUMS = (
 # What `drumrs.measures` returns by name, beyond that.
 MEASURES = (
     # charge
-    made(
-        "center_slope",
-        "rad",
-        "mean",
-        "slope of the bed by its center of mass",
-        symbol="α",
-        formula="atan2(x, −y)",
-    ),
+    made("surface_slope", "rad", "mean", "angle of the bed's surface to the horizontal"),
     made(
         "s_shape",
         "1",

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 _FLIGHT = ("falls_per_turn", "mean_drop", "share_in_flight")
 _LANDING = ("landing_on_drum", "head_height", "impact_toe_angle")
 _GOING = ("along_the_rim", "carried_round")
-_LAYER = ("surface_slope", "bed_depth", "layer_thickness", "surface_velocity_ratio")
+_LAYER = ("center_slope", "bed_depth", "layer_thickness", "surface_velocity_ratio")
 _SHAPE = ("toe_angle", "shoulder_angle", "filling")
 
 # Names of the registry, in the order of the tiles.

@@ -53,7 +53,7 @@ def test_a_load_that_stays_where_it_is():
     assert means_of("washer", Load(config, known))["wall_slip"].value == pytest.approx(1.0)
     coater = means_of("coater", Load(config, known))
     assert tuple(coater) == TRADES["coater"]
-    assert coater["surface_slope"].value == pytest.approx(0.0, abs=1e-6)
+    assert coater["center_slope"].value == pytest.approx(0.0, abs=1e-6)
     # From the rim up to half a row above the highest centers.
     assert coater["bed_depth"].value == pytest.approx(0.22, abs=0.01)
     mill = means_of("mill", Load(config, known))
