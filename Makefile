@@ -17,8 +17,11 @@ PROGRAMS := target/programs/.installed
 export VIRTUAL_ENV := $(abspath $(VENV))
 unexport CONDA_PREFIX
 
+# Where the notebooks are that the widget is tried in.
+NOTEBOOKS := target/notebooks/.installed
+
 .DEFAULT_GOAL := help
-.PHONY: help run study test check-long develop lint bench docs wheel clean
+.PHONY: help run study test check-long develop lint bench docs wasm wheel clean
 
 help: ## list the commands
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-11s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -38,7 +41,7 @@ test: develop $(TOOLS) ## test the physics, the package and the documentation
 	cargo test --doc
 	$(BIN)/python -m pytest --numprocesses 2 --dist loadfile -m "not slow"
 
-check-long: develop $(TOOLS) $(PROGRAMS) ## what takes hours: random loads, kills, long runs, fuzzing, the study in small, examples in full
+check-long: develop $(TOOLS) $(PROGRAMS) $(NOTEBOOKS) ## what takes hours: random loads, kills, long runs, fuzzing, the study in small, examples in full
 	$(BIN)/python -m pytest -m slow
 	PROPTEST_CASES=30000 cargo test --release --test random_loads
 	$(BIN)/python tests/endurance/kill_and_resume.py
@@ -60,6 +63,11 @@ $(PROGRAMS):
 	target/programs/bin/python -m pip install --disable-pip-version-check --quiet 'vtk>=9.4' 'ovito>=3.12'
 	@touch $@
 
+$(NOTEBOOKS): $(TOOLS)
+	$(BIN)/python -m venv target/notebooks
+	target/notebooks/bin/python -m pip install --disable-pip-version-check --quiet 'jupyterlab>=4.4,<5' 'marimo>=0.20' 'anywidget>=0.10,<1'
+	@touch $@
+
 develop: $(STAMP) ## build the core into the environment (.venv)
 	$(BIN)/maturin develop --release --skip-install --quiet
 
@@ -79,6 +87,12 @@ bench: ## measure the speed of a step
 docs: develop $(TOOLS) ## build the documentation site, out/docs/index.html
 	RUSTDOCFLAGS="-D warnings" cargo doc --no-deps --quiet
 	$(BIN)/python -m sphinx --fail-on-warning --keep-going -b html docs $(OUT)/docs
+
+# Within wasm/, whose own settings hold there. It takes the target: rustup target add wasm32-unknown-unknown.
+wasm: ## build the core for WebAssembly; the first page of the site then has a drum that runs in it
+	cd wasm && cargo build --profile web --locked --lib --target wasm32-unknown-unknown
+	cd wasm && cargo run --locked --quiet --package bindings -- \
+	    ../target/wasm/wasm32-unknown-unknown/web/drumrs_wasm.wasm ../target/wasm/page
 
 wheel: ## build the wheel for this machine into dist/, check it, and try it where there is no Rust
 	$(PYTHON) packaging/wheel.py

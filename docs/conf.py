@@ -102,7 +102,7 @@ _LINK = re.compile(r"(?<!!)\[([^\]]+)\]\(([^)\s#]+)(#[^)\s]*)?\)")
 def only_links_within_the_site(app: Sphinx, docname: str, source: list[str]) -> None:
     """Turn links to files of the repository that are no page of the site into words.
 
-    In the repository each of them leads somewhere; the site has no sources beside it.
+    In the repository each of them leads somewhere; the site has no sources beside it. Examples are in the gallery.
     """
     page = Path(app.env.doc2path(docname))
     if page.suffix != ".md":
@@ -116,6 +116,8 @@ def only_links_within_the_site(app: Sphinx, docname: str, source: list[str]) -> 
         if "://" in target:
             return match[0]
         path = (base / target).resolve()
+        if path.parent == ROOT / "examples" and path.suffix == ".py":
+            path = DOCS / "gallery" / f"{path.stem}.rst"
         path = path / "README.md" if path.is_dir() else path
         path = generated.FOLDER / copies[path] if path in copies else path
         if (

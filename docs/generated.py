@@ -1,11 +1,14 @@
-"""Pages of the site that the program writes: keys, commands, the player; copies of pages; the link to the crate."""
+"""What the program writes for the site: keys, commands, the first drum, copies of pages, the link to the crate."""
 
 import importlib
 import shutil
 from pathlib import Path
 from typing import Any
 
+from sphinx.util import logging
+
 import drumrs
+import live_drum
 from drumrs.cli.app import app
 
 ROOT = Path(__file__).parents[1]
@@ -20,6 +23,7 @@ MODULES = (
     "figures",
     "measures",
     "reports",
+    "studio",
     "sweep",
     "validation",
     "verification",
@@ -48,7 +52,7 @@ def write() -> None:
     _put("rust.html", _rust())
     for name in MODULES:
         _put(f"drumrs.{name}.rst", module(f"drumrs.{name}"))
-    (ROOT / "docs" / "site" / "player.html").write_text(_player(), encoding="utf-8")
+    (ROOT / "docs" / "site" / "drum.html").write_text(_drum(), encoding="utf-8")
 
 
 def commands() -> str:
@@ -129,8 +133,13 @@ def _rust() -> str:
     return "<p><code>cargo doc --no-deps --open</code> shows modules, types and functions of the crate.</p>"
 
 
-def _player() -> str:
-    """Return the player of a short run, for the first page."""
+def _drum() -> str:
+    """Return the drum of the first page: one that runs there, or the player of a short run."""
+    if live_drum.is_built():
+        return live_drum.page()
+    logging.getLogger(__name__).info(
+        "the drum of the first page is a recorded one: make wasm builds the core that would run there"
+    )
     changes = {"run.duration": 6.0, "run.window": [3.0, 6.0]}
     config = drumrs.baseline(fill=0.25, baffles=True).softer(100.0).replace(changes)
     return drumrs.player(drumrs.run(config, progress=False)).page()

@@ -40,6 +40,7 @@ if TYPE_CHECKING:
     from drumrs.exports import export, movie
     from drumrs.glossary import quantities
     from drumrs.reports import report
+    from drumrs.studio import widget
     from drumrs.verification import Verification, verify
 
 __version__ = version("drumrs")
@@ -90,6 +91,7 @@ __all__ = [
     "save",
     "screen",
     "verify",
+    "widget",
 ]
 
 
@@ -111,6 +113,7 @@ _ON_DEMAND = {
     "report": "reports",
     "screen": "decide.screen",
     "verify": "verification",
+    "widget": "studio",
 }
 
 

@@ -10,6 +10,7 @@ from typing import Any
 import polars as pl
 
 from drumrs import registry
+from drumrs.decide import readings
 from drumrs.frames import COLUMNS
 from drumrs.result import Summary
 from drumrs.sweep.columns import schema
@@ -47,6 +48,9 @@ both. Gross work is recorded on request: `run.record = ["gross_work"]`.
 How values are to be read:
 
 {readings}
+
+What has *yes* in the last column can be a [target](decisions/README.md#targets) of a decision, over the window or in a
+phase; beside it stands what the run has to keep, which a decision switches on by itself.
 
 Δ is a change over the time Δt, between two samples or over the window; beside an energy without a rate, the change
 since t = 0.
@@ -87,9 +91,10 @@ def quantities() -> QuantityTable:
     """Return everything that drumrs measures: a row for each quantity, in the order of the tables that hold it.
 
     Columns are ``name``, ``unit``, ``reading``, ``symbol``, ``formula``, ``meaning``, as `drumrs.quantity` has them,
-    and ``found_in``: series, summary, table (of a sweep), study (of the paper), drums (that were
-    published), measures, frames, facts (of a case), phases (of a program). Baffles, walls and the parts that
-    a liner names are numbered from 1; only the first baffle and wall are listed.
+    ``found_in``: series, summary, table (of a sweep), study (of the paper), drums (that were published), measures,
+    frames, facts (of a case), phases (of a program); and ``target``: "yes" where it can be a `Target`, with what the
+    run has to keep, and empty elsewhere. Baffles, walls and the parts that a liner names are numbered from 1; only the
+    first baffle and wall are listed.
 
     Examples
     --------
@@ -104,8 +109,17 @@ def quantities() -> QuantityTable:
     for name in names:
         row = asdict(registry.quantity(name))
         kept = {key: row[key] for key in ("name", "unit", "reading", "symbol", "formula", "meaning")}
-        rows.append(kept | {"found_in": ", ".join(place for place in places if name in places[place])})
+        found_in = ", ".join(place for place in places if name in places[place])
+        rows.append(kept | {"found_in": found_in, "target": _as_target(name)})
     return QuantityTable(rows)
+
+
+def _as_target(name: str) -> str:
+    """Say whether a quantity can be a target, and what the run has to keep for it."""
+    if name not in readings.names():
+        return ""
+    kept = [*(["frames"] if readings.needs_frames(name) else []), *readings.record_of(name)]
+    return ", ".join(["yes", *kept])
 
 
 def _places() -> Mapping[str, Sequence[str]]:
@@ -131,8 +145,17 @@ def page() -> str:
 def _tables() -> Iterator[str]:
     for place, names in _places().items():
         yield f"## {place.capitalize()}\n\nFound in {_PLACES[place]}.\n"
-        yield "| name | unit | symbol | formula | reading | meaning |\n|---|---|---|---|---|---|"
-        for one in map(registry.quantity, names):
-            texts = (f"`{one.name}`", one.unit, one.symbol, one.formula, one.reading, one.meaning)
+        yield "| name | unit | symbol | formula | reading | meaning | target |\n|---|---|---|---|---|---|---|"
+        for name in names:
+            one = registry.quantity(name)
+            texts = (
+                f"`{name}`",
+                one.unit,
+                one.symbol,
+                one.formula,
+                one.reading,
+                one.meaning,
+                _as_target(name),
+            )
             yield f"| {' | '.join(text.replace('|', '&#124;') for text in texts)} |"
         yield ""

@@ -162,11 +162,18 @@ PUBLISHED_DRUMS = (
         "mean_overlap_ratio",
         "1",
         "mean",
-        "overlap over the radius, root mean square over contacts and time",
+        "overlap over the radius, root mean square over contacts and time, as if all had the springs of two bundles",
         symbol="δ/r",
         formula="√(2 ΣE_normal / (k n)) / r",
     ),
-    made("surface_slope", "rad", "mean", "angle of the bed's surface to the horizontal"),
+    made(
+        "center_slope",
+        "rad",
+        "mean",
+        "slope of the bed by its center of mass",
+        symbol="α",
+        formula="atan2(x, −y)",
+    ),
     made("bed_depth", "m", "mean", "depth of the bed, from its surface to the rim, under the axis"),
     made(
         "surface_velocity_ratio", "1", "mean", "velocity down the slope at the bed's surface, over the rim's"
@@ -196,14 +203,7 @@ PUBLISHED_DRUMS = (
 # What `drumrs.measures` returns by name, beyond that.
 MEASURES = (
     # charge
-    made(
-        "center_slope",
-        "rad",
-        "mean",
-        "slope of the bed by its center of mass",
-        symbol="α",
-        formula="atan2(x, −y)",
-    ),
+    made("surface_slope", "rad", "mean", "angle of the bed's surface to the horizontal"),
     made(
         "s_shape",
         "1",
@@ -285,7 +285,67 @@ MEASURES = (
         "openness", "1", "mean", "share of the discs' perimeters from which a line of D/4 meets no other disc"
     ),
     made("curtain", "1", "mean", "share of vertical lines through the drum that meet a disc in flight"),
+    # torque
+    made("torque_peak_factor", "1", "greatest", "greatest torque of the drum over its root mean square"),
+    # contacts
+    made(
+        "impact_rate",
+        "1/(kg s)",
+        "mean",
+        "contacts that are over within three collision times, per mass of the load and time",
+    ),
+    made("impact_specific_power", "W/kg", "mean", "what these impacts take, per mass of the load"),
+    made(
+        "median_impact_energy", "J/m", "mean", "energy above which impacts take half of all that impacts take"
+    ),
+    made("drum_impact_rate", "1/(kg s)", "mean", "impacts on the drum, per mass of the load and time"),
+    made("drum_impact_specific_power", "W/kg", "mean", "what impacts on the drum take, per mass of the load"),
+    # wall_profile
+    made(
+        "archard_wear",
+        "J/m",
+        "mean",
+        "normal force times way slid along the outline of the drum in a turn, from t = 0 on; Archard's coefficient "
+        "makes it a volume",
+        formula="∫ Fₙ ds",
+    ),
+    made(
+        "finnie_wear",
+        "J/m",
+        "mean",
+        "what Finnie's law adds up along the outline of the drum in a turn, from t = 0 on; his coefficient makes it a "
+        "volume",
+        formula="∫ 2 |v| |F| f(γ) dt",
+    ),
+    made("wear_peak", "1", "mean", "depth of Archard's wear in the bin that wears most, over its mean"),
+    # ledger_split
+    made("load_knocking", "W/kg", "mean", "what normal damping takes between discs, from t = 0 on"),
+    made(
+        "load_rubbing",
+        "W/kg",
+        "mean",
+        "what sliding and tangential damping take between discs, from t = 0 on",
+    ),
+    made("drum_knocking", "W/kg", "mean", "what normal damping takes at the drum, from t = 0 on"),
+    made(
+        "drum_rubbing", "W/kg", "mean", "what sliding and tangential damping take at the drum, from t = 0 on"
+    ),
+    # discs
+    made(
+        "received_spread",
+        "1",
+        "mean",
+        "standard deviation over discs of the energy received per mass, over its mean, from t = 0 on",
+    ),
 )
+
+# Measures that each part of the drum has as well, and that of the whole drum of which they are a part.
+OF_PARTS = {
+    "impact_rate": "drum_impact_rate",
+    "impact_specific_power": "drum_impact_specific_power",
+    "archard_wear": "archard_wear",
+    "finnie_wear": "finnie_wear",
+}
 
 # What places a case among others.
 FACTS = (

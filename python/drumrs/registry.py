@@ -181,7 +181,7 @@ def _declared() -> Mapping[str, Quantity]:
 
 
 def _find(name: str) -> Quantity | None:
-    return _declared().get(name) or _of_surface(name) or _by_rule(name)
+    return _declared().get(name) or _of_surface(name) or _of_part(name) or _by_rule(name)
 
 
 def _of_surface(name: str) -> Quantity | None:
@@ -191,6 +191,23 @@ def _of_surface(name: str) -> Quantity | None:
         return None
     columns = recorded([f"{found[1]} {found[2]}"])
     return next(column for column in columns if column.name == name)
+
+
+def part_and_measure(name: str) -> tuple[str, str] | None:
+    """Return the part of the drum and the measure that a name such as "baffle_1_impact_rate" has; else `None`."""
+    found = re.fullmatch(rf"(rim|[a-z]\w*_[1-9]\d*)_({'|'.join(quantity_rows.OF_PARTS)})", name)
+    return (found[1], found[2]) if found else None
+
+
+def _of_part(name: str) -> Quantity | None:
+    """Return a measure of records of one part of the drum."""
+    found = part_and_measure(name)
+    if found is None:
+        return None
+    whole = _declared()[quantity_rows.OF_PARTS[found[1]]]
+    part = "rim" if found[0] == "rim" else found[0].replace("_", " ")
+    meaning = whole.meaning.replace("the outline of the drum", part).replace("the drum", part)
+    return replace(whole, name=name, meaning=meaning)
 
 
 def _by_rule(name: str) -> Quantity | None:

@@ -192,7 +192,7 @@ def ended(child: subprocess.Popen) -> tuple[int, str]:
 
 @pytest.mark.parametrize("blow", [signal.SIGKILL, pytest.param(signal.SIGINT, marks=pytest.mark.slow)])
 def test_blows_at_random_moments_change_no_byte(tmp_path, blow):
-    case = [*DENSE, "--set", "run.duration=8", "--set", "run.checkpoint_every=0.1", "--out"]
+    case = [*DENSE, "--set", "run.duration=6", "--set", "run.checkpoint_every=0.1", "--out"]
     whole, broken = tmp_path / "whole", tmp_path / "broken"
     assert ended(start("run", *case, whole)) == (0, "")
     words, draw, blows, parts = ["run", *case, broken], random.Random(blow), 0, 0

@@ -8,6 +8,7 @@ from cyclopts import Parameter
 from drumrs.cli.messages import note
 from drumrs.cli.options import PATH, WHOLE, Jobs, Settings, check_folder, layered
 from drumrs.cli.tables import print_paths
+from drumrs.errors import ConfigError
 
 if TYPE_CHECKING:
     from drumrs.decide import Comparison
@@ -50,6 +51,9 @@ def compare(
     import drumrs
 
     check_folder(out)
+    again = next((case for k, case in enumerate(cases) if case in cases[:k]), None)
+    if again is not None:
+        raise ConfigError("CASE", again, "another file than the others", hint="it is given twice")
     names = [str(case) if _is_twice(case, cases) else case.stem for case in cases]
     designs = {name: layered(case, set_, None) for name, case in zip(names, cases, strict=True)}
     for name, config in designs.items():

@@ -45,7 +45,7 @@ def optimize(
     check_folder(out)
     problem = Problem.read(file)
     goals = ", ".join(map(str, problem.goals))
-    note(f"{goals}; {len(problem.space)} keys, {problem.runs} runs at most")
+    note(f"{goals}; keys: {', '.join(problem.space.keys)}; {problem.runs} runs at most")
     found = drumrs.optimize(problem, out, jobs=jobs)
     _print(found)
     print_paths(

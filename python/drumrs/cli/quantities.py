@@ -5,6 +5,8 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
+_WIDE = 160
+
 
 def quantities(part: str = "", /, *, markdown: Annotated[bool, Parameter(negative="")] = False) -> None:
     """Print what drumrs measures: the columns of its tables and the numbers of its summaries, with units and meanings.
@@ -26,11 +28,12 @@ def quantities(part: str = "", /, *, markdown: Annotated[bool, Parameter(negativ
     from rich.table import Table
 
     shown = Table(box=None, highlight=False)
-    for name in ("name", "unit", "reading", "meaning", "found in"):
+    for name in ("name", "unit", "reading", "meaning", "found in", "target"):
         shown.add_column(name, no_wrap=name in {"name", "unit"})
     for row in glossary.quantities().iter_rows(named=True):
         if part in row["name"]:
             meaning = f"{row['meaning']}{', ' if row['formula'] else ''}{row['formula']}"
-            texts = (row["name"], row["unit"], row["reading"], meaning, row["found_in"])
+            texts = (row["name"], row["unit"], row["reading"], meaning, row["found_in"], row["target"])
             shown.add_row(*map(escape, texts))
-    Console(highlight=False).print(shown)
+    # What goes to a file or a pipe has room for everything.
+    Console(highlight=False, width=None if sys.stdout.isatty() else _WIDE).print(shown)

@@ -70,8 +70,8 @@ def _infer_baffle(out: Path, jobs: int | None) -> int:
     from drumrs.jobs import effective_jobs
     from drumrs.paper import infer_baffle
     from drumrs.paper.baffle import Plan
-    from drumrs.paper.reproduction import measure_speed
     from drumrs.progress import format_duration
+    from drumrs.sweep.throughput import measure_speed
 
     jobs, plan = effective_jobs(jobs), Plan()
     spent = format_duration(plan.cost / measure_speed(jobs))

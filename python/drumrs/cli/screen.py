@@ -70,14 +70,14 @@ def screen(
 
 def _announce(plan: "ScreeningPlan", jobs: int | None) -> None:
     from drumrs.jobs import effective_jobs
-    from drumrs.paper.reproduction import measure_speed
     from drumrs.progress import format_duration
+    from drumrs.sweep.throughput import measure_speed
 
     count = effective_jobs(jobs)
     spent = format_duration(plan.cost / measure_speed(count))
     further = f", then at most {plan.most_runs - plan.first_runs} for Sobol's indices" if plan.points else ""
     note(
-        f"{len(plan.space)} keys: {plan.first_runs} runs for Morris's effects{further}; {plan.cost:.2g} "
+        f"{', '.join(plan.space.keys)}: {plan.first_runs} runs for Morris's effects{further}; {plan.cost:.2g} "
         f"particle-steps in all, about {spent} at most on {count} core{'s' if count > 1 else ''}"
     )
 

@@ -1,6 +1,7 @@
 """From runs to decisions: what is asked of runs, and which runs answer it.
 
-`targets` are quantities of runs and expressions of them, `readings` the single quantities, `units` their units;
+`targets` are quantities of runs and expressions of them, `readings` the single quantities, `measured` those that are
+measured on frames and records, `units` their units;
 `evaluate` asks configurations for them, through the store of a sweep. `compare` finds the best of a few machines, with
 `selection`, which says where further seeds help. `scaling` tells what another size of the machine changes.
 `screen` finds the keys that matter, with `sensitivity`.

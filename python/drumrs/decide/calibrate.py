@@ -15,7 +15,6 @@ from drumrs.decide.measurement import Experiment
 from drumrs.decide.posterior import fit
 from drumrs.files import write_whole
 from drumrs.folders import claim, require_own
-from drumrs.jobs import effective_jobs
 from drumrs.pictures import attempt
 from drumrs.progress import Task
 
@@ -75,13 +74,13 @@ def calibrate(
     """
     require_packages("a calibration", "sklearn", "emcee")
     wanted = experiment if isinstance(experiment, Experiment) else Experiment.read(experiment)
-    folder, jobs = Path(out), effective_jobs(jobs)
+    folder = Path(out)
     require_own(folder, "calibration", FILES)
     claim(folder, "calibration", ", ".join(map(str, wanted.measured)), "")
     outputs, drums = (*wanted.measured, *wanted.candidates), wanted.drums
-    targets = list(dict.fromkeys(one.target.text for one in outputs))
+    targets = list(dict.fromkeys(one.target for one in outputs))
     ask = Evaluator(targets, folder / "runs", executor=executor, jobs=jobs, progress=progress)
-    columns = [(drums.index(one.settings), targets.index(one.target.text)) for one in outputs]
+    columns = [(drums.index(one.settings), targets.index(one.target)) for one in outputs]
     with Task("calibration", wanted.runs * len(drums), detail=f"{len(drums)} drums", show=progress) as task:
 
         def evaluate(points: Array, first: int) -> tuple[Array, Array]:

@@ -85,15 +85,13 @@ class Evaluator:
         Raises
         ------
         ConfigError
-            Where a target is measured on frames and the configuration keeps none.
+            Where the run will not have a target, see `Target.check`.
         """
         wanted = [record for target in self.targets for record in target.records]
         record = tuple(dict.fromkeys((*config.run.record, *wanted)))
         case = Case(config if record == config.run.record else config.replace({"run.record": record}))
-        framed = next((target for target in self.targets if target.needs_frames), None)
-        if framed is not None and not case.wants_frames:
-            limit = f"smaller than run.duration = {config.run.duration}: {framed} is measured on frames"
-            raise ConfigError("run.frame_every", config.run.frame_every, limit)
+        for target in self.targets:
+            target.check(case.config)
         return case
 
     def missing(self, configs: "Iterable[Config]") -> list[Case]:

@@ -9,6 +9,7 @@ import numpy as np
 from drumrs.config import Config, anchored
 from drumrs.config.layers import flat
 from drumrs.decide.emulator import Array
+from drumrs.decide.posterior import fewest_runs
 from drumrs.decide.problem import read_file, refuse_unknown, share, whole
 from drumrs.decide.space import Space
 from drumrs.decide.targets import Target
@@ -111,7 +112,8 @@ class Experiment:
         space.check(base)
         wanted = table_of(content, "calibrate") or {}
         refuse_unknown(wanted, _KEYS, "calibrate.", _WHAT)
-        runs = whole(wanted, "runs", "calibrate", _RUNS_PER_PARAMETER * len(space), 4 * len(space))
+        least = fewest_runs(len(space))
+        runs = whole(wanted, "runs", "calibrate", _RUNS_PER_PARAMETER * len(space), least)
         discrepancy = share(wanted.get("discrepancy", "3 %"), "1", "calibrate.discrepancy")
         if not discrepancy.is_relative:
             raise ConfigError("calibrate.discrepancy", wanted["discrepancy"], "a share such as '3 %'")
@@ -158,6 +160,9 @@ def _measurement(table: Mapping[str, Any], at: str, base: Config) -> Measurement
 
 def _number(table: Mapping[str, Any], key: str, at: str, target: Target) -> float:
     value = table.get(key)
+    unit = "a number" if target.unit == "1" else f"a number in {target.unit}"
+    if value is None:
+        raise ConfigError(f"{at}.{key}", problem=f"is missing, but must be {unit}")
     if isinstance(value, bool) or not isinstance(value, (int, float)):
-        raise ConfigError(f"{at}.{key}", value, f"a number in {target.unit}")
+        raise ConfigError(f"{at}.{key}", value, unit)
     return float(value)

@@ -185,5 +185,12 @@ class Optimization:
             )
         return (
             f"The search used up its {runs} runs: the chance that another gains more than {share} is "
-            f"{chance:.0%}; a larger optimize.runs goes on from here."
+            f"{chance:.0%}; a larger optimize.runs goes on from here.{self._noise()}"
         )
+
+    def _noise(self) -> str:
+        """Say how well a front is known where that is worse than the tolerance."""
+        known = self.model.uncertainty_of_front if self.model.objectives > 1 else 0.0
+        if known <= self.problem.tolerance.amount:
+            return ""
+        return f" The noise of the runs leaves the hypervolume uncertain by {known:.0%}, so longer runs help as well."

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from drumrs.config import Config
 from drumrs.decide.confirmed import Confirmed
 from drumrs.decide.emulator import Array, require_packages
 from drumrs.decide.evaluate import Evaluator
@@ -55,7 +56,8 @@ def optimize(
         Folder for history.parquet, optimization.png, best.toml and the runs. The same call goes on where an earlier one
         was interrupted, with the same points; nothing is simulated twice.
     executor, jobs
-        Who runs the cases, and how many at once, as for `drumrs.Sweep.run`.
+        Who runs the cases, and how many at once, as for `drumrs.Sweep.run`. Of an executor that is given nobody knows
+        how many it takes: say it in ``optimize.batch``, or as jobs.
     progress
         Whether to show progress.
 
@@ -83,10 +85,9 @@ def optimize(
     """
     require_packages("an optimization", "sklearn")
     wanted = problem if isinstance(problem, Problem) else Problem.read(problem)
-    folder, jobs = Path(out), effective_jobs(jobs)
+    folder = Path(out)
     require_own(folder, "optimization", FILES)
-    log = _Log(folder, wanted, jobs)
-    claim(folder, "optimization", " and ".join(map(str, wanted.objectives)), wanted.digest)
+    log = _Log(folder, wanted, effective_jobs(jobs))
     ask = Evaluator(
         [goal.target for goal in wanted.goals],
         folder / "runs",
@@ -102,6 +103,9 @@ def optimize(
         wanted.tolerance.is_relative,
         log.batches,
     )
+    for config in _configs(wanted, search.start(), 0):
+        ask.case(config)
+    claim(folder, "optimization", " and ".join(map(str, wanted.objectives)), wanted.digest)
     with Task("optimization", wanted.runs, detail="0 runs", show=progress) as task:
 
         def evaluate(points: Array, first: int) -> tuple[Array, Array]:
@@ -124,14 +128,17 @@ def optimize(
     return found
 
 
+def _configs(problem: Problem, points: Array, first: int) -> list[Config]:
+    """Return the configurations of points, each with a seed of its own."""
+    values = (problem.space.values(point) for point in points)
+    seed = problem.base.run.seed + first
+    return [problem.base.replace({**each, "run.seed": seed + k}) for k, each in enumerate(values)]
+
+
 def _measure(problem: Problem, ask: Evaluator, points: Array, first: int) -> tuple[Array, Array]:
     """Run points, each with a seed of its own; return signed values and errors, shape (n, goals) each."""
-    configs = [
-        problem.base.replace({**problem.space.values(point), "run.seed": problem.base.run.seed + first + k})
-        for k, point in enumerate(points)
-    ]
     try:
-        means = ask.means(configs)
+        means = ask.means(_configs(problem, points, first))
     except ConfigError as error:
         # Where all of a later batch fail the search goes on elsewhere.
         if error.key != "configs" or not first:
@@ -145,9 +152,8 @@ def _measure(problem: Problem, ask: Evaluator, points: Array, first: int) -> tup
             str(goal.target) for k, goal in enumerate(problem.goals) if np.isnan(signed[:, k, 0]).all()
         ]
         named = " and ".join(missing or (str(goal.target) for goal in problem.goals))
-        raise ConfigError(
-            "optimize", problem=f"asks for {named}, which none of the first {len(points)} runs has"
-        )
+        lacks = f"asks for {named}, which none of the first {len(points)} runs has"
+        raise ConfigError("optimize", problem=lacks, hint="run longer, or in other ranges")
     return signed[..., 0], signed[..., 1]
 
 

@@ -3,6 +3,7 @@
 Knows nothing of drums: a function gives values and errors of all outputs at points of a space.
 """
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -139,6 +140,22 @@ def log_density(
     return np.where(((points >= 0.0) & (points <= 1.0)).all(axis=1), found, -np.inf)
 
 
+def fewest_runs(parameters: int) -> int:
+    """Return how many runs are enough: the first of them must do for an emulator, those that follow for what it finds.
+
+    Examples
+    --------
+    >>> from drumrs.decide.posterior import fewest_runs
+    >>> [fewest_runs(parameters) for parameters in (1, 2, 5)]
+    [6, 9, 20]
+    """
+    return max(4 * parameters, math.ceil(_fewest_points(parameters) / _FIRST))
+
+
+def _fewest_points(parameters: int) -> int:
+    return 2 * parameters + 2
+
+
 def fit(
     space: Space,
     evaluate: Callable[[Array, int], tuple[Array, Array]],
@@ -193,8 +210,11 @@ def _emulators(space: Space, points: Array, found: list[tuple[Array, Array]]) ->
     emulators = []
     for output in range(means.shape[1]):
         there = np.isfinite(means[:, output])
-        if there.sum() < 2 * len(space) + 2:
-            problem = f"has a number in {there.sum()} of {len(there)} runs, which is too few"
+        if there.sum() < _fewest_points(len(space)):
+            least = _fewest_points(len(space))
+            problem = (
+                f"has a number in {there.sum()} of {len(there)} runs, but must have one in {least} at least"
+            )
             raise ConfigError(
                 f"measured[{output}]", problem=problem, hint="narrow the ranges, or give calibrate.runs"
             )

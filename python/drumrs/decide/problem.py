@@ -151,6 +151,8 @@ class Problem:
         if not 1 <= len(objectives) <= _MOST_OBJECTIVES:
             limit = "one or two targets in optimize.minimize and optimize.maximize together"
             raise ConfigError("optimize", [str(goal) for goal in objectives], limit)
+        if len({goal.target for goal in objectives}) < len(objectives):
+            raise ConfigError("optimize", problem=f"has {objectives[0].target} as both of its targets")
         tolerance = share(wanted.get("tolerance", "1 %"), objectives[0].target.unit, "optimize.tolerance")
         if len(objectives) > 1 and not tolerance.is_relative:
             limit = "a share such as '1 %' where there are two objectives: of the hypervolume of their front"

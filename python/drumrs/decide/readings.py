@@ -1,29 +1,37 @@
 """Single quantities of a run, over its window or in the phases of its program: a mean with its error for each name.
 
-The series tells most of them. Measures of frames are rows of `_MEASURES`: a function and the names that it returns.
+The series tells most of them; what is measured on frames and records is in `measured`.
 """
 
 import difflib
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+import re
+from collections.abc import Iterable, Sequence
 from dataclasses import fields
 from functools import cache
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
-from drumrs import measures, registry
+from drumrs import registry
 from drumrs.analysis import Mean, mean_with_error, rate_with_error
 from drumrs.analysis.blocks import SeriesWindow
 from drumrs.analysis.phases import mass_of, summary_of_rows
 from drumrs.analysis.statistics import means_with_errors
+from drumrs.decide import measured
+from drumrs.decide.measured import Means, Window
 from drumrs.errors import ConfigError
+from drumrs.frames import COLUMNS
 from drumrs.result import Summary
 
 if TYPE_CHECKING:
+    from drumrs.config import Config
     from drumrs.result import Result
 
-Window = tuple[float, float]
-Means = Mapping[str, Mean | None]
-
+# How the columns end whose sum is a number of the summary.
+_SUMS = {
+    "kinetic_energy": ("kinetic_translation", "kinetic_rotation"),
+    "drum_force_x": ("_force_x",),
+    "drum_force_y": ("_force_y",),
+}
 # Suggestions for a name that is none.
 _MOST_MEANT = 3
 # What says nothing of the motion, though summary and series have it.
@@ -33,69 +41,6 @@ _NOT_ASKED = {
 }
 
 
-class _Measured(NamedTuple):
-    """What a function measures on frames, by name."""
-
-    names: tuple[str, ...]
-    of: "Callable[[Result, Window], Means]"
-
-
-def _one(
-    name: str, of: Callable[..., Mean | None]
-) -> "tuple[tuple[str, ...], Callable[[Result, Window], Means]]":
-    return (name,), lambda result, window: {name: of(result.frames, window)}
-
-
-def _gravity(result: "Result") -> float:
-    return math.hypot(*result.config.plane_gravity)
-
-
-_DEPTHS = ("surface_speed", "middle_speed", "deep_speed")
-_MEASURES = (
-    _Measured(
-        ("toe_angle", "shoulder_angle", "center_slope", "surface_slope", "s_shape", "filling", "arm"),
-        lambda result, window: measures.charge(result.frames, window),
-    ),
-    _Measured(
-        (
-            *("bed_depth", "surface_velocity_ratio", "layer_thickness"),
-            *("layer_to_solid_rotation", "core_velocity_ratio"),
-        ),
-        lambda result, window: measures.flowing_layer(result.frames, window),
-    ),
-    _Measured(
-        ("unbalance", "turning_unbalance", "eccentricity"),
-        lambda result, window: measures.unbalance(
-            result.frames, window, measures.disc_masses(result.config, result.frames)
-        ),
-    ),
-    _Measured(
-        _DEPTHS,
-        lambda result, window: dict(zip(_DEPTHS, measures.depth_profile(result.frames, window), strict=True)),
-    ),
-    _Measured(*_one("circulation", measures.circulation)),
-    _Measured(*_one("wall_slip", measures.wall_slip)),
-    _Measured(*_one("along_the_rim", measures.along_the_rim)),
-    _Measured(*_one("carried_round", measures.carried_round)),
-    _Measured(*_one("mixed_in_a_turn", measures.mixed_in_a_turn)),
-    _Measured(
-        (
-            *("share_in_flight", "falls_per_turn", "mean_drop"),
-            *("landing_on_drum", "head_height", "impact_toe_angle"),
-        ),
-        lambda result, window: measures.flight(
-            result.frames, window, measures.disc_masses(result.config, result.frames), _gravity(result)
-        ),
-    ),
-    _Measured(
-        (
-            *("center_turning", "disc_turning", "moving_speed", "moving_spread"),
-            *("axis_distance_spread", "shape_factor", "openness", "curtain"),
-        ),
-        lambda result, window: measures.washing(result.frames, window, _gravity(result)),
-    ),
-)
-_MEASURE_OF = {name: measured for measured in _MEASURES for name in measured.names}
 # What follows from the configuration alone, without error.
 _FACTS = ("bundle_count", "fill", *registry.FACTS)
 _OF_PHASES = ("phase_work", "phase_specific_work")
@@ -110,7 +55,7 @@ def names() -> tuple[str, ...]:
     energies = [column for column in registry.recorded() if column.reading == "cumulative"]
     stems = [column.name.removesuffix("_work") for column in energies]
     powers = [f"{stem}{ending}" for stem in stems for ending in ("_power", "_specific_power")]
-    more = ("specific_angular_momentum", *_FACTS, *_MEASURE_OF, *_OF_PHASES)
+    more = ("specific_angular_momentum", *_FACTS, *measured.names(), *_OF_PHASES)
     return tuple(
         name
         for name in dict.fromkeys([*series, *summary, *powers, *more])
@@ -131,18 +76,89 @@ def find(name: str) -> registry.Quantity:
     own = registry.known([name])
     if own and name not in registry.declared() and own[0].reading in {"mean", "cumulative"}:
         return own[0]  # of a further part of the drum
-    problem = "is nothing that a run is asked for" if own else "is not the name of a quantity"
-    raise ConfigError(_called(name), name, problem=problem, hint=_meant(name))
+    if own:
+        raise ConfigError(_called(name), name, problem=_why_not(own[0]))
+    raise ConfigError(_called(name), name, problem="is not the name of a quantity", hint=_meant(name))
 
 
 def record_of(name: str) -> tuple[str, ...]:
     """Return what `run.record` must have for a quantity."""
+    how = measured.measured(name)
+    if how is not None and how.needs not in {"frames", ""}:
+        return (how.needs,)
     return ("gross_work",) if name in _OF_GROSS_WORK else ()
 
 
 def needs_frames(name: str) -> bool:
     """Tell whether a quantity is measured on frames."""
-    return name in _MEASURE_OF
+    how = measured.measured(name)
+    return how is not None and how.needs == "frames"
+
+
+def check(config: "Config", name: str, phase: str | None) -> None:
+    """Refuse, before it is run, a configuration whose run will not have a quantity.
+
+    Raises
+    ------
+    ConfigError
+        Where there is no such phase or part, or too few frames for what is measured on them.
+    """
+    if name in _FACTS:
+        return
+    windows = windows_of(config, name, phase, config.run.duration)
+    counts = {"baffle": config.drum.baffles.count, "rail": config.drum.liner.rail.count}
+    part = re.match(rf"({'|'.join(counts)})_(\d+)_", name)
+    if part is not None and int(part[2]) > counts[part[1]]:
+        raise not_there(config, name)
+    start, end = windows[0]
+    every, slack = config.run.frame_every, 1e-3 * (end - start)
+    if needs_frames(name) and math.floor((end + slack) / every) <= math.ceil((start - slack) / every):
+        limit = f"small enough for two frames from {start:.4g} to {end:.4g} s: {name} is measured on them"
+        raise ConfigError("run.frame_every", every, limit)
+
+
+def windows_of(config: "Config", name: str, phase: str | None, ended: float) -> list[Window]:
+    """Return the windows over which a quantity is taken of a run that has ended at a time.
+
+    Raises
+    ------
+    ConfigError
+        Where there is no such phase, or the quantity is not that of one, or of nothing else.
+    """
+    if phase is None:
+        if name in _OF_PHASES:
+            raise ConfigError(_called(name), name, problem="is that of a phase", hint=f"write {name}[PHASE]")
+        return [config.run.averaging_window]
+    called, intervals, how = _called(f"{name}[{phase}]"), config.rotation.intervals, measured.measured(name)
+    if how is not None and not how.has_window:
+        problem = f"is that of a whole run from t = 0 on, not of a phase: {how.needs!r} adds up all of it"
+        raise ConfigError(called, phase, problem=problem)
+    if not intervals:
+        raise ConfigError(called, phase, problem="is that of a phase, but the run has no rotation.phase")
+    wanted = [each for each in intervals if each.name == phase]
+    if not wanted and phase.isdigit() and 0 < int(phase) <= len(intervals):
+        wanted = [intervals[int(phase) - 1]]
+    windows = [(each.start, min(each.end, ended)) for each in wanted if each.start < ended]
+    if not windows:
+        known = ", ".join(dict.fromkeys(each.name for each in intervals))
+        limit = f"in a phase that the run has gone through: {known}"
+        raise ConfigError(called, phase, problem=f"must be {limit}")
+    return windows
+
+
+def not_there(config: "Config", name: str) -> ConfigError:
+    """Return the error that the drum of a run does not have the part that a quantity is of."""
+    problem = f"is of a part that the drum of this run does not have ({config.drum.fittings})"
+    return ConfigError(_called(name), name, problem=problem)
+
+
+def _why_not(quantity: registry.Quantity) -> str:
+    """Say why a quantity is no target."""
+    if quantity.reading == "error":
+        return f"is the error of {quantity.name.removesuffix('_error')}, which comes with it"
+    if quantity.name in COLUMNS:
+        return "is a column of frames, not a number of a run"
+    return "tells how a run was made or how steady it was, not what it does"
 
 
 def _meant(name: str) -> str:
@@ -167,11 +183,16 @@ class Readings:
     ----------
     result
         The run.
+
+    Attributes
+    ----------
+    result : Result
+        The run.
     """
 
     def __init__(self, result: "Result") -> None:
-        self._result = result
-        self._measured = cache(lambda measured, window: measured.of(result, window))
+        self.result = result
+        self._measured = cache(lambda how, window: how.of(result, window))
         self._rows = cache(lambda window: SeriesWindow.of(result.series, window).rows)
         self._mass = cache(lambda: mass_of(result.config, result.series))
 
@@ -187,45 +208,32 @@ class Readings:
             Where the run has no such phase, or not recorded what the quantity is made of.
         """
         for record in record_of(name):
-            if record not in self._result.config.run.record:
+            if record not in self.result.config.run.record:
                 problem = f"lacks {record!r}, which {name} is made of"
                 raise ConfigError("run.record", problem=problem, hint=f"add {record!r} to it and run again")
         if name in _FACTS:
             return self._fact(name)
-        if phase is None:
-            if name in _OF_PHASES:
-                problem = "is that of a phase"
-                raise ConfigError(_called(name), name, problem=problem, hint=f"write {name}[PHASE]")
-            return self._over(name, self._result.config.run.averaging_window)
-        windows = self._windows(name, phase)
+        windows = windows_of(self.result.config, name, phase, float(self.result.series["time"][-1]))
         means = [self._over(name, window) for window in windows]
         return _together(means, windows, registry.quantity(name).reading, name)
 
-    def _windows(self, name: str, phase: str) -> list[Window]:
-        intervals = self._result.config.rotation.intervals
-        if not intervals:
-            problem = "is that of a phase, but the run has no rotation.phase"
-            raise ConfigError(_called(f"{name}[{phase}]"), phase, problem=problem)
-        wanted = [each for each in intervals if each.name == phase]
-        if not wanted and phase.isdigit() and 0 < int(phase) <= len(intervals):
-            wanted = [intervals[int(phase) - 1]]
-        ended = float(self._result.series["time"][-1])
-        windows = [(each.start, min(each.end, ended)) for each in wanted if each.start < ended]
-        if not windows:
-            known = ", ".join(dict.fromkeys(each.name for each in intervals))
-            limit = f"in a phase that the run has gone through: {known}"
-            raise ConfigError(_called(f"{name}[{phase}]"), phase, problem=f"must be {limit}")
-        return windows
-
     def _fact(self, name: str) -> Mean:
-        config, summary = self._result.config, self._result.summary
+        config, summary = self.result.config, self.result.summary
         found = getattr(summary, name) if hasattr(summary, name) else getattr(config.derived, name)
         return Mean(math.nan if found is None else float(found), 0.0)
 
     def _over(self, name: str, window: Window) -> Mean:
-        measured = _MEASURE_OF.get(name)
-        found = self._of_series(name, window) if measured is None else self._measured(measured, window)[name]
-        return found if found is not None else Mean(math.nan, None)
+        how = measured.measured(name)
+        found = self._of_series(name, window) if how is None else self._of_measures(how, name, window)
+        if found is None:
+            return Mean(math.nan, None)
+        return found if isinstance(found, Mean) else Mean(found, None)
+
+    def _of_measures(self, how: measured.Measured, name: str, window: Window) -> Mean | float | None:
+        means: Means = self._measured(how, window)
+        if name not in means:
+            raise not_there(self.result.config, name)
+        return means[name]
 
     def _of_series(self, name: str, window: Window) -> Mean | None:
         rows = self._rows(window)
@@ -245,15 +253,23 @@ class Readings:
                 return self._of_load(power) if name == f"{flow}_specific_power" else power
         if name in rows.columns:
             return self._of_column(name, window)
-        summary = summary_of_rows(self._result.config, rows, self._mass())
+        summary = summary_of_rows(self.result.config, rows, self._mass())
         if name not in summary:
-            problem = f"is not in the series of this run ({self._result.config.drum.fittings})"
-            raise ConfigError(_called(name), name, problem=problem)
+            raise not_there(self.result.config, name)
         value = summary[name]
-        return None if value is None else Mean(value, None)
+        return None if value is None else Mean(value, self._error_of_sum(name, window))
+
+    def _error_of_sum(self, name: str, window: Window) -> float | None:
+        """Return the error of what the summary adds up from columns of the series; `None` where it does not."""
+        if name == "energy_balance_power":
+            return self._rate("drum_work", window).error  # the same power by another way
+        rows = SeriesWindow.of(self.result.series, window)
+        terms = _SUMS.get(name, ())
+        columns = [rows.column(column)[1:] for column in rows.rows.columns if column.endswith(terms)]
+        return mean_with_error(sum(columns), rows.interval).error if columns else None
 
     def _of_column(self, name: str, window: Window) -> Mean:
-        rows = SeriesWindow.of(self._result.series, window)
+        rows = SeriesWindow.of(self.result.series, window)
         reading = registry.quantity(name).reading
         if reading == "cumulative":
             return self._rate(name, window, window[1] - window[0])
@@ -263,7 +279,7 @@ class Readings:
         return mean_with_error(values, rows.interval)
 
     def _rate(self, energy: str, window: Window, factor: float = 1.0) -> Mean:
-        return _scaled(rate_with_error(self._result.series, energy, window), factor)
+        return _scaled(rate_with_error(self.result.series, energy, window), factor)
 
     def _of_load(self, mean: Mean) -> Mean:
         return _scaled(mean, 1.0 / self._mass())

@@ -155,6 +155,20 @@ class Model:
             gained += (gains * possible).max() > (tolerance * before if relative else tolerance)
         return gained / len(drawn)
 
+    @cached_property
+    def uncertainty_of_front(self) -> float:
+        """Return the standard error of the hypervolume of the points known, over itself: what the noise of runs leaves.
+
+        The rule to stop does not take it into account: many gains below it add up. It says whether longer runs, which
+        are less noisy, would help more than further ones.
+        """
+        points = self.points[self.ranked]
+        features, rng = self.space.features(points), np.random.default_rng(len(self.points))
+        with one_thread():
+            drawn = [one.sample(features, _DRAWN, rng) for one in self.emulators[: self.objectives]]
+        volumes = [hypervolume(values, self.reference) for values in np.stack(drawn, axis=-1)]
+        return float(np.std(volumes) / (np.mean(volumes) or 1.0))
+
     def _optimistic(self, points: Array) -> Array:
         means, errors = self.predict(points)
         optimistic: Array = (means - errors)[:, : self.objectives]

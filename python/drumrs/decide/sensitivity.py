@@ -231,12 +231,15 @@ def _indices(values: Array, noise: float) -> Array:
     variance = float(values[:2].var())
     if not variance > 0.0:
         return np.full(2 * (len(values) - 2) + 1, 0.0)
-    function: Any = {"f_A": values[[0]], "f_B": values[[1]], "f_AB": values[2:, None]}
+    # A single factor counts twice, for scipy must have two.
+    keys = len(values) - 2
+    changed = values[2:, None] if keys > 1 else np.repeat(values[2:, None], 2, axis=0)
+    function: Any = {"f_A": values[[0]], "f_B": values[[1]], "f_AB": changed}
     raw = sobol_indices(func=function, n=count)
     # Never below a hundredth: where nothing but noise is left, there is nothing to divide by.
     signal = max(variance - noise, 0.01 * variance)
-    first = np.ravel(raw.first_order) * variance / signal
-    total = (np.ravel(raw.total_order) * variance - noise) / signal
+    first = np.ravel(raw.first_order)[:keys] * variance / signal
+    total = (np.ravel(raw.total_order)[:keys] * variance - noise) / signal
     return np.concatenate([first, total, [min(noise / variance, 1.0)]])
 
 

@@ -9,11 +9,13 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, NamedTuple
 
 from drumrs.analysis import Estimate, Mean, estimate
-from drumrs.decide.readings import Readings, find, needs_frames, record_of
+from drumrs.decide.readings import Readings, check, find, needs_frames, record_of
+from drumrs.decide.readings import names as quantity_names
 from drumrs.decide.units import PLAIN, Unit, format_unit, parse_unit, product
 from drumrs.errors import ConfigError
 
 if TYPE_CHECKING:
+    from drumrs.config import Config
     from drumrs.result import Result
 
 _OPERATORS: Mapping[type[ast.AST], Callable[[float, float], float]] = MappingProxyType(
@@ -42,6 +44,19 @@ class Name(NamedTuple):
     phase: str | None = None
 
 
+class Own(NamedTuple):
+    """A measure of one's own: the function, what `run.record` must have, whether it needs frames."""
+
+    measure: "Callable[[Result], Mean | float | None]"
+    record: tuple[str, ...]
+    needs_frames: bool
+
+    def mean(self, result: "Result") -> Mean:
+        """Return what the function gives for a run."""
+        found = self.measure(result)
+        return found if isinstance(found, Mean) else Mean(math.nan if found is None else float(found), None)
+
+
 @dataclass(frozen=True)
 class Target:
     """A quantity of a run, or an expression of several, with its statistical error.
@@ -56,6 +71,8 @@ class Target:
         The quantities in it, each over the window of the averages or in a phase.
     unit
         Unit; "1" for a plain number.
+    own
+        How a measure of your own is made, see `Target.of`; `None` of an expression.
 
     Examples
     --------
@@ -74,6 +91,7 @@ class Target:
     names: tuple[Name, ...]
     unit: str
     _tree: ast.expr = field(repr=False, compare=False)
+    own: Own | None = None
 
     @classmethod
     def parse(cls, text: "str | Target") -> "Target":
@@ -111,6 +129,52 @@ class Target:
             raise ConfigError("target", text, "of at least one quantity")
         return cls(str(text).strip(), names, format_unit(_unit_of(tree)), tree)
 
+    @classmethod
+    def of(
+        cls,
+        name: str,
+        measure: "Callable[[Result], Mean | float | None]",
+        unit: str = "1",
+        *,
+        record: Sequence[str] = (),
+        needs_frames: bool = False,
+    ) -> "Target":
+        """Make a target of a function, such as one of `drumrs.measures` with arguments of your own.
+
+        Parameters
+        ----------
+        name
+            What it is called, a name as variables of Python have.
+        measure
+            From a finished run to a number, with its error where it is a `Mean`; `None` where the run has none.
+        unit
+            Its unit.
+        record
+            What `run.record` must have for it.
+        needs_frames
+            Whether it is measured on frames.
+
+        Raises
+        ------
+        ConfigError
+            Where the name is none, or that of a quantity.
+
+        Examples
+        --------
+        >>> import drumrs
+        >>> from drumrs import measures
+        >>> from drumrs.decide import Target
+        >>> peak = Target.of("lift", lambda run: measures.peak_factor(run.series, "rim_force_y", (0.2, 0.5)))
+        >>> result = drumrs.run(drumrs.baseline(fill=0.1).replace({"run.duration": 0.5}), progress=False)
+        >>> peak(result).mean > 1.0
+        True
+        """
+        if not name.isidentifier() or name in quantity_names():
+            limit = "a name such as those of quantities, and not one of them"
+            raise ConfigError("the name of a target", name, limit)
+        own = Own(measure, tuple(record), needs_frames)
+        return cls(name, (Name(name),), unit, ast.Name(name), own)
+
     def __str__(self) -> str:
         """Return the expression as it was given."""
         return self.text
@@ -130,12 +194,30 @@ class Target:
     @property
     def records(self) -> tuple[str, ...]:
         """What `run.record` of a run must have."""
+        if self.own is not None:
+            return self.own.record
         return tuple(dict.fromkeys(record for name in self.names for record in record_of(name.quantity)))
 
     @property
     def needs_frames(self) -> bool:
         """Whether it is measured on frames."""
+        if self.own is not None:
+            return self.own.needs_frames
         return any(needs_frames(name.quantity) for name in self.names)
+
+    def check(self, config: "Config") -> None:
+        """Refuse, before it is run, a configuration whose run will not have the target.
+
+        Raises
+        ------
+        ConfigError
+            Where it keeps too few frames, or has no such phase or part.
+        """
+        if self.needs_frames and not config.run.frame_every < config.run.duration:
+            limit = f"smaller than run.duration = {config.run.duration}: {self} is measured on frames"
+            raise ConfigError("run.frame_every", config.run.frame_every, limit)
+        for name in self.names if self.own is None else ():
+            check(config, *name)
 
     def mean(self, result: "Result | Readings") -> Mean:
         """Return the value of one run with its standard error, as its blocks tell.
@@ -160,6 +242,8 @@ class Target:
             Where the run has not recorded what the target needs, or has no such phase.
         """
         readings = result if isinstance(result, Readings) else Readings(result)
+        if self.own is not None:
+            return self.own.mean(readings.result)
         found = {name: readings.mean(*name) for name in self.names}
         values = {name: mean.value for name, mean in found.items()}
         return Mean(self._at(values), self._error(found, values))

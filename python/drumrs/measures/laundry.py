@@ -223,3 +223,37 @@ def knocking_and_rubbing(
         )
         for name, rows in taken.items()
     }
+
+
+def received_spread(discs: "pl.DataFrame | None") -> float:
+    """Return how unlike discs fare: the standard deviation over discs of what they received per mass, over its mean.
+
+    Parameters
+    ----------
+    discs
+        ``result.discs``.
+
+    Returns
+    -------
+    float
+        0 where all received the same per mass, 1 where as much scatters as there is; not a number where none received
+        anything.
+
+    Raises
+    ------
+    ConfigError
+        Where it was not recorded.
+
+    Examples
+    --------
+    >>> import polars as pl
+    >>> from drumrs.measures import received_spread
+    >>> received_spread(pl.DataFrame({"mass": [1.0, 2.0], "received_normal": [1.0, 6.0]}))
+    0.5
+    """
+    import polars as pl
+
+    table = required(discs, "discs", "how unlike discs fare")
+    energies = table.select(pl.sum_horizontal(pl.col("^received_.*$"))).to_series()
+    received = (energies / table["mass"]).to_numpy()
+    return float(received.std() / received.mean()) if received.any() else math.nan

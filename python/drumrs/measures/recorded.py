@@ -1,4 +1,4 @@
-"""What a measure says where its record is missing."""
+"""What measures of records share: what they say where theirs is missing, and the names of the drum's parts."""
 
 from typing import TYPE_CHECKING
 
@@ -29,3 +29,8 @@ def required(table: "pl.DataFrame | None", record: str, measure: str) -> "pl.Dat
         problem = f"lacks {record!r}, needed for {measure}"
         raise ConfigError("run.record", problem=problem, hint=f"add {record!r} to it and run again")
     return table
+
+
+def part_names(parts: "pl.Series") -> list[str]:
+    """Return the names of all parts of the drum as quantities begin with them, such as "baffle_1"."""
+    return [name.replace(" ", "_") for name in parts.dtype.categories]  # type: ignore[attr-defined]  # an Enum

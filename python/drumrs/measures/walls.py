@@ -4,6 +4,7 @@ Laws of wear have a coefficient that somebody must have measured. Without one, w
 amount cannot.
 """
 
+import math
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -11,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from drumrs.analysis.blocks import Array
 from drumrs.errors import ConfigError
-from drumrs.measures.recorded import required
+from drumrs.measures.recorded import part_names, required
 
 if TYPE_CHECKING:
     import polars as pl
@@ -74,6 +75,51 @@ def wear(
         .with_columns(wear_depth=volume / length)
         .with_columns(relative_wear=depth / (volume.sum() / length.sum()))
     )
+
+
+def wear_of_parts(wall_profile: "pl.DataFrame | None", turns: float) -> dict[str, float]:
+    """Return the wear of the drum and of each part of it in a turn, without a coefficient, and how uneven it is.
+
+    Parameters
+    ----------
+    wall_profile
+        ``result.wall_profile``.
+    turns
+        Turns of the drum over which it was recorded; 0 leaves no number.
+
+    Returns
+    -------
+    dict
+        By name of the registry: ``archard_wear`` and ``finnie_wear`` [J/m], which the coefficients of `wear` make
+        volumes of, and likewise of each part, such as ``rim_archard_wear``; ``wear_peak``, the greatest
+        ``relative_wear`` by Archard, of bins as wide as ``run.arc_bin``.
+
+    Raises
+    ------
+    ConfigError
+        Where the profile was not recorded.
+
+    Examples
+    --------
+    >>> import polars as pl
+    >>> from drumrs.measures import wear_of_parts
+    >>> parts = pl.Series("part", ["rim", "wall 1"], pl.Enum(["rim", "wall 1"]))
+    >>> profile = pl.DataFrame([parts, pl.Series("arc_start", [0.0, 0.0]), pl.Series("arc_end", [0.3, 0.1])])
+    >>> profile = profile.with_columns(normal_force_slip=2.0, finnie=0.5)
+    >>> worn = wear_of_parts(profile, turns=2.0)
+    >>> worn["archard_wear"], worn["wall_1_finnie_wear"], worn["wear_peak"]
+    (2.0, 0.25, 2.0)
+    """
+    profile = required(wall_profile, "wall_profile", "wear")
+    at_part, names = profile["part"].to_physical(), part_names(profile["part"])
+    kinds = {"": profile, **{f"{name}_": profile.filter(at_part == k) for k, name in enumerate(names)}}
+    found = {
+        f"{kind}{law}_wear": float(rows[column].sum()) / turns if turns else math.nan
+        for kind, rows in kinds.items()
+        for law, column in _LAWS.items()
+    }
+    relative = wear(profile)["relative_wear"].to_numpy()
+    return {**found, "wear_peak": float(relative.max()) if len(relative) else math.nan}
 
 
 def finnie_f(angle: ArrayLike) -> Array:

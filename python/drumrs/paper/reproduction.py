@@ -1,11 +1,9 @@
 """The paper's study in one go: cases, runs, table, verdicts, figures, report; taken up again after any break."""
 
 import time
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
-from drumrs.config import baseline
 from drumrs.paper.cases import cases
 from drumrs.paper.data import StudyData
 from drumrs.paper.measure import measure
@@ -13,16 +11,11 @@ from drumrs.paper.report import Picture, summary, write
 from drumrs.paper.scales import Scale
 from drumrs.progress import Task
 from drumrs.registry import known, metadata
-from drumrs.simulation import Simulation
 from drumrs.sweep import Failure
 from drumrs.sweep.study_folder import StudyFolder
+from drumrs.sweep.throughput import measure_speed
 from drumrs.tables import write_table
 
-# What the speed is measured on: a load that costs as much a particle-step as those of the study on average, once it
-# has fallen and lies in contact.
-_TRIAL_FILL = 0.5
-_SETTLING = 0.3  # simulated seconds
-_TRIAL = 0.25  # seconds of the wall clock
 # What a reproduction writes into its folder.
 _FILES = ("report.html", "summary.md", "table.parquet", "figures")
 # Reading results, drawing and writing the report: so long at least, and so long for each case [s].
@@ -131,24 +124,3 @@ class Reproduction(StudyFolder):
         pictures = write(data, page, self.folder / "figures")
         summary.write(data, pictures.figures, pictures.thumbnails, text)
         return ReproductionResult(data, page, text, self.folder / "table.parquet", pictures.figures)
-
-
-def measure_speed(jobs: int) -> float:
-    """Return the particle-steps a second that so many runs at once make together, measured for a moment.
-
-    Examples
-    --------
-    >>> from drumrs.paper.reproduction import measure_speed
-    >>> measure_speed(1) > 1e5
-    True
-    """
-    with ThreadPoolExecutor(jobs) as pool:
-        return sum(pool.map(_speed, range(1, jobs + 1)))
-
-
-def _speed(seed: int) -> float:
-    simulation = Simulation(baseline(_TRIAL_FILL, baffles=True), seed=seed)
-    simulation.run(duration=_SETTLING)
-    first, began = simulation.step, time.perf_counter()
-    simulation.run_to_step(simulation.last_step, wall_limit=_TRIAL)
-    return (simulation.step - first) * simulation.count / (time.perf_counter() - began)

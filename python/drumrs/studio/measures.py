@@ -1,5 +1,6 @@
 """What the page says beside the drum: means since the last change, each with its error, as they build up."""
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
@@ -8,15 +9,17 @@ import numpy as np
 
 from drumrs.analysis.blocks import Mean, rate_with_error
 from drumrs.frames import SHAPED, Frames
-from drumrs.measures import flight, mixed_in_a_turn
 from drumrs.registry import quantity
+from drumrs.reports.content import value
 from drumrs.result import Summary, with_error
+from drumrs.studio.trades import Load, means_of
 from drumrs.viewer.curves import panels_of_series
-from drumrs.viewer.recording import end_of_scale, packed_panel
+from drumrs.viewer.recording import end_of_force_scale, end_of_scale, packed_panel
 
 if TYPE_CHECKING:
     import polars as pl
 
+    from drumrs.config import Config
     from drumrs.simulation import Simulation
 
 # Frames kept for measures of motion: those of the last so many seconds, and no more bundles times frames than that.
@@ -26,8 +29,6 @@ _MOST_PLACES = 400_000
 _SETTLING = 1.0 / 3.0
 # Fewer samples tell nothing.
 _FEWEST = 10
-# Mixing follows neighbors from so many frames on, and from fewer where the load is large; none where it is very large.
-_MOST_STARTS, _MOST_PAIRS = 120, 50_000_000
 
 
 @dataclass
@@ -61,6 +62,10 @@ class Sample:
 
     Attributes
     ----------
+    config
+        The configuration.
+    trade
+        Whose measures are wanted, a key of `TRADES`.
     series
         The series since the start.
     frames
@@ -71,18 +76,21 @@ class Sample:
         Averages over it, where it holds enough samples for any.
     """
 
+    config: "Config"
+    trade: str
     series: "pl.DataFrame"
     frames: Frames | None
     window: tuple[float, float]
     summary: Summary | None
 
     @classmethod
-    def of(cls, simulation: "Simulation", recent: RecentFrames, since: float) -> "Sample":
+    def of(cls, simulation: "Simulation", trade: str, recent: RecentFrames, since: float) -> "Sample":
         """Take the sample of the time from a start, or from the end of a change of speed, to now."""
         time = simulation.time
         window = (since + _SETTLING * (time - since), time)
         enough = window[1] - window[0] >= _FEWEST * simulation.config.run.sample_every
-        return cls(simulation.series, recent.frames, window, simulation.summary(window) if enough else None)
+        summary = simulation.summary(window) if enough else None
+        return cls(simulation.config, trade, simulation.series, recent.frames, window, summary)
 
     def measures(self) -> dict[str, Any]:
         """Return the tiles and curves of the page, ready for JSON."""
@@ -92,6 +100,7 @@ class Sample:
             "tiles": [_tile(name, mean) for name, mean in self._means()],
             "panels": [packed_panel(panel) for panel in panels_of_series(self.series)],
             "speedScale": end_of_scale(speeds),
+            "forceScale": None if self.frames is None else end_of_force_scale(self.config, self.frames),
         }
 
     def _means(self) -> Iterator[tuple[str, Mean | None]]:
@@ -104,15 +113,8 @@ class Sample:
             Mean(summary.drum_specific_power, summary.drum_specific_power_error),
         )
         yield "energy_residual", Mean(summary.energy_residual, None)
-        if self.frames is None or len(inside := _within(self.frames, window)) < _FEWEST:
-            return
-        seen = (float(inside.times[0]), float(inside.times[-1]))
-        flown = flight(inside, seen)
-        yield from ((name, flown[name]) for name in ("falls_per_turn", "mean_drop", "share_in_flight"))
-        most = min(_MOST_STARTS, _MOST_PAIRS // inside.count**2)
-        if most >= _FEWEST:
-            few = inside.picked(slice(None, None, -(-len(inside) // most)))
-            yield "mixed_in_a_turn", mixed_in_a_turn(few, (float(few.times[0]), float(few.times[-1])))
+        if self.frames is not None and len(inside := _within(self.frames, window)) >= _FEWEST:
+            yield from means_of(self.trade, Load(self.config, inside)).items()
 
 
 def _within(frames: Frames, window: tuple[float, float]) -> Frames:
@@ -121,14 +123,18 @@ def _within(frames: Frames, window: tuple[float, float]) -> Frames:
 
 
 def _tile(name: str, mean: Mean | None) -> dict[str, Any]:
-    """Return a mean with what it is called and how it is written."""
+    """Return a mean with what it is called and how it is written; angles are in degrees."""
     about = quantity(name)
-    if mean is None:
-        text = "–"
-    elif name == "energy_residual":
-        text = f"{mean.value:.1e}"
-    else:
-        text = with_error(mean.value, mean.error)
-    value = None if mean is None else mean.value
-    unit = "" if about.unit == "1" else about.unit
-    return {"name": name, "value": value, "text": text, "unit": unit, "meaning": about.meaning}
+    unit, factor = ("°", math.degrees(1.0)) if about.unit == "rad" else (about.unit, 1.0)
+    number = factor * mean.value if mean and math.isfinite(mean.value) else None
+    error = factor * mean.error if mean and mean.error else None
+    return {
+        "name": name,
+        "value": number,
+        # A small number with a large error is best told by the error's digits.
+        "text": with_error(number, error)
+        if number and error and abs(number) < 1.0
+        else value(number, error, 3),
+        "unit": "" if unit == "1" else unit,
+        "meaning": about.meaning,
+    }

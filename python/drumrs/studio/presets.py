@@ -6,6 +6,8 @@ from drumrs.config import Config, baseline
 from drumrs.errors import ConfigError
 
 BASELINE = "baseline"
+# Machines that are not looked at as washers are.
+_TRADES = {"dryer": "dryer", "ball-mill": "mill", "sag-mill": "mill", "coater": "coater", "mixer": "coater"}
 _TEMPLATES = files("drumrs") / "templates"
 
 
@@ -23,6 +25,18 @@ def presets() -> dict[str, str]:
         heading, _, _ = each.joinpath("README.md").read_text(encoding="utf-8").partition("\n")
         found[each.name] = heading.removeprefix("# ")
     return found
+
+
+def trade_of(name: str) -> str:
+    """Return the trade that a machine is of, a key of `TRADES`; the washer's for cases of one's own.
+
+    Examples
+    --------
+    >>> from drumrs.studio.presets import trade_of
+    >>> trade_of("sag-mill")
+    'mill'
+    """
+    return _TRADES.get(name, "washer")
 
 
 def preset(name: str) -> Config:

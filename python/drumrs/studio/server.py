@@ -1,29 +1,24 @@
 """The server of the studio: one page, and one WebSocket by which the page asks and is told.
 
-The page asks for the next picture when it has drawn one, and gets the newest: nothing is queued, so a page that is slow
-or stands still costs nothing. Only this machine can connect, only with the token that is in the page's address, and
-only from that page.
-
-From the page comes JSON: ``{"do": "frame"}`` asks for the next picture; ``play``, ``pause``, ``step``, ``reset``;
-``rate`` with ``value``, null for as fast as can be; ``speed`` with ``value``; ``set`` with ``key`` and ``value``;
-``preset`` with ``value``; ``case`` with ``value``, ``"toml"`` or ``"python"``. To the page goes JSON with a ``kind``:
-``start``, ``state``, ``measures``, ``case``, ``error``; and pictures as bytes.
+Only this machine can connect, only with the token that is in the page's address, and only from that page. What is said
+is that of `responder`: objects as JSON, pictures as bytes.
 """
 
 import asyncio
 import contextlib
 import json
-import math
 import secrets
 import socket
+import sys
 from collections.abc import AsyncIterator, Callable
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from drumrs.errors import ConfigError, DrumrsError, missing_package
-from drumrs.studio.controls import controls
 from drumrs.studio.page import page
-from drumrs.studio.presets import preset, presets
-from drumrs.studio.session import Session, View
+from drumrs.studio.responder import Responder, picture, wants_forces, wants_picture
+from drumrs.studio.session import Session
+from drumrs.studio.view import View
 
 try:
     import uvicorn
@@ -43,8 +38,27 @@ HOST = "127.0.0.1"
 _LONGEST_MESSAGE = 10_000
 # How long to wait for a picture before looking whether the page is still there [s].
 _PATIENCE = 1.0
+# Threads of Python wait for one another no longer than this [s], so that pictures need not wait for measures; it is a
+# fifth of what they do unless told.
+_SWITCH = 0.001
 # Why a WebSocket is closed that has no right to be there.
 _FORBIDDEN = 1008
+
+
+@dataclass
+class Wanted:
+    """What a page waits for.
+
+    Attributes
+    ----------
+    frame
+        Set while it waits for a picture.
+    forces
+        Whether the picture is to come with the forces at its contacts.
+    """
+
+    frame: asyncio.Event = field(default_factory=asyncio.Event)
+    forces: bool = False
 
 
 class Server:
@@ -67,12 +81,8 @@ class Server:
 
     def __init__(self, session: Session, name: str = "", port: int = 0) -> None:
         self.session = session
-        self._first = (name, session.view.config)
-        self._preset = name
+        self._responder = Responder(session, name)
         self._token = secrets.token_urlsafe(16)
-        self._pages, self._was_playing = 0, session.view.playing
-        # Without anybody who looks it stands still.
-        session.pause()
         self._socket = socket.socket()
         self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         try:
@@ -113,7 +123,12 @@ class Server:
             timeout_graceful_shutdown=1,
         )
         self._uvicorn = uvicorn.Server(config)
-        self._uvicorn.run(sockets=[self._socket])
+        before = sys.getswitchinterval()
+        sys.setswitchinterval(_SWITCH)
+        try:
+            self._uvicorn.run(sockets=[self._socket])
+        finally:
+            sys.setswitchinterval(before)
 
     def stop(self) -> None:
         """End `serve`; safe from any thread."""
@@ -146,8 +161,8 @@ class Server:
             await socket.close(_FORBIDDEN)
             return
         await socket.accept()
-        await self._come(1)
-        wanted = asyncio.Event()
+        await asyncio.to_thread(self._responder.come)
+        wanted = Wanted()
         sender = asyncio.create_task(self._send_frames(socket, wanted))
         try:
             while True:
@@ -159,132 +174,50 @@ class Server:
             pass
         finally:
             sender.cancel()
-            await self._come(-1)
+            await asyncio.to_thread(self._responder.leave)
 
-    async def _come(self, more: int) -> None:
-        """Let the simulation go on where there is somebody to see it, and stand still where nobody is left."""
-        before, self._pages = self._pages, self._pages + more
-        session = self.session
-        with contextlib.suppress(DrumrsError):
-            if before == 0 and self._was_playing:
-                await asyncio.to_thread(session.play)
-            elif self._pages == 0:
-                self._was_playing = session.view.playing
-                await asyncio.to_thread(session.pause)
-
-    async def _send_frames(self, socket: "WebSocket", wanted: asyncio.Event) -> None:
+    async def _send_frames(self, socket: "WebSocket", wanted: "Wanted") -> None:
         """Send the newest picture whenever one is wanted, and what has changed beside it."""
         known: View | None = None
+
+        def next_picture() -> tuple[View, bytes]:
+            number = -1 if known is None else known.number
+            view = self.session.wait(number, _PATIENCE)
+            if view.number == number:
+                return view, b""
+            return view, picture(view, forces=wanted.forces)
+
         with contextlib.suppress(WebSocketDisconnect, RuntimeError):
             while True:
-                await wanted.wait()
-                number = -1 if known is None else known.number
-                view = await asyncio.to_thread(self.session.wait, number, _PATIENCE)
-                if view.number == number:
+                await wanted.frame.wait()
+                view, shown = await asyncio.to_thread(next_picture)
+                if not shown:
                     continue
-                wanted.clear()
-                for told in self._news(view, known):
+                wanted.frame.clear()
+                for told in self._responder.news(view, known):
                     await socket.send_text(json.dumps(told))
-                await socket.send_bytes(view.frame)
+                await socket.send_bytes(shown)
                 known = view
 
-    def _news(self, view: View, known: View | None) -> list[dict[str, Any]]:
-        """Return what the page does not know yet."""
-        news: list[dict[str, Any]] = []
-        if known is None or known.start != view.start:
-            choices = {self._first[0]: self._first[0]} | presets()
-            news.append(
-                {
-                    "kind": "start",
-                    "number": view.start,
-                    "scene": view.scene,
-                    "controls": controls(view.config, view.speed),
-                    "presets": choices,
-                    "preset": self._preset,
-                }
-            )
-        state = _state(view)
-        if known is None or _state(known) != state:
-            news.append({"kind": "state", **state})
-        if view.measures and (known is None or known.measures != view.measures or len(news) > 1):
-            news.append({"kind": "measures", **view.measures})
-        return news
-
-    async def _hear(self, socket: "WebSocket", text: str | None, wanted: asyncio.Event) -> None:
+    async def _hear(self, socket: "WebSocket", text: str | None, wanted: "Wanted") -> None:
         """Do what the page asks for; say so where that cannot be."""
-        try:
-            asked = _parse(text)
-            if asked["do"] == "frame":
-                wanted.set()
-                return
-            answer = await asyncio.to_thread(self._do, asked)
-        except DrumrsError as error:
-            answer = {"kind": "error", "text": f"{error}"}
+        asked = _read(text)
+        if wants_picture(asked):
+            wanted.frame.set()
+            return
+        if (forces := wants_forces(asked)) is not None:
+            wanted.forces = forces
+            with contextlib.suppress(DrumrsError):
+                await asyncio.to_thread(self.session.show)
+            return
+        answer = await asyncio.to_thread(self._responder.answer, asked)
         if answer is not None:
             await socket.send_text(json.dumps(answer))
 
-    def _do(self, asked: dict[str, Any]) -> dict[str, Any] | None:
-        session, value = self.session, asked.get("value")
-        match asked["do"]:
-            case "play":
-                session.play()
-            case "pause":
-                session.pause()
-            case "step":
-                session.advance(1)
-            case "reset":
-                session.reset()
-            case "rate":
-                session.set_rate(math.inf if value is None else _number("rate", value))
-            case "speed":
-                session.set_speed(_number("speed", value))
-            case "set":
-                # Lists and tables are for case files.
-                session.change({str(asked.get("key")): _number(str(asked.get("key")), value)})
-            case "preset":
-                name, config = self._first
-                chosen = config if value == name else preset(str(value))
-                self._preset = str(value)
-                session.load(chosen)
-            case "case":
-                return {"kind": "case", "as": value, "text": case_text(session.case(), str(value))}
-            case unknown:
-                raise ConfigError("do", unknown, "what a page of drumrs studio asks for")
-        return None
 
-
-def case_text(config: Any, kind: str) -> str:
-    """Return a case as a file, ``"toml"``, or as a script, ``"python"``."""
-    toml: str = config.to_toml(comments=False)
-    if kind == "toml":
-        return toml
-    if kind == "python":
-        return f'import drumrs\n\nconfig = drumrs.Config.from_toml("""\n{toml}""")\nresult = drumrs.run(config)\n'
-    raise ConfigError("as", kind, "'toml' or 'python'")
-
-
-def _state(view: View) -> dict[str, Any]:
-    return {
-        "title": view.title,
-        "facts": view.facts,
-        "playing": view.playing,
-        "rate": view.rate if math.isfinite(view.rate) else None,
-        "speed": view.speed,
-        "said": list(view.said),
-    }
-
-
-def _parse(text: str | None) -> dict[str, Any]:
+def _read(text: str | None) -> Any:
+    """Return what a text says; `None` where it is no JSON."""
     try:
-        asked = json.loads(text or "")
+        return json.loads(text or "")
     except (ValueError, RecursionError):
-        asked = None
-    if not isinstance(asked, dict) or not isinstance(asked.get("do"), str):
-        raise ConfigError("what came from the page", problem="is not understood, but must be JSON with 'do'")
-    return asked
-
-
-def _number(what: str, value: Any) -> float:
-    if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
-        raise ConfigError(what, value, "a finite number")
-    return float(value)
+        return None

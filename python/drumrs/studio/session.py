@@ -14,74 +14,34 @@ import warnings
 from collections.abc import Callable, Mapping
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import suppress
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Self, TypeVar
 
 from drumrs.config import Config
 from drumrs.errors import ConfigError, DrumrsError, DrumrsWarning, UnstableError
 from drumrs.simulation import Simulation
 from drumrs.studio.measures import RecentFrames, Sample
-from drumrs.studio.scene import pack_frame, pack_start
+from drumrs.studio.scene import frame_now, pack_start
+from drumrs.studio.trades import TRADES
+from drumrs.studio.view import View
 
 if TYPE_CHECKING:
     import polars as pl
+
+    from drumrs.frames import Frames
 
 T = TypeVar("T")
 
 # Length of the ramp to another speed, in simulated time [s].
 RAMP = 0.1
-# Time of a picture [s], within which steps are done before anything else is looked at.
-_PICTURE = 1.0 / 60.0
+# Time of a picture [s], within which steps are done before anything else is looked at: half of a screen's, so that
+# there is always one that is new.
+_PICTURE = 1.0 / 120.0
 # Measures are made anew after this time [s], and after so many times as long as it took to make the last ones.
-_MEASURE_EVERY, _MEASURE_SHARE = 0.5, 2.0
+_MEASURE_EVERY, _MEASURE_SHARE = 0.5, 3.0
 # What the series of a session may grow to, in simulated time [s]; some tens of megabytes.
 LONGEST = 600.0
 # A simulation that is behind its time by more than this [s] does not try to catch up.
 _LATE = 0.1
-
-
-@dataclass
-class View:
-    """What a session shows: replaced whole by the session's thread, never changed.
-
-    Attributes
-    ----------
-    start
-        Number of the start: it grows with every reset.
-    config
-        With what a reset would start.
-    title, facts
-        Lines that tell this case from others and place it among them, at its present speed.
-    scene
-        Drum, load and title, as `unpack` of recording.js reads them.
-    number
-        Number of the picture.
-    frame
-        The picture, as `pack_frame` makes it.
-    measures
-        Tiles and curves, and "number", which grows; none at first.
-    playing
-        Whether the simulation goes on.
-    rate
-        Simulated seconds in a second that were asked for; infinite for as many as can be.
-    speed
-        Speed of the drum that was asked for last, or with which it started [rpm].
-    said
-        What has been said so far, the last sentence last.
-    """
-
-    start: int
-    config: Config
-    title: str
-    facts: str
-    scene: dict[str, Any]
-    number: int = 0
-    frame: bytes = b""
-    measures: dict[str, Any] = field(default_factory=dict)
-    playing: bool = True
-    rate: float = 1.0
-    speed: float = 0.0
-    said: tuple[str, ...] = ()
 
 
 class Session:
@@ -122,6 +82,7 @@ class Session:
     _factor_from: tuple[float, float]
     _factor: float
     _about: tuple[str, str]
+    _load: "Frames"
     _scene: dict[str, Any]
     _measures: dict[str, Any]
     _measure_at: float
@@ -135,6 +96,7 @@ class Session:
         self._steps_per_second = 0.0
         self._starts = self._pictures = self._measured = 0
         self._said: tuple[str, ...] = ()
+        self._trade = next(iter(TRADES))
         self._measurer = ThreadPoolExecutor(1, "drumrs studio measures")
         self._begin(config)
         self._thread = threading.Thread(target=self._run, name="drumrs studio", daemon=True)
@@ -180,6 +142,18 @@ class Session:
         rate = _checked_rate(rate)
         self._ask(lambda: self._set_rate(rate))
 
+    def set_trade(self, name: str) -> None:
+        """Measure what a trade wants to know: a key of `TRADES`.
+
+        Raises
+        ------
+        ConfigError
+            Where there is no such trade.
+        """
+        if name not in TRADES:
+            raise ConfigError("trade", name, f"one of {', '.join(TRADES)}")
+        self._ask(lambda: self._set_trade(name))
+
     def advance(self, steps: int) -> None:
         """Do so many steps and stand still."""
         self._ask(lambda: self._advance(steps))
@@ -213,6 +187,10 @@ class Session:
     def reset(self) -> None:
         """Start anew, from the same seed and at the present speed."""
         self._ask(lambda: self._restart(self._base, {}))
+
+    def show(self) -> None:
+        """Show the present state once more, as a new picture: for who wants to see more of it."""
+        self._ask(self._show)
 
     def case(self) -> Config:
         """Return the configuration whose run this session is, bit for bit; it lasts as long as the session at least."""
@@ -310,12 +288,15 @@ class Session:
             title=self._about[0],
             facts=self._about[1],
             scene=self._scene,
+            now=frame_now(self._simulation, self._load),
+            spin=self._simulation.drum_angular_velocity,
+            factor=self._factor,
             number=self._pictures,
-            frame=pack_frame(self._simulation, self._starts, self._factor),
             measures=self._measures,
             playing=self._playing,
             rate=self._rate,
             speed=self._speed,
+            trade=self._trade,
             said=self._said,
         )
         with self._changed:
@@ -327,7 +308,7 @@ class Session:
         began, start = time.perf_counter(), self._starts
         # Not again before these are there.
         self._measure_at = math.inf
-        sample = Sample.of(self._simulation, self._recent, self._since)
+        sample = Sample.of(self._simulation, self._trade, self._recent, self._since)
 
         def put(made: Future[dict[str, Any]]) -> None:
             if start != self._starts:
@@ -361,7 +342,8 @@ class Session:
         self._measures = {}
         self._measure_at, self._factor = 0.0, 0.0
         self._starts += 1
-        self._scene = pack_start(simulation)
+        self._load = simulation.records.none()
+        self._scene = pack_start(frame_now(simulation, self._load))
         for sentence in (*(f"Note that {warning}" for warning in simulation.warnings), said):
             if sentence:
                 self._say(sentence)
@@ -383,6 +365,11 @@ class Session:
     def _set_rate(self, rate: float) -> None:
         self._rate = rate
         self._set_clock()
+        self._show()
+
+    def _set_trade(self, name: str) -> None:
+        self._trade = name
+        self._measure()
         self._show()
 
     def _advance(self, steps: int) -> None:

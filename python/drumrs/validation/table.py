@@ -4,15 +4,13 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
+from drumrs.measures import mean_overlap_ratio
 from drumrs.measures.frame_window import FrameWindow
 from drumrs.validation.drum import PublishedDrum
 
 if TYPE_CHECKING:
     import polars as pl
 
-    from drumrs.config import Config
     from drumrs.sweep import Sweep
 
 # What is kept of a run's summary.
@@ -54,7 +52,9 @@ def measure(sweep: "Sweep", folder: Path, drums: Mapping[str, PublishedDrum]) ->
         drum, window = drums[case.id], case.config.run.averaging_window
         series = sweep.series(case, folder)
         row: dict[str, Any] = {"case": case.id, "drum": drum.name}
-        row |= {"mean_overlap_ratio": _mean_overlap(case.config, series)}
+        stiffness, radius = case.config.contact.bundle.normal_stiffness, 0.5 * case.config.load.diameter
+        overlap = mean_overlap_ratio(series, window, stiffness, radius)
+        row |= {"mean_overlap_ratio": overlap.value if overlap else 0.0}
         if case.wants_frames:
             seen = FrameWindow.of(sweep.frames(case, folder), window)
             for name, mean in drum.measures(case.config, seen).items():
@@ -65,12 +65,3 @@ def measure(sweep: "Sweep", folder: Path, drums: Mapping[str, PublishedDrum]) ->
     # A number that is none is null, as everywhere in tables.
     measures = pl.DataFrame(rows, infer_schema_length=None).with_columns(pl.selectors.float().fill_nan(None))
     return measures.join(table, on="case", how="left", maintain_order="left")
-
-
-def _mean_overlap(config: "Config", series: "pl.DataFrame") -> float:
-    """Return the root mean square of the overlaps over the radius, from the energy in the normal springs."""
-    start, end = config.run.averaging_window
-    within = series.filter(series["time"].is_between(start, end))
-    energy, count = within["elastic_normal"].to_numpy().sum(), within["contact_count"].to_numpy().sum()
-    stiff = config.contact.bundle.normal_stiffness
-    return float(np.sqrt(2.0 * energy / (stiff * max(count, 1))) / (config.load.diameter / 2.0))

@@ -35,6 +35,8 @@ def spectrum() -> Evidence:
         {
             "duration": np.where(np.arange(_BOUNCES) % 2, 1e-3, 5e-3),
             "particle": np.zeros(_BOUNCES, dtype=np.uint32),
+            "opened": (np.arange(_BOUNCES) + 0.5) * _DURATION / _BOUNCES,
+            "part": pl.Series([None, "rim"] * (_BOUNCES // 2), dtype=pl.Enum(["rim", "wall 1"])),
             "other": [1, None] * (_BOUNCES // 2),
             "dissipated_normal": 0.75 * energies,
             "dissipated_tangential": 0.25 * energies,
@@ -66,6 +68,21 @@ def spectrum() -> Evidence:
         found.append(Check(f"power, {kind}", "W/kg", share * whole * rate, power, 1e-12))
     halves = (measures.impacts(contacts, 1e-3), measures.enduring(contacts, 1e-3))
     found += checks("contacts of kind {}", "1", _BOUNCES / 2.0, [float(len(half)) for half in halves], 0.0)
+    # Every other one is short, and at the rim: the second, fourth … of the lines.
+    rates = measures.impact_rates(contacts, (0.0, _DURATION), _MASS, 1e-3)
+    short = _RESTITUTION**2 * whole / (1.0 + _RESTITUTION**2) * rate
+    found += checks_at(
+        ["impacts", "impacts on the drum", "what they take", "at the rim", "at a wall", "half of it above"],
+        [_BOUNCES / 2.0 * rate, _BOUNCES / 2.0 * rate, short, short, 0.0, _FIRST * _RESTITUTION**2],
+        [
+            rates[name].value
+            for name in (
+                *("impact_rate", "drum_impact_rate", "impact_specific_power", "rim_impact_specific_power"),
+                *("wall_1_impact_specific_power", "median_impact_energy"),
+            )
+        ],
+        1e-12,
+    )
     # Half of the contacts are with a disc of a tenth of the mass, the others with the drum.
     light = measures.collision_spectrum(contacts, _MASS, _DURATION, masses=[1.0, 0.1])
     edges = light.filter(pl.col("events") > 0)["energy_low"].to_numpy()
@@ -100,7 +117,7 @@ def wear() -> Evidence:
     middle = (np.arange(bins) + 0.5) / bins
     profile = pl.DataFrame(
         {
-            "part": ["wall 1"] * bins,
+            "part": pl.Series(["wall 1"] * bins, dtype=pl.Enum(["rim", "wall 1"])),
             "arc_start": np.arange(bins) / bins,
             "arc_end": (np.arange(bins) + 1.0) / bins,
             "x": middle,
@@ -119,6 +136,20 @@ def wear() -> Evidence:
     found += [
         Check("volume, Archard", "m²", 1e-3 / 2.0 * 2.0 * bins, float(archard["wear_volume"].sum()), 1e-12),
         Check("volume, Finnie", "m²", 1e-2 * bins, float(finnie["wear_volume"].sum()), 1e-12),
+        *checks_at(
+            [
+                "Archard's sum in a turn",
+                "Finnie's sum, wall 1",
+                "Finnie's sum, rim",
+                "greatest relative wear",
+            ],
+            [2.0 * bins / 2.0, bins / 2.0, 0.0, 2.0 * float(middle[-1])],
+            [
+                measures.wear_of_parts(profile, turns=2.0)[name]
+                for name in ("archard_wear", "wall_1_finnie_wear", "rim_finnie_wear", "wear_peak")
+            ],
+            1e-12,
+        ),
         *checks("depth in bin {}", "m", depth, archard["wear_depth"].to_numpy(), 1e-12),
         *checks("relative wear in bin {}", "1", 2.0 * middle, archard["relative_wear"].to_numpy(), 1e-12),
         *checks("face after three turns, bin {}", "m", -3.0 * depth[inner], face[inner, 1], 1e-12),

@@ -44,6 +44,10 @@ def washing() -> Evidence:
             "dissipated_tangential": [2.0, 0.0, 0.5],
         }
     )
+    # Per mass 1, 1 and 4: of mean 2 and standard deviation √2.
+    discs = pl.DataFrame(
+        {"mass": [1.0, 2.0, 4.0], "received_normal": [1.0, 1.0, 15.0], "received_rolling": [0.0, 1.0, 1.0]}
+    )
     power = measures.knocking_and_rubbing(split, mass=2.0, duration=3.0)
     rows = [
         ("shape of a disc", 1.0, measures.shape_factor([[0.0, 0.0]], [1.0]), 2e-3),
@@ -68,6 +72,7 @@ def washing() -> Evidence:
             measures.curtain(row, np.full(5, 0.1), 1.0),
             1e-12,
         ),
+        ("received_spread", 0.5 * math.sqrt(2.0), measures.received_spread(discs), 1e-12),
         ("center_turning", _SPEED, seen["center_turning"].value, 1e-9),
         ("disc_turning", _SPEED, seen["disc_turning"].value, 1e-9),
         ("moving_speed", step * distance.mean(), seen["moving_speed"].value, 1e-9),

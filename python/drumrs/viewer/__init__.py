@@ -3,10 +3,10 @@
 `recording` turns frames and series into what the page reads, with the forces at contacts of `forces`; `page` puts
 pages together, `folder` finds a run, and `source` reads it.
 In the browser, player.js is a player in any element of a page. Of its parts, stage.js draws the drum over the map
-of occupancy.js, plot.js curves, panel.js has their legend, film.js records, controls.js buttons and keys, color.js
-what colors stand for; recording.js holds the frames and takes more of them while a run goes on. element.js is the
-element of the pages written here. `module` joins files into one module for other pages and widgets. Nothing here
-sees a simulation.
+of occupancy.js, discs.js many bundles at once, plot.js curves, panel.js has their legend, film.js records, controls.js
+buttons and keys, color.js what colors stand for, legend.js says it; recording.js holds the frames and takes more of
+them while a run goes on. element.js is the element of the pages written here; studio.js is the page of a simulation
+that runs. `module` joins files into one module for other pages and widgets. Nothing here sees a simulation.
 """
 
 from drumrs.viewer.bundle import module

@@ -1,8 +1,9 @@
 """The player's JavaScript modules, joined into one, so that a page opens from disk without a server.
 
 Joining is plain text: each file once, after those it imports, without their lines ``import { name } from "./file.js";``
-and the word ``export``. So each import is one such line, only declarations are exported, and no two files declare one
-name. `assets.js` and `studio_assets.js` are made here: the texts of HTML and CSS files.
+and the word ``export``. So each import is one such line, only declarations are exported, but for the default of an
+entry, and no two files declare one name. `assets.js` and `studio_assets.js` are made here: the texts of HTML and CSS
+files.
 """
 
 import json
@@ -28,7 +29,7 @@ def module(*entries: str) -> str:
     --------
     >>> from drumrs.viewer import module
     >>> module("player.js", "recording.js").splitlines()[-1]
-    'export { Player, Recording, DIRECTIONS, unpack, inUnits, unpackPanel, mix };'
+    'export { Player, Recording, DIRECTIONS, unpack, unpackFrame, unpackPanel, mix };'
     """
     texts: dict[str, str] = {}
     for entry in entries:

@@ -16,11 +16,12 @@ function viridis(share) {
   return VIRIDIS[below].map((from, k) => Math.round(from + (place - below) * (VIRIDIS[below + 1][k] - from)));
 }
 
-// One entry for each level: what a disc is filled with, and whether its marks are to be black.
+// One entry for each level: what a disc is filled with, as a style and as numbers from 0 to 255, and whether its marks are
+// to be black.
 const PALETTE = Array.from({ length: LEVELS }, (_, level) => {
   const [red, green, blue] = viridis(level / (LEVELS - 1));
   const luminance = (0.2126 * red + 0.7152 * green + 0.0722 * blue) / 255;
-  return { fill: `rgb(${red} ${green} ${blue})`, light: luminance > LIGHT };
+  return { fill: `rgb(${red} ${green} ${blue})`, red, green, blue, light: luminance > LIGHT };
 });
 
 // The scale as a CSS background.
@@ -122,7 +123,7 @@ export class Coloring {
     return [lowest, highest];
   }
 
-  // What each bundle is filled with, and whether it is light: { fill, light }.
+  // What each bundle is filled with, and whether it is light: { fill, red, green, blue, light }.
   shades(scene) {
     const range = this.range(scene);
     return scene.bundles.map((_, k) => shade(this.value(k, scene), range));

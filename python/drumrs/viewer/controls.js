@@ -5,6 +5,7 @@
 import { GRADIENT, MODES } from "./color.js";
 import { canRecord, Film } from "./film.js";
 import { formatNumber } from "./format.js";
+import { layersOf, legendOf } from "./legend.js";
 
 const KEYS = {
   " ": (player) => player.toggle(),
@@ -113,36 +114,9 @@ export class Controls {
     this.part("play").setAttribute("aria-label", playing ? "Pause" : "Play");
     this.part("mode").value = coloring.name;
     for (const name of ["marks", "forces", "occupied", "corotating"]) this.part(name).checked = this.player.stage[name];
-    this.writeLegend();
-    this.writeLayers();
+    const meanings = { ...legendOf(this.player.coloring, scene), layers: layersOf(this.player.stage) };
+    for (const [name, text] of Object.entries(meanings)) this.part(name).textContent = text;
     this.writeSelected();
-  }
-
-  // Say what the layers that are shown mean.
-  writeLayers() {
-    const { recording, stage } = this.player;
-    const words = [];
-    if (stage.forces) {
-      const [least, end] = [recording.forceScale.least, recording.forceScale.end].map(formatNumber);
-      words.push(`Lines: normal force of the contacts' springs at the nearest frame, from its overlaps, without damping and friction; from ${least}\u00a0N/m, full width from ${end}\u00a0N/m.`);
-    }
-    if (stage.occupied) {
-      const { from, to } = stage.occupancy.map;
-      words.push(`Blue: how often bundles cover a place${stage.corotating ? " of the turning drum" : ""}, from never to always, in ${from.toFixed(2)} to ${to.toFixed(2)}\u00a0s.`);
-    }
-    this.part("layers").textContent = words.join(" ");
-  }
-
-  writeLegend() {
-    const { recording, coloring, scene } = this.player;
-    const { mode, mark } = coloring;
-    const text = (value) => (mode.name ? mode.name(recording, value) : formatNumber(value * mode.factor));
-    const [lowest, highest] = coloring.range(scene).map(text);
-    const moment = mode.marked ? `, t\u00a0=\u00a0${recording.frames[mark].time.toFixed(2)}\u00a0s` : "";
-    this.part("quantity").textContent = `${mode.label}${moment}${mode.unit && ` [${mode.unit}]`}`;
-    this.part("lowest").textContent = lowest;
-    // Speeds beyond the end of the scale have its last color.
-    this.part("highest").textContent = coloring.name === "speed" ? `≥ ${highest}` : highest;
   }
 
   writeSelected() {

@@ -6,7 +6,7 @@
 //   live.addEventListener("open" and "lost", …);
 //   live.ask({ do: "play" });
 //
-// A widget of a notebook has an object of its own with the same events and `ask`.
+// `silence` is what is said while it is lost. A widget of a notebook has the same in studio_widget.js.
 
 const FIRST_PAUSE = 250;
 const LONGEST_PAUSE = 4000;
@@ -15,6 +15,7 @@ export class Live extends EventTarget {
   constructor(url) {
     super();
     this.url = url;
+    this.silence = "The simulation does not answer. Is drumrs studio still running? This page tries again.";
     this.pause = FIRST_PAUSE;
     this.connect();
   }

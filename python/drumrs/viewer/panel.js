@@ -10,8 +10,9 @@ export class Panel {
     const canvas = create("canvas");
     canvas.setAttribute("role", "img");
     canvas.setAttribute("aria-label", `${panel.title} over time: ${panel.lines.map((line) => line.name).join(", ")}`);
-    const heading = create(`h${level}`, "heading", panel.title);
-    heading.append(" ", create("span", "unit", `[${panel.unit}]`));
+    const heading = create(`h${level}`, "heading");
+    this.title = create("span");
+    heading.append(this.title, " ", create("span", "unit", `[${panel.unit}]`));
     const legend = create("ul", "readings");
     this.readings = panel.lines.map((line) => {
       const item = create("li", "reading", `${line.name} `);
@@ -36,6 +37,8 @@ export class Panel {
   draw(time) {
     const { plot, readings } = this;
     plot.draw(time);
+    // It says over how long means are, which grows with a run that goes on.
+    if (this.title.textContent !== plot.panel.title) this.title.textContent = plot.panel.title;
     plot.panel.lines.forEach((line, k) => (readings[k].textContent = formatNumber(plot.valueAt(line, time))));
   }
 }

@@ -118,7 +118,7 @@ def _species(frames: Frames) -> dict[str, Any] | None:
     return {"names": names.tolist(), "of": _base64(places, "<u2")}
 
 
-def _base64(values: NDArray[Any], kind: str) -> str:
+def _base64(values: NDArray[Any], kind: str | None = None) -> str:
     return base64.b64encode(np.ascontiguousarray(values, dtype=kind).tobytes()).decode("ascii")
 
 
@@ -171,31 +171,58 @@ def _discs(discs: "pl.DataFrame") -> dict[str, str]:
 
 
 def _forces(config: "Config", frames: Frames) -> dict[str, Any]:
-    """Return the forces at the contacts of all frames, as shares of the end of their scale.
+    """Return the forces at the contacts of all frames, as shares of the end of their scale."""
+    frame, one, other, force = forces_of(config, frames)
+    scale, least = force_limits(config, frames, force)
+    kept = force >= least
+    return {
+        "scale": scale,
+        "least": least,
+        "counts": _base64(np.bincount(frame[kept], minlength=len(frames)), "<u4"),
+        "one": _base64(of_numbers(one[kept], frames.count)),
+        "other": _base64(of_numbers(other[kept], frames.count)),
+        "shares": _base64(of_forces(force[kept], scale)),
+    }
 
-    A contact is two numbers and its force; the second one, from the number of discs on, is a direction to the drum.
+
+def forces_of(config: "Config", frames: Frames) -> tuple[NDArray[Any], ...]:
+    """Return the contacts of all frames as arrays: frame, two numbers, force [N/m].
+
+    The second number, from the number of discs on, is a direction to the drum: one of 256 in a turn.
     """
     every = max(1, _AT_ONCE // frames.count)
     chunks = [
         _one_list(contact_forces(config, frames.picked(slice(first, first + every))), first, frames.count)
         for first in range(0, len(frames), every)
     ]
-    frame, one, other, force = (np.concatenate(parts) for parts in zip(*chunks, strict=True))
-    scale = end_of_scale(force, _TYPICAL_FORCE)
+    return tuple(np.concatenate(parts) for parts in zip(*chunks, strict=True))
+
+
+def end_of_force_scale(config: "Config", frames: Frames) -> float:
+    """Return the end of the scale of forces [N/m] from some of the frames, so few that it takes milliseconds."""
+    few = frames.picked(thinned(len(frames), frames.count, _AT_ONCE))
+    return force_limits(config, few, forces_of(config, few)[-1])[0]
+
+
+def force_limits(
+    config: "Config", frames: Frames, force: NDArray[Any], end: float | None = None
+) -> tuple[float, float]:
+    """Return the end of the scale of forces, unless it is given, and the least force that is shown [N/m]."""
+    scale = end_of_scale(force, _TYPICAL_FORCE) if end is None else end
     least = max(_FAINT * scale, greatest_stiffness(config) * resolution(frames))
     if len(force) > MOST_FORCES:
         least = max(least, float(np.quantile(force, 1.0 - MOST_FORCES / len(force))))
-    kept = force >= least
-    kind = "<u2" if frames.count + _DIRECTIONS <= _TURN else "<u4"
-    return {
-        "scale": scale,
-        "least": least,
-        "wide": kind == "<u4",
-        "counts": _base64(np.bincount(frame[kept], minlength=len(frames)), "<u4"),
-        "one": _base64(one[kept], kind),
-        "other": _base64(other[kept], kind),
-        "shares": _base64(np.rint(255.0 * np.minimum(force[kept] / scale, 1.0)), "<u1"),
-    }
+    return scale, least
+
+
+def of_numbers(numbers: NDArray[Any], count: int) -> NDArray[Any]:
+    """Return numbers of discs and of directions in 16 bits, or in 32 where there are too many discs."""
+    return numbers.astype("<u2" if count + _DIRECTIONS <= _TURN else "<u4")
+
+
+def of_forces(force: NDArray[Any], end: float) -> NDArray[Any]:
+    """Return forces as shares of the end of their scale, from 0 to 255."""
+    return np.rint(255.0 * np.minimum(force / end, 1.0)).astype("<u1")
 
 
 def _one_list(found: ContactForces, first: int, count: int) -> tuple[NDArray[Any], ...]:

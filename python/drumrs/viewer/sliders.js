@@ -5,13 +5,15 @@ const SPEED_KEY = "rotation.rpm";
 export class Sliders {
   // The listeners end with `signal`.
   constructor(container, live, signal) {
-    Object.assign(this, { container, live, signal, known: [] });
+    // `asked` is the speed that was asked for and is not told yet.
+    Object.assign(this, { container, live, signal, known: [], asked: null });
   }
 
   show(controls) {
     // Whoever moves a slider by keys keeps the focus on it through the restart.
     const focus = this.container.getRootNode().activeElement?.dataset.key;
     this.known = controls.map((control) => this.make(control));
+    this.asked = null;
     this.container.replaceChildren(...this.known.map(({ label }) => label));
     this.known.find(({ control }) => control.key === focus)?.input.focus();
   }
@@ -38,7 +40,9 @@ export class Sliders {
     };
     input.addEventListener("input", () => {
       settle();
-      if (!restarts) this.live.ask({ do: "speed", value: Number(input.value) });
+      if (restarts) return;
+      this.asked = Number(input.value);
+      this.live.ask({ do: "speed", value: this.asked });
     }, { signal: this.signal });
     input.addEventListener("change", () => restarts && this.live.ask({ do: "set", key, value: Number(input.value) }), { signal: this.signal });
     // Keys move by a step, ten with shift: browsers have none of their own where any value may be.
@@ -60,8 +64,9 @@ export class Sliders {
     const { speed } = this;
     if (!speed) return;
     speed.control.value = rpm;
+    if (this.asked === rpm) this.asked = null;
     // The hand that moves it is ahead of what is told.
-    if (this.container.getRootNode().activeElement === speed.input) return;
+    if (this.asked !== null) return;
     speed.input.value = rpm;
     speed.write();
   }
@@ -73,8 +78,9 @@ export class Sliders {
     input.dispatchEvent(new Event("input"));
   }
 
-  // Show what holds, after a change was refused.
+  // Show what holds, after a change was refused or could not be asked for.
   restore() {
+    this.asked = null;
     for (const { control, input, write } of this.known) {
       input.value = control.value;
       write();

@@ -5,9 +5,11 @@
 //
 // Set `marks` (a radius on each bundle), `forces` (lines at contacts), `occupied` (where bundles are how often, behind
 // them), `corotating` (seen from the drum, which stands still), `chosen` (numbers of bundles) and `path` (how long their
-// paths are [s]) at will; the next drawing follows them.
+// paths are [s]) at will; the next drawing follows them. A `map` is an Occupancy to show in place of that of the
+// recording's frames.
 
 import { prepare } from "./canvas.js";
+import { PixelDiscs } from "./discs.js";
 import { roundSteps } from "./format.js";
 import { occupancy, picture } from "./occupancy.js";
 import { DIRECTIONS } from "./recording.js";
@@ -22,6 +24,13 @@ const THICKEST = 0.55;
 const LEAST_MARKED = 3;
 // How much of a bundle's color stays where forces or occupancy are to be seen.
 const FADED = 0.35;
+// Bundles from which on a canvas takes longer for their arcs than we for their pixels.
+const MANY = 1000;
+// Widths that lines of forces are drawn in: as many as a screen tells apart.
+const WIDTHS = 12;
+// Line round a bundle, and by how much it lies within the bundle's radius [pixels].
+const LINE = 0.75;
+const INSET = 0.4;
 
 export class Stage {
   constructor(canvas, recording, theme) {
@@ -34,6 +43,8 @@ export class Stage {
     this.corotating = false;
     this.chosen = [];
     this.path = 1;
+    this.map = null;
+    this.pixels = new PixelDiscs();
   }
 
   // From meters to pixels: y points up, and a picture seen from the drum is turned back by its angle.
@@ -124,13 +135,13 @@ export class Stage {
     return this.forces || this.occupied;
   }
 
-  // The map and its picture, made anew when the recording has grown, or it is seen or colored in another way.
+  // The map and its picture, made anew when the recording or the map has grown, or it is seen or colored in another way.
   get occupancy() {
     const { recording, corotating } = this;
-    const [length, color] = [recording.frames.length, this.theme.lines[0]];
+    const [length, color] = [this.map ? this.map.to : recording.frames.length, this.theme.lines[0]];
     const known = this.known;
     if (known?.length !== length || known.corotating !== corotating || known.color !== color) {
-      const map = occupancy(recording, corotating);
+      const map = this.map ?? occupancy(recording, corotating);
       this.known = { length, corotating, color, map, image: picture(map, color) };
     }
     return this.known;
@@ -146,20 +157,38 @@ export class Stage {
     context.restore();
   }
 
-  drawBundles({ bundles }, shades) {
-    const { context, recording, pixel, theme } = this;
+  drawBundles(scene, shades) {
+    const { context } = this;
     context.save();
     if (this.faded) context.globalAlpha = FADED;
-    context.lineWidth = 0.75 * pixel;
+    if (scene.bundles.length >= MANY) this.paintBundles(scene, shades);
+    else this.traceBundles(scene, shades);
+    context.restore();
+  }
+
+  paintBundles(scene, shades) {
+    const { canvas, context, recording, theme } = this;
+    const { unit, x, y, turn } = this.frame(scene);
+    const { width, height } = canvas;
+    const dots = width / this.width;
+    const view = { width, height, unit: unit * dots, x: x * dots, y: y * dots, turn };
+    const style = { outline: theme.outline, line: LINE * dots, inset: INSET * dots, least: dots };
+    context.setTransform(1, 0, 0, 1, 0, 0);
+    context.drawImage(this.pixels.paint(view, scene.bundles, recording.radii, shades, style), 0, 0);
+  }
+
+  // Those of one color at once: it takes half the time.
+  traceBundles({ bundles }, shades) {
+    const { context, recording, pixel, theme } = this;
+    context.lineWidth = LINE * pixel;
     context.strokeStyle = theme.outline;
-    // Those of one color at once: ten thousand take half the time.
     const byFill = new Map();
     shades.forEach(({ fill }, k) => byFill.get(fill)?.push(k) ?? byFill.set(fill, [k]));
     for (const [fill, members] of byFill) {
       context.beginPath();
       for (const k of members) {
         const { x, y } = bundles[k];
-        const radius = Math.max(recording.radii[k] - 0.4 * pixel, pixel);
+        const radius = Math.max(recording.radii[k] - INSET * pixel, pixel);
         context.moveTo(x + radius, y);
         context.arc(x, y, radius, 0, 2 * Math.PI);
       }
@@ -167,7 +196,6 @@ export class Stage {
       context.fill();
       context.stroke();
     }
-    context.restore();
   }
 
   // Forces of the nearest frame: from center to center, or to the drum, as wide as they are strong.
@@ -176,19 +204,23 @@ export class Stage {
     const { forces } = recording.frames[recording.nearest(time)];
     if (!forces) return;
     const widest = THICKEST * recording.greatestRadius;
+    // Those of one width at once, of which there are none thinner than half a pixel.
+    const paths = Array.from({ length: WIDTHS }, () => new Path2D());
+    forces.one.forEach((one, k) => {
+      const { x, y } = bundles[one];
+      const path = paths[Math.max(Math.ceil(WIDTHS * forces.shares[k]) - 1, 0)];
+      path.moveTo(x, y);
+      const other = forces.other[k];
+      const toDrum = (2 * Math.PI * (other - recording.count)) / DIRECTIONS;
+      if (other < recording.count) path.lineTo(bundles[other].x, bundles[other].y);
+      else path.lineTo(x + recording.radii[one] * Math.cos(toDrum), y + recording.radii[one] * Math.sin(toDrum));
+    });
     context.lineCap = "round";
-    for (const [color, more] of [[theme.inside, 1.5 * pixel], [theme.ink, 0]]) {
+    for (const [color, more] of [[theme.inside, Math.min(1.5 * pixel, widest)], [theme.ink, 0]]) {
       context.strokeStyle = color;
-      forces.one.forEach((one, k) => {
-        const { x, y } = bundles[one];
-        context.beginPath();
-        context.moveTo(x, y);
-        const other = forces.other[k];
-        const toDrum = (2 * Math.PI * (other - recording.count)) / DIRECTIONS;
-        if (other < recording.count) context.lineTo(bundles[other].x, bundles[other].y);
-        else context.lineTo(x + recording.radii[one] * Math.cos(toDrum), y + recording.radii[one] * Math.sin(toDrum));
-        context.lineWidth = Math.max(widest * forces.shares[k], 0.5 * pixel) + more;
-        context.stroke();
+      paths.forEach((path, k) => {
+        context.lineWidth = Math.max((widest * (k + 1)) / WIDTHS, 0.5 * pixel) + more;
+        context.stroke(path);
       });
     }
     context.lineCap = "butt";

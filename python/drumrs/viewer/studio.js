@@ -9,17 +9,21 @@ import { readTheme } from "./canvas.js";
 import { Coloring, GRADIENT, MODES, modesOf } from "./color.js";
 import { canRecord, Film } from "./film.js";
 import { formatNumber } from "./format.js";
+import { layersOf, legendOf } from "./legend.js";
+import { Occupancy } from "./occupancy.js";
 import { Panel } from "./panel.js";
-import { inUnits, unpack, unpackPanel } from "./recording.js";
+import { unpack, unpackFrame, unpackPanel } from "./recording.js";
 import { Sliders } from "./sliders.js";
 import { Stage } from "./stage.js";
 import { STUDIO_MARKUP, STUDIO_STYLE } from "./studio_assets.js";
 
-// Numbers at the head of a picture, 8 bytes each, as scene.py packs them.
-const HEAD_NUMBERS = 6;
 // Bundles times pictures that are kept for paths.
 const MOST_KEPT = 500000;
-const LOST = "The simulation does not answer. Is drumrs studio still running? This page tries again.";
+// Weight of a lone picture in the map of occupancy [s]: what comes after it soon outweighs it.
+const MOMENT = 1e-6;
+
+// What of a stage has a box, and stays as it is where another drum comes.
+const LAYERS = ["forces", "occupied", "corotating"];
 
 const STUDIO_KEYS = {
   " ": (studio) => studio.toggle(),
@@ -29,6 +33,8 @@ const STUDIO_KEYS = {
   r: (studio) => studio.ask("reset"),
   c: (studio) => studio.nextMode(),
   m: (studio) => studio.mark(),
+  f: (studio) => studio.show({ forces: !studio.stage.forces }),
+  o: (studio) => studio.show({ occupied: !studio.stage.occupied }),
   n: (studio) => studio.choose([((studio.stage?.chosen.at(-1) ?? -1) + 1) % studio.recording.count]),
   s: (studio) => studio.saveScreenshot(),
   Escape: (studio) => studio.choose([]),
@@ -44,6 +50,7 @@ export class Studio {
     this.root = root;
     this.part = (name) => root.querySelector(`.${name}`);
     this.theme = {};
+    this.keys = STUDIO_KEYS;
     this.pictures = { count: 0, since: performance.now(), rate: 0 };
     // As the system asks for: with less motion the drum stands until the reader lets it turn.
     this.still = matchMedia("(prefers-reduced-motion: reduce)").matches;
@@ -58,10 +65,10 @@ export class Studio {
     on("reset", "click", () => this.ask("reset"));
     on("one", "click", () => this.ask("step"));
     on("rate", "change", ({ target }) => this.ask("rate", target.value ? Number(target.value) : null));
-    on("preset", "change", ({ target }) => this.ask("preset", target.value));
+    for (const name of ["preset", "trade"]) on(name, "change", ({ target }) => this.ask(name, target.value));
     on("mode", "change", ({ target }) => this.setMode(target.value));
     on("mark", "click", () => this.mark());
-    on("corotating", "change", ({ target }) => this.show({ corotating: target.checked }));
+    for (const name of LAYERS) on(name, "change", ({ target }) => this.show({ [name]: target.checked }));
     on("toml", "click", () => this.ask("case", "toml"));
     on("python", "click", () => this.ask("case", "python"));
     on("picture", "click", () => this.saveScreenshot());
@@ -94,8 +101,13 @@ export class Studio {
   }
 
   connected(isConnected) {
-    this.complain(isConnected ? "" : LOST);
-    if (isConnected) this.live.ask({ do: "frame" });
+    this.complain(isConnected ? "" : this.live.silence);
+    if (!isConnected) {
+      this.sliders.restore();
+      return;
+    }
+    this.live.ask({ do: "forces", value: this.stage?.forces ?? false });
+    this.live.ask({ do: "frame" });
   }
 
   complain(text) {
@@ -119,17 +131,20 @@ export class Studio {
   }
 
   // Another drum, or the same one from its start.
-  begin({ scene, controls, presets, preset }) {
+  begin({ scene, controls, presets, preset, trades }) {
     const before = this.stage;
     this.recording = unpack(scene);
     this.stage = new Stage(this.part("stage"), this.recording, this.theme);
-    this.stage.corotating = before?.corotating ?? false;
+    for (const name of LAYERS) this.stage[name] = before?.[name] ?? false;
+    this.since = 0;
+    this.cover();
     const { name } = this.coloring ?? {};
     this.coloring = new Coloring(this.recording);
     if (modesOf(this.recording).includes(name)) this.coloring.name = name;
     this.part("mode").replaceChildren(...modesOf(this.recording).map((mode) => new Option(MODES[mode].label, mode)));
     this.part("preset").replaceChildren(...Object.entries(presets).map(([value, words]) => new Option(words, value)));
     this.part("preset").value = preset;
+    this.part("trade").replaceChildren(...trades.map((trade) => new Option(trade, trade)));
     this.sliders.show(controls);
     this.part("tiles").replaceChildren();
     this.part("panels").replaceChildren();
@@ -138,7 +153,7 @@ export class Studio {
     this.refresh();
   }
 
-  describe({ title, facts, playing, rate, speed, said }) {
+  describe({ title, facts, playing, rate, speed, trade, said }) {
     this.part("title").textContent = title;
     this.part("facts").textContent = facts;
     this.part("stage").setAttribute("aria-label", `The drum: ${title}`);
@@ -150,7 +165,12 @@ export class Studio {
     this.part("player").classList.toggle("playing", playing);
     this.part("play").setAttribute("aria-label", playing ? "Pause" : "Play");
     this.part("rate").value = rate ?? "";
+    this.part("trade").value = trade;
     this.sliders.setSpeed(speed);
+    if (speed !== this.speed) {
+      Object.assign(this, { speed, since: this.recording.end });
+      this.cover();
+    }
     const last = said.at(-1) ?? "";
     if (this.part("said").textContent !== last) this.part("said").textContent = last;
   }
@@ -175,22 +195,43 @@ export class Studio {
     this.panels.push(new Panel(this.part("panels"), panel, this.axes, this.theme, options));
   }
 
-  // Keep a picture, draw it with the screen's next one, and only then ask for another.
+  // Keep a picture, and draw the newest with the screen's next one. Another one is made and comes meanwhile; it is not asked
+  // for while two wait to be drawn.
   receive(buffer) {
-    const { recording } = this;
-    const [, time, drumAngle, spin, fastest, factor] = new Float64Array(buffer, 0, HEAD_NUMBERS);
-    const numbers = new Uint16Array(buffer, 8 * HEAD_NUMBERS);
-    const n = recording.count;
-    const arrays = inUnits(numbers.subarray(0, 2 * n), numbers.subarray(2 * n, 3 * n), numbers.subarray(3 * n), { reach: recording.reach, fastest });
-    if (time <= recording.end) recording.frames.pop();
-    recording.frames.push({ time, drumAngle, ...arrays });
-    this.forget(Math.max(Math.floor(MOST_KEPT / n), 2));
-    Object.assign(this, { spin, factor });
-    cancelAnimationFrame(this.next);
+    this.keep(buffer);
+    if (this.next) {
+      this.held = true;
+      return;
+    }
+    this.live.ask({ do: "frame" });
     this.next = requestAnimationFrame(() => {
+      this.next = null;
+      if (this.held) this.live.ask({ do: "frame" });
+      this.held = false;
       this.draw();
-      this.live.ask({ do: "frame" });
     });
+  }
+
+  keep(buffer) {
+    const { recording, stage } = this;
+    const { frame, spin, factor, forceScale } = unpackFrame(recording, buffer);
+    const passed = frame.time - recording.end;
+    if (passed <= 0) recording.frames.pop();
+    recording.frames.push(frame);
+    if (passed > 0) stage.map?.add(frame, passed);
+    this.forget(Math.max(Math.floor(MOST_KEPT / recording.count), 2));
+    recording.forceScale = forceScale ?? recording.forceScale;
+    Object.assign(this, { spin, factor });
+  }
+
+  // Begin the map of occupancy with the pictures that are kept since the last change. The first two may lie apart.
+  cover() {
+    const { recording, stage, since } = this;
+    stage.map = stage.occupied ? new Occupancy(recording, stage.corotating) : null;
+    recording.frames.forEach((frame, k, frames) => {
+      if (k >= 2 && frame.time > since) stage.map?.add(frame, frame.time - frames[k - 1].time);
+    });
+    if (!stage.map?.sum) stage.map?.add(recording.frames.at(-1), MOMENT);
   }
 
   // Leave out the oldest pictures, but the one that colors refer to.
@@ -236,27 +277,27 @@ export class Studio {
   }
 
   write() {
-    const { scene, recording, coloring, pictures, playing, factor } = this;
+    const { scene, stage, coloring, pictures, playing, factor } = this;
     const rpm = (scene.spin * 30) / Math.PI;
     this.part("time").textContent = `${scene.time.toFixed(2)} s`;
     this.part("turning").textContent = `${rpm.toFixed(1).replace("-", "−")} rpm, ${Math.abs(scene.drumAngle / 2 / Math.PI).toFixed(2)} turns`;
     this.part("pace").textContent = playing ? `${formatNumber(factor)} simulated seconds in a second, ${pictures.rate.toFixed(0)} pictures.` : "Paused.";
-    const { mode, mark } = coloring;
-    const text = (value) => (mode.name ? mode.name(recording, value) : formatNumber(value * mode.factor));
-    const [lowest, highest] = coloring.range(scene).map(text);
-    const moment = mode.marked ? `, t\u00a0=\u00a0${recording.frames[mark].time.toFixed(2)}\u00a0s` : "";
-    this.part("quantity").textContent = `${mode.label}${moment}${mode.unit && ` [${mode.unit}]`}`;
-    this.part("lowest").textContent = lowest;
-    this.part("highest").textContent = highest;
-    this.part("mode").value = coloring.name;
+    const words = { ...legendOf(coloring, scene), layers: layersOf(stage) };
+    // What stays is not written again: that alone would have the page laid out anew.
+    for (const [name, text] of Object.entries(words)) if (this.part(name).textContent !== text) this.part(name).textContent = text;
+    for (const name of LAYERS) this.part(name).checked = stage[name];
+    if (this.part("mode").value !== coloring.name) this.part("mode").value = coloring.name;
   }
 
   toggle() {
     this.ask(this.playing ? "pause" : "play");
   }
 
+  // Change how the drum is shown, as stage.js has it. Forces come with the pictures, to who asks for them.
   show(changes) {
     Object.assign(this.stage, changes);
+    if ("forces" in changes) this.ask("forces", changes.forces);
+    if ("occupied" in changes || "corotating" in changes) this.cover();
     this.draw();
   }
 
@@ -323,7 +364,7 @@ export class Studio {
 
   // Do what a key stands for, unless the control that has the focus needs the key itself.
   press(event) {
-    const act = STUDIO_KEYS[event.key];
+    const act = this.keys[event.key];
     const inside = this.root.activeElement;
     const own = inside?.matches("select, input[type=range], textarea") || (inside?.matches("button, input, summary") && event.key === " ");
     if (!act || own || event.ctrlKey || event.metaKey || event.altKey) return;

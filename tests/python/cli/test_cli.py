@@ -116,7 +116,7 @@ def test_resume_is_byte_identical(drum, tmp_path):
 @pytest.mark.parametrize("blow", [signal.SIGKILL, signal.SIGINT])
 def test_resume_after_a_blow_is_byte_identical(drum, tmp_path, blow):
     whole, broken = tmp_path / "whole", tmp_path / "broken"
-    words = [*SHORT, "--set", "run.duration=3", "--set", "run.frame_every=0.5", "--out"]
+    words = [*SHORT, "--set", "run.duration=2", "--set", "run.frame_every=0.5", "--out"]
     command = [sys.executable, "-m", "drumrs", "run", "--set", "run.checkpoint_every=0.02", *words, broken]
     process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
     seen = _wait_for_checkpoint(broken, process)

@@ -35,7 +35,7 @@ class MadeUp:
     """Stands in for the evaluator: slope and power as above, errors of runs known."""
 
     def __init__(self, targets, *_, **__):
-        self.targets = list(targets)
+        self.targets = list(map(str, targets))
 
     def means(self, configs):
         return [tuple(self._of(config, text) for text in self.targets) for config in configs]
@@ -118,7 +118,7 @@ def test_what_does_not_matter_is_said(tmp_path, monkeypatch):
         ({"measured": []}, r"measured is \[\], but must be one table"),
         (
             {"measured": [{"target": SLOPE, "value": 30.0}]},
-            r"measured\[0\].error is None, but must be a number in",
+            r"measured\[0\].error is missing, but must be a number in",
         ),
         (
             {"measured": [{"target": SLOPE, "value": 30.0, "error": 0.0}]},
@@ -131,7 +131,7 @@ def test_what_does_not_matter_is_said(tmp_path, monkeypatch):
             r"measured\[0\].sigma is not a key of a calibration",
         ),
         ({"ranges": {}}, "1 to 6 keys"),
-        ({"calibrate": {"runs": 3}}, "calibrate.runs is 3, but must be a whole number from 8"),
+        ({"calibrate": {"runs": 3}}, "calibrate.runs is 3, but must be a whole number from 9"),
         ({"calibrate": {"discrepancy": 0.1}}, "a share such as '3 %'"),
     ],
 )
@@ -175,9 +175,8 @@ def test_a_real_drum_gives_its_friction_back_on_the_command_line(tmp_path, capsy
     assert "contact.drum.friction is " in told
 
 
-@pytest.mark.parametrize(("page", "counts"), [("calibrate.md", [3, 1, 3]), ("friction.md", [4, 4, 2])])
-def test_the_examples_of_the_pages_are_experiments(page, counts):
-    text = (Path(__file__).parents[3] / "docs" / "decisions" / page).read_text(encoding="utf-8")
+def test_the_example_of_the_page_is_an_experiment():
+    text = (Path(__file__).parents[3] / "docs/decisions/calibrate.md").read_text(encoding="utf-8")
     experiment = Experiment.read(tomllib.loads(re.search(r"```toml\n(.*?)```", text, re.DOTALL)[1]))
-    assert [len(part) for part in (experiment.measured, experiment.candidates, experiment.drums)] == counts
+    assert [len(part) for part in (experiment.measured, experiment.candidates, experiment.drums)] == [3, 1, 3]
     assert experiment.discrepancy == pytest.approx(0.03)

@@ -108,3 +108,12 @@ def test_what_cannot_be_compared_is_refused_before_anything_runs(tmp_path):
     with pytest.raises(ConfigError, match="most is 5, but must be a whole number from 8 on"):
         drumrs.compare([SLOW, FAST], out=out, most=5)
     assert not out.exists()
+
+
+def test_a_file_that_is_given_twice_is_named(tmp_path, capsys):
+    case = tmp_path / "a.toml"
+    case.write_text(SLOW.to_toml(), encoding="utf-8")
+    with pytest.raises(SystemExit) as left:
+        main(["compare", str(case), str(case), "--out", str(tmp_path / "out")])
+    assert left.value.code == 2
+    assert "a.toml', but must be another file than the others; it is given twice" in capsys.readouterr().err

@@ -86,5 +86,5 @@ def test_too_few_numbers_are_said():
     def evaluate(points, _):
         return np.full((len(points), 1), np.nan), np.full((len(points), 1), np.nan)
 
-    with pytest.raises(ConfigError, match=r"has a number in 0 of 11 runs, which is too few"):
+    with pytest.raises(ConfigError, match=r"has a number in 0 of 11 runs, but must have one in 6 at least"):
         fit(SPACE, evaluate, np.array([1.0]), np.array([0.1]), 16)

@@ -145,7 +145,7 @@ def test_a_screening_is_a_command_that_says_beforehand_what_it_costs(tmp_path, c
         main(["screen", str(path), "--by", "drum_power", "--out", str(tmp_path / "out"), "--yes"])
     assert left.value.code == 0
     said = capsys.readouterr()
-    assert "1 keys: 12 runs for Morris's effects, then at most 16 for Sobol's indices" in said.err
+    assert "rotation.rpm: 12 runs for Morris's effects, then at most 16 for Sobol's indices" in said.err
     assert "rotation.rpm" in said.out
     assert (tmp_path / "out" / "table.parquet").exists()
 

@@ -127,6 +127,22 @@ def test_points_that_cannot_be_run_are_not_proposed():
     assert (search.points.sum(axis=1) > 0.8).all()
 
 
+def test_the_hypervolume_of_a_front_is_as_uncertain_as_it_scatters_over_repetitions():
+    rng, points = np.random.default_rng(2), np.linspace(0.0, 1.0, 12)[:, None]
+    truth = np.hstack([points, (1.0 - points) ** 2])
+
+    def fitted(noise):
+        values = truth + noise * rng.standard_normal(truth.shape)
+        return Model.fit(cube(1), points, (values, np.full(truth.shape, noise)), 2)
+
+    models = [fitted(0.05) for _ in range(24)]
+    end = models[0].reference
+    volumes = [hypervolume(model.predict(points)[0], end) for model in models]
+    told = np.mean([model.uncertainty_of_front for model in models])
+    assert told == pytest.approx(np.std(volumes) / np.mean(volumes), rel=0.35)
+    assert fitted(0.0).uncertainty_of_front < 0.05 * told
+
+
 @pytest.mark.slow
 def test_the_front_of_zdt1_is_found_within_two_per_cent():
     def zdt1(points, _=0):

@@ -38,6 +38,21 @@ def test_ishigami_is_recovered_from_noise(noise):
     assert abs(found.chance.mean - chance) < max(1.5 * found.chance.half_width, 1e-12)
 
 
+def test_a_single_factor_explains_all_but_the_noise():
+    random, points = np.random.default_rng(4), saltelli(256, 1)
+
+    def steep(places):
+        return 3.0 * places[..., 0]
+
+    pairs = tuple(noisy(steep, points[0], 0.5, random) for _ in range(2))
+    found = sobol(noisy(steep, points, 0.5, random), pairs)
+    (first,), (total,) = found.first, found.total
+    assert abs(first.mean - 1.0) < max(1.5 * first.half_width, 0.01)
+    assert abs(total.mean - 1.0) < max(1.5 * total.half_width, 0.01)
+    # The variance of 3 x is 9/12, that of the noise 1/4.
+    assert abs(found.chance.mean - 0.25) < 1.5 * found.chance.half_width
+
+
 def test_without_the_correction_noise_would_be_a_share_of_every_factor():
     random = np.random.default_rng(2)
     points, some = saltelli(1024, 3), saltelli(64, 3)[0]

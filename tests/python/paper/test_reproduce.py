@@ -8,7 +8,7 @@ import pytest
 
 from drumrs import ConfigError, paper
 from drumrs.paper import reproduction
-from drumrs.paper.reproduction import Reproduction, measure_speed
+from drumrs.paper.reproduction import Reproduction
 from small_study import SMALL
 
 TINY = replace(
@@ -122,7 +122,3 @@ def test_the_expected_time_follows_speed_and_work(monkeypatch, tmp_path):
     several = Reproduction("quick", tmp_path, jobs=1000)
     longest = max(case.cost for case in several.waiting)
     assert several.expected_time() - writing.expected_time() == pytest.approx(longest / 1e6)
-
-
-def test_speed_is_measured_in_a_moment():
-    assert 1e5 < measure_speed(1) < 1e10

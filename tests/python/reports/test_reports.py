@@ -232,18 +232,18 @@ def test_numbers_are_written_as_people_write_them(number, error, shown):
     assert content.value(number, error) == shown
 
 
-def test_report_writes_a_file_of_drumrs(recorded, tmp_path):
-    path = drumrs.report(recorded, page="dryer", folder=tmp_path)
+def test_report_writes_a_file_of_drumrs(plain, tmp_path):
+    path = drumrs.report(plain, page="dryer", folder=tmp_path)
     assert path == tmp_path / "report.html"
-    assert drumrs.report(recorded, folder=tmp_path) == path
+    assert drumrs.report(plain, folder=tmp_path) == path
     assert catalog.PAGES["research"].question in path.read_text(encoding="utf-8")
-    named = drumrs.report(recorded, page="mill", folder=tmp_path / "mill.html")
+    named = drumrs.report(plain, page="dryer", folder=tmp_path / "named.html")
     assert named.is_file()
     (tmp_path / "report.html").write_text("notes", encoding="utf-8")
     with pytest.raises(drumrs.ConfigError, match="another's, and is not overwritten"):
-        drumrs.report(recorded, folder=tmp_path)
+        drumrs.report(plain, folder=tmp_path)
     with pytest.raises(drumrs.ConfigError, match="page is 'kiln', but must be one of washer, dryer, mill"):
-        drumrs.report(recorded, page="kiln", folder=tmp_path)
+        drumrs.report(plain, page="kiln", folder=tmp_path)
 
 
 def test_the_command_reads_a_folder(recorded, drum, tmp_path):

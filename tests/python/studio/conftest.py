@@ -37,6 +37,10 @@ class Page:
     def time(self) -> float:
         return self.page.evaluate("studio.recording?.end ?? 0")
 
+    def pixels(self) -> str:
+        """Return what the drum shows."""
+        return self.part("stage").evaluate("canvas => canvas.toDataURL()")
+
     def slide(self, key, value):
         """Move a slider as a hand does, and let it go."""
         script = """(input, value) => {

@@ -211,3 +211,35 @@ def test_a_port_that_is_taken_is_refused(server):
         Server(server.session, port=taken)
     with pytest.raises(ConfigError, match="--port"):
         Server(server.session, port=70000)
+
+
+def test_forces_come_with_the_pictures_of_those_who_ask_for_them(server):
+    server.session.pause()
+    with join(server) as one, join(server) as other:
+        ask(one, do="pause")
+        plain = len(picture(one))
+        assert plain == 48 + 8 * 40
+        ask(one, do="forces", value=True)
+        with_forces = picture(one)
+        # They come with the picture that stands, and no other page is sent them.
+        assert len(with_forces) >= plain + 16
+        assert (len(with_forces) - plain - 16) % 5 == 0
+        assert len(picture(other)) == plain
+        for nothing in (False, "yes", None):
+            ask(one, do="forces", value=nothing)
+            assert len(picture(one)) == plain
+
+
+def test_a_trade_is_measured_and_another_machine_has_its_own(server):
+    with join(server) as socket:
+        ask(socket, do="frame")
+        assert told(socket, "start")["trades"] == ["washer", "dryer", "mill", "coater"]
+        assert told(socket, "state")["trade"] == "washer"
+        ask(socket, do="trade", value="mill")
+        ask(socket, do="frame")
+        assert told(socket, "state")["trade"] == "mill"
+        ask(socket, do="preset", value="dryer")
+        while server.session.view.trade != "dryer":
+            picture(socket)
+        ask(socket, do="trade", value="baker")
+        assert told(socket, "error")["text"].startswith("trade is 'baker', but must be one of washer, dryer")

@@ -1,13 +1,17 @@
 """Layers of the player in a browser: forces at contacts, what discs recorded, occupancy."""
 
+import base64
+import io
 import math
 from dataclasses import replace
 
 import numpy as np
 import polars as pl
 import pytest
+from PIL import Image
 
 import drumrs
+from drumrs.frames import Frames
 from drumrs.viewer import Player
 from shown import scene
 
@@ -83,7 +87,7 @@ def test_occupancy_is_where_bundles_are_how_often(show):
     script = """() => {
       const { map } = document.querySelector("drumrs-player").player.stage.occupancy;
       const cell = (place) => Math.floor((place / 0.2 + 1) * map.size / 2);
-      const at = (x, y) => map.shares[cell(y) * map.size + cell(x)];
+      const at = (x, y) => map.share(cell(y) * map.size + cell(x));
       return [at(0.0, -0.15), at(0.1, 0.0), at(0.0, 0.1), at(0.0, 0.0)];
     }"""
     # A disc of radius 0.04 that goes round at 0.1 covers a place while it is within 4 asin(0.2) of a turn.
@@ -96,3 +100,68 @@ def test_occupancy_is_where_bundles_are_how_often(show):
     shown.part("corotating").check()
     assert shown.page.evaluate(script)[1] == pytest.approx(1.0)
     assert "of the turning drum" in shown.part("layers").inner_text()
+
+
+def crowd(count: int) -> Frames:
+    """Return so many discs in rows and columns, two radii apart from one another, in a drum of 0.4 m."""
+    side = round(math.sqrt(count))
+    places = np.linspace(-0.13, 0.13, side)
+    positions = np.stack(np.meshgrid(places, places), axis=-1).reshape(1, -1, 2)
+    shape = (1, count)
+    return replace(
+        scene().picked(slice(0, 1)),
+        positions=positions.astype(np.float32),
+        angles=np.zeros(shape, np.float32),
+        velocities=np.zeros((*shape, 2), np.float32),
+        contacts=np.zeros(shape, np.uint16),
+        radii=np.full(count, 0.25 * (places[1] - places[0])),
+        baffles=(),
+    )
+
+
+# The fewer dots a disc has, the more do two ways to smooth its edge differ.
+@pytest.mark.parametrize(("dots", "shades"), [(1.0, 12.0), (2.0, 4.0)])
+def test_many_discs_are_painted_as_few_are_drawn(show, dots, shades):
+    shown = show(Player(crowd(33 * 33)).page(autoplay=False), device_scale_factor=dots)
+    shown.part("marks").uncheck()
+
+    def picture(paint: str = "stage.paintBundles") -> np.ndarray:
+        """Return the picture as it is with another way to paint many discs."""
+        player = "document.querySelector('drumrs-player').player"
+        shown.page.evaluate(
+            f"() => {{ const {{ stage }} = {player}; stage.paintBundles = {paint}; {player}.draw(); }}"
+        )
+        png = base64.b64decode(shown.pixels().partition(",")[2])
+        return np.asarray(Image.open(io.BytesIO(png))).astype(int)
+
+    painted, traced, none = (
+        picture(),
+        picture("stage.traceBundles"),
+        picture("() => {}"),
+    )
+    covered = (traced != none).any(axis=2)
+    assert covered.mean() > 0.05
+    assert not (painted == traced).all(), "both were drawn in one way"
+    # The same colors on the whole, and in the same places.
+    assert painted[covered].mean(axis=0) == pytest.approx(traced[covered].mean(axis=0), abs=shades)
+    assert np.median(np.abs(painted - traced)[covered]) < 2.0 * shades
+    # They lie alike on all sides of the middle.
+    changed = np.abs(painted - none).sum(axis=2)
+    for along in (0, 1):
+        middle = (changed.sum(axis=1 - along) @ np.arange(changed.shape[along])) / changed.sum()
+        assert middle == pytest.approx((changed.shape[along] - 1) / 2.0, abs=0.02)
+
+
+def test_many_discs_that_turn_with_the_drum_are_where_they_are(show):
+    frames = replace(crowd(33 * 33), drum_angles=np.array([math.pi / 6.0]))
+    shown = show(Player(frames).page(autoplay=False))
+    shown.part("marks").uncheck()
+    shown.part("corotating").check()
+    spacing = 0.26 / 32.0
+    inside = (243, 245, 247)
+    for x, y in ((0.0, 0.0), (10 * spacing, 4 * spacing), (-13 * spacing, 9 * spacing)):
+        # Turned back by the drum's angle.
+        turned = complex(x, y) * np.exp(-1j * math.pi / 6.0)
+        assert shown.color(turned.real, turned.imag) == (68, 1, 84)
+        between = complex(x + 0.5 * spacing, y + 0.5 * spacing) * np.exp(-1j * math.pi / 6.0)
+        assert shown.color(between.real, between.imag) == inside

@@ -3,15 +3,13 @@
 import base64
 import io
 import math
-import re
-import subprocess
 from dataclasses import replace
 
-import imageio_ffmpeg
 import numpy as np
 import pytest
 
 from drumrs.viewer import Player, module, script
+from films import pictures_of
 from shown import RADIUS, scene
 from synthetic import series_of
 
@@ -63,13 +61,8 @@ def test_what_is_shown_is_recorded_as_a_film(show, tmp_path):
     path = tmp_path / saved.value.suggested_filename
     saved.value.save_as(path)
     assert path.stem == "drum"
-    command = [imageio_ffmpeg.get_ffmpeg_exe(), "-i", path, "-f", "image2pipe", "-c:v", "ppm", "-"]
-    pictures = subprocess.run(command, capture_output=True, check=True).stdout
-    size = re.match(rb"P6\n(\d+) (\d+)\n255\n", pictures)
-    width, height = int(size[1]), int(size[2])
-    raw = np.frombuffer(pictures, np.uint8).reshape(-1, len(size[0]) + 3 * width * height)
-    first, last = (one[len(size[0]) :].reshape(height, width, 3).astype(int) for one in (raw[0], raw[-1]))
-    assert np.abs(first - last).max() > 100, len(raw)
+    first, last = pictures_of(path)[[0, -1]].astype(int)
+    assert np.abs(first - last).max() > 100
     assert last[2, 2].min() > 240
 
 
