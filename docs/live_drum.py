@@ -9,7 +9,7 @@ from typing import Any
 import drumrs
 from drumrs.simulation import Simulation
 from drumrs.studio.controls import SPEED, controls
-from drumrs.studio.scene import pack_start
+from drumrs.studio.scene import frame_now, pack_start
 from drumrs.viewer import module
 
 ROOT = Path(__file__).parents[1]
@@ -83,7 +83,7 @@ def machines() -> dict[str, Any]:
             "label": label,
             "facts": _FACTS,
             "config": core,
-            "scene": pack_start(simulation),
+            "scene": pack_start(frame_now(simulation, simulation.records.none())),
             "controls": sliders,
         }
     return found

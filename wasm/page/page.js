@@ -31,6 +31,9 @@ class WorkerLive extends EventTarget {
 
 const live = new WorkerLive(JSON.parse(document.querySelector("#drum").textContent));
 const studio = new Studio(document.querySelector("main"), live);
-// To write a case takes the package.
+// Cases, measures and forces take the package.
 for (const name of ["toml", "python"]) studio.part(name).hidden = true;
+for (const name of ["trade", "forces"]) studio.part(name).closest("label").hidden = true;
+const { show } = studio;
+studio.show = ({ forces, ...changes }) => show.call(studio, changes);
 Object.assign(window, { studio });

@@ -3,9 +3,9 @@
 //   const session = new Session(Simulation, machines, post);
 //   session.hear({ do: "play" });
 //
-// `machines` are { label, config, scene, controls } by name: the core's configuration, drum and load as `unpack` of
-// recording.js reads them, and sliders. What is heard, and told by `post`, is that of studio/server.py. Nothing is done while
-// nobody asks for pictures.
+// `machines` are { label, facts, config, scene, controls } by name: the core's configuration, drum and load as `unpack` of
+// recording.js reads them, and sliders. What is heard, and told by `post`, is that of studio/responder.py, without
+// measures, forces and cases, which take the package. Nothing is done while nobody asks for pictures.
 
 // Length of the ramp to another speed [s].
 const RAMP = 0.1;
@@ -152,11 +152,11 @@ export class Session {
     const seen = this.see();
     if (this.started) {
       const presets = Object.fromEntries(Object.entries(machines).map(([key, { label }]) => [key, label]));
-      this.post({ kind: "start", scene: this.scene(seen), controls: this.controls, presets, preset: name });
+      this.post({ kind: "start", scene: this.scene(seen), controls: this.controls, presets, preset: name, trades: [] });
     }
     const { label, facts } = machines[name];
     const title = `${simulation.radii().length} bundles: ${label}`;
-    this.post({ kind: "state", title, facts, playing, rate: rate === Infinity ? null : rate, speed: rpm, said: [this.said] });
+    this.post({ kind: "state", title, facts, playing, rate: rate === Infinity ? null : rate, speed: rpm, trade: "", said: [this.said] });
     // Bundles fall faster at first than ever after: the scale follows slowly.
     this.fastest = Math.max(seen.fastest, 0.995 * this.fastest);
     this.post({ kind: "measures", window: [0, simulation.time], tiles: [], panels: [], speedScale: this.fastest });

@@ -121,7 +121,12 @@ def test_other_machines_steps_and_a_reset(drum):
     drum.slide("rotation.rpm", 30)
     drum.page.locator(".reset").click()
     drum.wait("studio.recording.end === 0 && Math.abs(studio.spin * 30 / Math.PI - 30) < 1e-9")
-    assert not drum.page.locator(".toml").is_visible()
+    for name in ("toml", "python", "trade", "forces"):
+        assert not drum.page.locator(f".{name}").is_visible(), name
+    drum.page.locator(".stage").press("f")
+    assert not drum.read("studio.stage.forces")
+    drum.page.locator(".occupied").check()
+    drum.wait("studio.stage.occupied && /how often/.test(studio.part('layers').textContent)")
 
 
 def test_nobody_who_looks_nothing_that_runs(drum):
