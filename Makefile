@@ -10,6 +10,8 @@ UV     := $(shell command -v uv 2>/dev/null)
 # What running takes is installed first, so that a first study need not wait for what testing takes.
 STAMP  := $(VENV)/.installed
 TOOLS  := $(VENV)/.tools
+# Prints the Python dependencies, one a line: pip reads no pyproject.toml.
+DEPENDENCIES := import tomllib; print(*tomllib.load(open("pyproject.toml", "rb"))["project"]["dependencies"], sep="\n")
 # Where the programs are that exports are for: half a gigabyte.
 PROGRAMS := target/programs/.installed
 
@@ -102,17 +104,20 @@ clean: ## remove everything built
 	rm -rf $(VENV) $(OUT) dist python/drumrs/*.so
 
 # The Python dependencies are installed once and again when they change; a Rust edit only rebuilds the core. The first time
-# it is compiled while they are fetched.
+# they are fetched while it is compiled: not by a second maturin, for the two would take the finished library from each other.
 $(STAMP): pyproject.toml Cargo.toml
 ifdef UV
 	test -x $(BIN)/python || $(UV) venv --python '>=3.11' $(VENV)
 	$(UV) pip install 'maturin>=1.13,<2'
-	$(BIN)/maturin develop --release --skip-install --quiet & $(BIN)/maturin develop --release --uv && wait
+	$(UV) pip install --quiet -r pyproject.toml & $(BIN)/maturin develop --release --skip-install --quiet; wait
+	$(BIN)/maturin develop --release --uv
 else
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "drumrs needs Python 3.11 or later; set PYTHON=")'
 	test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
 	$(BIN)/python -m pip install --disable-pip-version-check --quiet 'maturin>=1.13,<2'
-	$(BIN)/maturin develop --release --skip-install --quiet & $(BIN)/maturin develop --release && wait
+	$(BIN)/python -c '$(DEPENDENCIES)' | $(BIN)/python -m pip install --disable-pip-version-check --quiet -r /dev/stdin & \
+	    $(BIN)/maturin develop --release --skip-install --quiet; wait
+	$(BIN)/maturin develop --release
 endif
 	@touch $@
 
