@@ -68,7 +68,7 @@ def pack(folder: str | Path, *, progress: bool = True) -> Packed:
     Raises
     ------
     ConfigError
-        Where it is not the folder of a sweep, or a case has a fresh checkpoint: another process is at work.
+        Where it is not the folder of a sweep, or another process is at work on a case that has a checkpoint.
     OSError
         Where packs cannot be written; no result is lost.
 
@@ -157,7 +157,8 @@ def _refuse_running(store: Store) -> None:
         limit = "a folder in which nobody computes"
         problem = f"has a checkpoint that was written {age:.0f} s ago, of case {case}, but must be {limit}"
         hint = (
-            "wait until the sweep has ended; where it was killed, until its checkpoints are some minutes old"
+            "wait until the sweep has ended; where it was killed on another machine, until its checkpoints are "
+            "some minutes old"
         )
         raise ConfigError(store.folder, limit=limit, problem=problem, hint=hint)
 

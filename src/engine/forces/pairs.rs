@@ -49,10 +49,11 @@ pub fn evaluate<L: ContactLaw, V: MotionView>(
     let unit = match parameters {
         ListParameters::Same(same) => {
             let own = PairParameters::<L>::map(same, F64x4::splat);
-            if lists.other_moments.is_empty() {
-                run::<L, V, false, false>(lists, |_| own, step, &mut totals);
-            } else {
+            // Equal bodies have one moment unless the law rolls: code for the other case would never run.
+            if L::ROLLS {
                 run::<L, V, true, false>(lists, |_| own, step, &mut totals);
+            } else {
+                run::<L, V, false, false>(lists, |_| own, step, &mut totals);
             }
             same.1.radius.min(same.1.other_radius)
         }

@@ -6,11 +6,11 @@ use super::pairs::{BlockForces, evaluate_block};
 use super::pass::{ChunkStep, ChunkSums, Scratch};
 use super::tallies::BlockRecords;
 use super::{StepInputs, SurfaceLoad, Totals};
-use crate::engine::contacts::{Block, BlockTally, ContactList, Ids, ListParameters, PairParameters};
+use crate::engine::contacts::{Block, BlockTally, ContactList, Ids, ListParameters};
 use crate::engine::motion::{MotionView, at_offset};
 use crate::engine::pair_list::Neighbors;
 use crate::engine::simd::{F64x4, LANES, Vec2x4, lanes, sum, vectors};
-use crate::physics::columns::{Columns, Of};
+use crate::physics::columns::Of;
 use crate::physics::contact::RelativeMotion;
 use crate::physics::contact::law::ContactLaw;
 use crate::physics::scalar::Scalar;
@@ -41,16 +41,10 @@ pub fn evaluate_rim<L: ContactLaw, V: MotionView>(
         return SurfaceLoad::default();
     }
     let mut totals = step.totals.open();
-    let ContactList { ids, blocks, tallies, parameters, .. } = list;
-    let (load, unit) = match parameters {
-        ListParameters::Same(same) => {
-            let own = PairParameters::<L>::map(same, F64x4::splat);
-            (rim_pass::<L, V, false>(ids, blocks, tallies, |_| own, step, &mut totals), same.1.radius)
-        }
-        ListParameters::Each(each) => {
-            let of = |block: usize| PairParameters::<L>::map(&each[block], F64x4::new);
-            (rim_pass::<L, V, true>(ids, blocks, tallies, of, step, &mut totals), 1.0)
-        }
+    let load = rim_pass::<L, V>(list, step, &mut totals);
+    let unit = match &list.parameters {
+        ListParameters::Same(same) => same.1.radius,
+        ListParameters::Each(_) => 1.0,
     };
     step.close(list, neighbors, &totals, unit);
     load
@@ -71,13 +65,11 @@ fn find_touching_rim<V: MotionView>(neighbors: &mut Neighbors, step: &mut ChunkS
     });
 }
 
-/// One pass over the contacts with the rim.
+/// One pass over the contacts with the rim. Its code is the same for equal and for different bodies: there are few such contacts,
+/// and each law takes its share of the program's size.
 #[inline(always)]
-fn rim_pass<L: ContactLaw, V: MotionView, const MIXED: bool>(
-    ids: &[Ids],
-    blocks: &mut [Block<L>],
-    tallies: &mut [BlockTally],
-    parameters: impl Fn(usize) -> Of<PairParameters<L>, F64x4>,
+fn rim_pass<L: ContactLaw, V: MotionView>(
+    list: &mut ContactList<L>,
     step: &mut ChunkStep<V>,
     totals: &mut Totals<F64x4>,
 ) -> SurfaceLoad {
@@ -87,12 +79,17 @@ fn rim_pass<L: ContactLaw, V: MotionView, const MIXED: bool>(
     let zero = F64x4::ZERO;
     let (mut moment, mut force) = (zero, Vec2x4::default());
     let (rim, speed) = (F64x4::splat(rim), F64x4::splat(inputs.angular_velocity));
-    for (index, (block, ids)) in blocks.iter_mut().zip(ids).enumerate() {
-        let parameters = parameters(index);
+    let ContactList { ids, blocks, tallies, parameters, .. } = list;
+    let shared = parameters.shared();
+    let by_block = parameters.by_block(&shared);
+    // Depths of equal bodies become ratios at the end.
+    let are_equal = F64x4::splat(f64::from(u8::from(shared.is_some()))).exceeds(zero);
+    for (index, (block, ids)) in blocks.iter_mut().zip(&*ids).enumerate() {
+        let (law, radii) = by_block.of(index);
         let position = vectors(|lane| motion.position(ids.own[lane]));
         let distance = position.dot(position).sqrt();
-        let overlap = distance - (rim - parameters.1.radius);
-        let arm = parameters.1.radius - overlap.larger(zero);
+        let overlap = distance - (rim - radii.radius);
+        let arm = radii.radius - overlap.larger(zero);
         let geometry = ContactGeometry {
             normal: position.scaled(F64x4::ONE / distance),
             overlap,
@@ -101,8 +98,9 @@ fn rim_pass<L: ContactLaw, V: MotionView, const MIXED: bool>(
             surface_rates: [zero, speed * (distance + arm)],
         };
         let records = wall_records::<L>(tallies.get_mut(index), kept, inputs);
+        let unit = F64x4::select(are_equal, F64x4::ONE, radii.radius);
         let step =
-            advance::<L, V, MIXED>(block, ids, &geometry, &parameters, motion, inputs, sums, totals, records);
+            advance::<L, V>(block, ids, &geometry, &law, unit, motion, inputs, sums, totals, records);
         moment += step.moment - position.cross(step.force);
         force = force.plus(step.force);
         ended.note(index, step.touching);
@@ -126,15 +124,16 @@ pub fn wall_records<'a, L: ContactLaw>(
     }
 }
 
-/// One step of a block: relative motion, law, work on the particles, forces. With `MIXED`, radii differ, and depths are
-/// ratios. Returns what it does to the drum.
+/// One step of a block: relative motion, law, work on the particles, forces. Depths are in units of `unit`. Returns what it does to
+/// the drum.
 #[allow(clippy::too_many_arguments)]
 #[inline(always)]
-pub fn advance<L: ContactLaw, V: MotionView, const MIXED: bool>(
+pub fn advance<L: ContactLaw, V: MotionView>(
     block: &mut Block<L>,
     ids: &Ids,
     geometry: &ContactGeometry,
-    (law, radii): &Of<PairParameters<L>, F64x4>,
+    law: &Of<L::Parameters, F64x4>,
+    unit: F64x4,
     view: V,
     inputs: &StepInputs,
     sums: &mut ChunkSums<V>,
@@ -154,8 +153,7 @@ pub fn advance<L: ContactLaw, V: MotionView, const MIXED: bool>(
     let both = Vec2x4 { x: step.force.x + step.last.force_x, y: step.force.y + step.last.force_y };
     // What the drum does is charged to its surfaces: this is the work on the particles alone.
     totals.power -= (step.moment + step.last.moment) * spin - both.dot(velocity);
-    let depth = if MIXED { step.overlap / radii.radius } else { step.overlap };
-    totals.deepest = depth.larger(totals.deepest);
+    totals.deepest = (step.overlap / unit).larger(totals.deepest);
     let moments = step.moment.to_array();
     let forces: [f64x2; LANES] = step.force.to_array();
     for lane in 0..LANES {

@@ -137,6 +137,7 @@ def test_a_fresh_checkpoint_refuses_and_an_old_one_does_not(copy, drum):
     _, folder = copy
     path = folder / f"{'0' * 20}.checkpoint.bin"
     path.write_bytes(b"")
+    path.with_name(f"{'0' * 20}.runner.json").write_text('{"machine": "another"}')
     status_, _, complaint = drum("pack", folder)
     assert status_ == 2
     assert (
@@ -147,7 +148,7 @@ def test_a_fresh_checkpoint_refuses_and_an_old_one_does_not(copy, drum):
     status_, printed, complaint = drum("pack", folder)
     assert (status_, complaint) == (0, "")
     assert printed.startswith("packed 3 cases: 2 files in place of ")
-    assert loose(folder).keys() == {path.name}
+    assert loose(folder).keys() == {path.name, f"{'0' * 20}.runner.json"}
 
 
 def test_what_is_damaged_stays_and_is_named(copy, drum):
