@@ -196,7 +196,7 @@ def _write_pack(
                 continue
             copies = {ending: _copy(archive, store.folder / f"{case}.{ending}") for ending in checked}
             size += sum(copy.file_size for copy in copies.values())
-            changed = [ending for ending, copy in copies.items() if copy.CRC != checked[ending]]
+            changed = [ending for ending, copy in copies.items() if checked[ending] != copy.CRC]
             if changed:
                 # What was copied of it belongs to no case.
                 left[case] = f"{case}.{changed[0]} has changed meanwhile"
