@@ -61,10 +61,7 @@ impl<L: ContactLaw> ListParameters<L> {
 
     /// By block; `shared` is what the method of that name returns.
     #[inline(always)]
-    pub fn by_block<'a>(
-        &'a self,
-        shared: &'a Option<Of<PairParameters<L>, [f64; LANES]>>,
-    ) -> ByBlock<'a, L> {
+    pub fn by_block<'a>(&'a self, shared: &'a Option<Of<PairParameters<L>, [f64; LANES]>>) -> ByBlock<'a, L> {
         match self {
             Self::Same(_) => ByBlock { each: shared.as_slice(), stride: 0 },
             Self::Each(each) => ByBlock { each, stride: 1 },

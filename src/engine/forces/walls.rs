@@ -99,8 +99,7 @@ fn rim_pass<L: ContactLaw, V: MotionView>(
         };
         let records = wall_records::<L>(tallies.get_mut(index), kept, inputs);
         let unit = F64x4::select(are_equal, F64x4::ONE, radii.radius);
-        let step =
-            advance::<L, V>(block, ids, &geometry, &law, unit, motion, inputs, sums, totals, records);
+        let step = advance::<L, V>(block, ids, &geometry, &law, unit, motion, inputs, sums, totals, records);
         moment += step.moment - position.cross(step.force);
         force = force.plus(step.force);
         ended.note(index, step.touching);

@@ -21,9 +21,10 @@ pub enum Model {
     Full,
     /// Hertz–Mindlin with the terms that do not go with the tangential stiffness.
     Hertz,
-    /// `Clipped` with records, which also serves where tension is allowed: to look at a least force of −∞ changes no bit, and costs
-    /// next to nothing beside the records.
-    Recorded,
+    /// `Bare` with records.
+    RecordedBare,
+    /// `Clipped` with records.
+    RecordedClipped,
     /// `Full` with records.
     RecordedFull,
     /// `Hertz` with records.
@@ -38,7 +39,8 @@ impl Model {
             (Base::Linear, false, false) if table.clips() => Self::Clipped,
             (Base::Linear, false, false) => Self::Bare,
             (Base::Linear, false, true) => Self::Full,
-            (Base::Linear, true, false) => Self::Recorded,
+            (Base::Linear, true, false) if table.clips() => Self::RecordedClipped,
+            (Base::Linear, true, false) => Self::RecordedBare,
             (Base::Linear, true, true) => Self::RecordedFull,
             (Base::Hertz, false, _) => Self::Hertz,
             (Base::Hertz, true, _) => Self::RecordedHertz,
@@ -52,7 +54,8 @@ macro_rules! with_law {
         $crate::physics::contact::model::with_law!($model, $law => $work;
             Bare: Linear<false>, Clipped: Linear<true>, Full: (Linear<true>, Terms),
             Hertz: (Hertz, Adhesion),
-            Recorded: WithRecords<Linear<true>>,
+            RecordedBare: WithRecords<Linear<false>>,
+            RecordedClipped: WithRecords<Linear<true>>,
             RecordedFull: WithRecords<(Linear<true>, Terms)>,
             RecordedHertz: WithRecords<(Hertz, Adhesion)>)
     };
