@@ -66,12 +66,12 @@ impl Simulation {
             contacts: self.records().contacts.as_slice().into(),
         };
         let refused = |error: postcard::Error| refuse(error.to_string());
-        let size = HEADER + postcard::experimental::serialized_size(&snapshot).map_err(refused)?;
+        let size = HEADER + write(&snapshot, None).map_err(refused)?;
         let mut bytes = Vec::new();
         memory::reserve(&mut bytes, size, "writing a checkpoint")?;
         bytes.resize(size, 0);
         let (header, body) = bytes.split_at_mut(HEADER);
-        postcard::to_slice(&snapshot, body).map_err(refused)?;
+        write(&snapshot, Some(body)).map_err(refused)?;
         let (magic, rest) = header.split_at_mut(MAGIC.len());
         let (version, digest) = rest.split_at_mut(4);
         magic.copy_from_slice(MAGIC);
@@ -99,6 +99,40 @@ impl Simulation {
             return Ok(simulation);
         }
         Err(refuse("its sums of contacts, fields or visits are not those of its bundles and its drum"))
+    }
+}
+
+/// Writes a snapshot where there is room for it, and returns how many bytes it takes. Counting goes through the same code as writing:
+/// it would be compiled twice otherwise.
+#[inline(never)]
+fn write(snapshot: &Snapshot, room: Option<&mut [u8]>) -> postcard::Result<usize> {
+    postcard::serialize_with_flavor(snapshot, Sink { room, written: 0 })
+}
+
+struct Sink<'a> {
+    room: Option<&'a mut [u8]>,
+    written: usize,
+}
+
+impl postcard::ser_flavors::Flavor for Sink<'_> {
+    type Output = usize;
+
+    fn try_extend(&mut self, data: &[u8]) -> postcard::Result<()> {
+        let end = self.written + data.len();
+        if let Some(room) = &mut self.room {
+            let place = room.get_mut(self.written..end).ok_or(postcard::Error::SerializeBufferFull)?;
+            place.copy_from_slice(data);
+        }
+        self.written = end;
+        Ok(())
+    }
+
+    fn try_push(&mut self, byte: u8) -> postcard::Result<()> {
+        self.try_extend(&[byte])
+    }
+
+    fn finalize(self) -> postcard::Result<usize> {
+        Ok(self.written)
     }
 }
 

@@ -52,10 +52,11 @@ pub fn evaluate<L: ContactLaw, V: MotionView>(
                 let own = PairParameters::<L>::map(same, F64x4::splat);
                 move |_| own
             };
-            if lists.other_moments.is_empty() {
-                run::<L, V, _, false, false>(lists, parameters, unit, step);
-            } else {
+            // Equal bodies have one moment unless the law rolls: code for the other case would never run.
+            if L::ROLLS {
                 run::<L, V, _, true, false>(lists, parameters, unit, step);
+            } else {
+                run::<L, V, _, false, false>(lists, parameters, unit, step);
             }
         }
         ListParameters::Each(each) => {
