@@ -146,7 +146,9 @@ def require_format(folder: Path, kind: str) -> None:
     found = (read_object(folder / marker(kind)) or {}).get("format", _FORMAT)
     if not isinstance(found, int) or found > _FORMAT:
         limit = f"of format {_FORMAT} at most: a newer drumrs made it"
-        raise ConfigError(folder, found, limit, problem=f"is of format {found}, but must be {limit}", bound=_FORMAT)
+        raise ConfigError(
+            folder, found, limit, problem=f"is of format {found}, but must be {limit}", bound=_FORMAT
+        )
 
 
 def is_claimed(folder: Path, kind: str, digest: str) -> bool:
