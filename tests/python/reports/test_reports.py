@@ -47,7 +47,18 @@ def program() -> drumrs.Result:
 @pytest.fixture(scope="module")
 def pages(recorded) -> dict[str, str]:
     """Return each page of the run of which all is recorded."""
-    return {name: render(recorded, name) for name in PAGES}
+    return {name: rendered(recorded, name) for name in PAGES}
+
+
+_RENDERED: dict[tuple[int, str], str] = {}
+
+
+def rendered(result: drumrs.Result, page: str) -> str:
+    """Return a page of one of the runs above, made once."""
+    key = (id(result), page)
+    if key not in _RENDERED:
+        _RENDERED[key] = render(result, page)
+    return _RENDERED[key]
 
 
 def words(html: str) -> str:
@@ -80,7 +91,7 @@ def test_a_page_lacks_nothing_where_all_is_recorded(name, pages):
 
 
 def test_a_page_says_which_record_to_add_and_is_whole_without(plain):
-    html = render(plain, "research")
+    html = rendered(plain, "research")
     lacking = re.findall(r"not shown: (.*?)\.</p>", unescape(html), re.DOTALL)
     for record in RECORDS:
         assert any(f"add '{record}' to it and run again" in one for one in lacking)
@@ -137,7 +148,7 @@ def test_models_are_asked_for_this_mill(recorded, pages):
 
 
 def test_models_of_mills_need_one_speed(program):
-    told = section(render(program, "mill"), "models")
+    told = section(rendered(program, "mill"), "models")
     assert (
         "not shown: rotation lets the drum rest or change its speed, but models of mills are of one speed."
         in told
@@ -145,7 +156,7 @@ def test_models_of_mills_need_one_speed(program):
 
 
 def test_the_charge_is_told_for_either_way(program):
-    told = section(render(program, "mill"), "shape")
+    told = section(rendered(program, "mill"), "shape")
     assert told.count("toe angle") == 2
     assert "The same while the drum turns the other way, t = " in told
 
@@ -169,14 +180,14 @@ def test_energy_is_split_by_kind_of_part(pages):
 def test_motion_is_measured_at_one_speed(program, plain):
     assert Material(plain).span == (0.4, 1.2)
     assert Material(program).span == pytest.approx((0.45, 0.85))
-    html = render(program, "washer")
+    html = rendered(program, "washer")
     assert "motion is measured over its longest stretch at one speed, t = 0.45–0.85 s" in words(html)
     falls = flights(program.frames, (0.45, 0.85)).filter("is_fall").height
     assert f"energy of {falls} falls, by the angle" in html
 
 
 def test_phases_have_a_row_each(program):
-    rows = re.search(r'<section id="phases">(.*?)</section>', render(program, "washer"), re.DOTALL)[1]
+    rows = re.search(r'<section id="phases">(.*?)</section>', rendered(program, "washer"), re.DOTALL)[1]
     names = re.findall(r'<th scope="row">(\w+ \d)</th>', rows)
     assert names == ["start 1", "tumble 1", "rest 1", "back 1"]
     back = drumrs.phases(program).row(3, named=True)
@@ -232,7 +243,8 @@ def test_numbers_are_written_as_people_write_them(number, error, shown):
     assert content.value(number, error) == shown
 
 
-def test_report_writes_a_file_of_drumrs(plain, tmp_path):
+def test_report_writes_a_file_of_drumrs(plain, tmp_path, monkeypatch):
+    monkeypatch.setattr("drumrs.reports.page.render", rendered)
     path = drumrs.report(plain, page="dryer", folder=tmp_path)
     assert path == tmp_path / "report.html"
     assert drumrs.report(plain, folder=tmp_path) == path
