@@ -11,8 +11,8 @@ import drumrs
 from drumrs.analysis import rate_with_error
 from drumrs.measures import flights, hogg_fuerstenau, morrell
 from drumrs.reports import PAGES, catalog, content, power
-from drumrs.reports.material import Material
 from drumrs.reports.page import render
+from drumrs.reports.run_data import RunData
 
 RECORDS = ("contacts", "wall_profile", "ledger_split", "discs")
 SHORT = {"run.duration": 1.2, "run.window": (0.4, 1.2), "run.frame_every": 0.02}
@@ -123,20 +123,20 @@ def test_power_is_that_of_the_summary(recorded, pages):
     summary = recorded.summary
     shown = content.value(summary.drum_specific_power, summary.drum_specific_power_error)
     assert f"drum specific power [W/kg] {shown} power of the drum" in section(pages["washer"], "power")
-    material = Material(recorded)
-    knocking = rate_with_error(recorded.series, "dissipated_normal", material.window)
+    data = RunData(recorded)
+    knocking = rate_with_error(recorded.series, "dissipated_normal", data.window)
     assert knocking.value == pytest.approx(summary.dissipated_normal_power)
-    told = content.value(knocking.value / material.mass, knocking.error and knocking.error / material.mass)
+    told = content.value(knocking.value / data.mass, knocking.error and knocking.error / data.mass)
     assert f"all {told} " in section(pages["washer"], "handling")
 
 
 def test_models_are_asked_for_this_mill(recorded, pages):
-    config, material = recorded.config, Material(recorded)
+    config, data = recorded.config, RunData(recorded)
     radius, speed = config.drum.diameter / 2.0, config.derived.angular_velocity
     filling = config.fill / 0.82
     model = morrell.charge(filling, speed * math.sqrt(radius / 9.81))
-    flat = hogg_fuerstenau.arm(filling, material.charge["surface_slope"].value)
-    scale = material.mass * 9.81 * radius * speed
+    flat = hogg_fuerstenau.arm(filling, data.charge["surface_slope"].value)
+    scale = data.mass * 9.81 * radius * speed
     told = section(pages["mill"], "models")
     powers = " ".join(content.value(arm * scale / 1e3) for arm in (model.arm, flat))
     assert f" {powers} arm" in told
@@ -178,8 +178,8 @@ def test_energy_is_split_by_kind_of_part(pages):
 
 
 def test_motion_is_measured_at_one_speed(program, plain):
-    assert Material(plain).span == (0.4, 1.2)
-    assert Material(program).span == pytest.approx((0.45, 0.85))
+    assert RunData(plain).span == (0.4, 1.2)
+    assert RunData(program).span == pytest.approx((0.45, 0.85))
     html = rendered(program, "washer")
     assert "motion is measured over its longest stretch at one speed, t = 0.45–0.85 s" in words(html)
     falls = flights(program.frames, (0.45, 0.85)).filter("is_fall").height
@@ -196,10 +196,10 @@ def test_phases_have_a_row_each(program):
 
 
 def test_nothing_slips_in_a_drum_that_rests(program):
-    material = Material(program)
-    assert power._in_phase(material, (0.45, 0.85))[2] != "–"
+    data = RunData(program)
+    assert power._in_phase(data, (0.45, 0.85))[2] != "–"
     # It turns at the beginning, then rests.
-    assert power._in_phase(material, (0.7, 1.0))[2] == "–"
+    assert power._in_phase(data, (0.7, 1.0))[2] == "–"
 
 
 def test_a_drum_without_a_rim_still_has_a_page():
@@ -214,7 +214,7 @@ def test_visits_are_told_as_they_were_counted():
     zone = {"name": "right", "corners": [[0.0, -0.3], [0.3, -0.3], [0.3, 0.3], [0.0, 0.3]]}
     result = run(**{"run.zone": [zone], "run.duration": 3.0, "run.window": (1.0, 3.0)})
     told, table = section(render(result, "coater"), "visits"), result.zone_visits
-    rate = 60.0 * table["entries"].mean() / (Material(result).duration - 1.0)
+    rate = 60.0 * table["entries"].mean() / (RunData(result).duration - 1.0)
     assert f"visits of a disc in a minute {content.value(rate)} " in told
     inside = table["time_inside"].to_numpy()
     spread = 100.0 * inside.std(ddof=1) / inside.mean()
