@@ -18,7 +18,7 @@ pub struct Ids {
     pub other: [u32; LANES],
 }
 
-/// What four contacts keep: three lines of the cache for the linear law.
+/// What four contacts keep: three cache lines for the linear law.
 #[derive(Debug, Clone, Copy)]
 #[repr(C, align(64))]
 pub struct Block<L: ContactLaw> {

@@ -27,11 +27,17 @@ def run(*words: str, **environment: str) -> subprocess.CompletedProcess[bytes]:
     )
 
 
+@pytest.fixture(scope="module")
+def in_utf8():
+    """Return what goes to a file where the encoding is UTF-8."""
+    return run("quantities", "ratio", PYTHONIOENCODING="utf-8").stdout
+
+
 @pytest.mark.parametrize("encoding", ["ascii", "cp1252", "cp437"])
-def test_what_goes_to_a_file_is_utf8(encoding):
+def test_what_goes_to_a_file_is_utf8(encoding, in_utf8):
     told = run("quantities", "ratio", PYTHONIOENCODING=encoding)
     assert (told.returncode, told.stderr) == (0, b"")
-    assert told.stdout == run("quantities", "ratio", PYTHONIOENCODING="utf-8").stdout
+    assert told.stdout == in_utf8
     assert "Δ" in told.stdout.decode("utf-8")
 
 
