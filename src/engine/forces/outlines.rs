@@ -84,7 +84,8 @@ pub fn evaluate<L: ContactLaw, V: MotionView>(
         }
         ended.note(index, forces.touching);
     }
-    step.close(list, neighbors, &totals, 1.0);
+    step.totals.close(&totals, 1.0);
+    step.close(list, neighbors);
 }
 
 /// Where each contact meets the drum, and which neighbors have begun to touch.

@@ -73,7 +73,7 @@ pub struct Pass<L: ContactLaw> {
     pub outcomes: Vec<ChunkOutcome>,
     /// By chunk: the chunks that may have reactions for it; ascending.
     pub senders: Vec<Vec<u32>>,
-    /// What each surface of the drum did to the load in the last pass.
+    /// What each surface of the drum did to the load in the last pass, where there are several chunks.
     pub surfaces: Vec<SurfaceLoad>,
     count: usize,
 }
@@ -192,7 +192,11 @@ impl<L: ContactLaw> Pass<L> {
 
     /// Adds what the chunks did to the load, in their order.
     fn add_up(&mut self) {
-        let Some((first, others)) = self.outcomes.split_first() else { return };
+        // Those of one chunk are read where they are.
+        let [first, others @ ..] = &self.outcomes[..] else { return };
+        if others.is_empty() {
+            return;
+        }
         self.surfaces.copy_from_slice(&first.surfaces);
         for outcome in others {
             for (surface, part) in self.surfaces.iter_mut().zip(&outcome.surfaces) {

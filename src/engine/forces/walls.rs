@@ -52,7 +52,8 @@ pub fn evaluate_rim<L: ContactLaw, V: MotionView>(
             (rim_pass::<L, V, true>(ids, blocks, tallies, of, step, &mut totals), 1.0)
         }
     };
-    step.close(list, neighbors, &totals, unit);
+    step.totals.close(&totals, unit);
+    step.close(list, neighbors);
     load
 }
 
