@@ -405,8 +405,17 @@ def require_config(config: object) -> Config:
     raise ConfigError("config", config, "a Config", hint=hint)
 
 
-def read_layer(path: str | Path) -> dict[str, Any]:
+def read_layer(
+    path: str | Path, what: str = "a file of configuration keys", hint: str = _WRITE_ONE
+) -> dict[str, Any]:
     """Read a file of configuration keys as a layer: TOML, or JSON where the name ends with ``.json``.
+
+    Parameters
+    ----------
+    path
+        The file.
+    what, hint
+        What it is to be, and where one learns how to write it, as the error says them.
 
     Raises
     ------
@@ -421,8 +430,8 @@ def read_layer(path: str | Path) -> dict[str, Any]:
             raise ValueError("UTF-16 without a mark")  # noqa: TRY301 - told as all else that is no UTF-8
     except (OSError, ValueError) as error:
         reason = error.strerror if isinstance(error, OSError) else "it is not text in UTF-8: save it as such"
-        problem = f"cannot be read as a file of configuration keys: {reason}"
-        raise ConfigError(Path(path), problem=problem, hint=_WRITE_ONE) from None
+        problem = f"cannot be read as {what}: {reason}"
+        raise ConfigError(Path(path), problem=problem, hint=hint) from None
     read = read_json if Path(path).suffix == ".json" else read_toml
     return anchored(read(text, Path(path)), Path(path).parent)
 
