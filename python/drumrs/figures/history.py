@@ -110,7 +110,7 @@ def draw_power(axes: "Axes", columns: dict[str, Array]) -> None:
 
 def _energies(axes: "Axes", columns: dict[str, Array]) -> None:
     axes.set_title(labels.ENERGY_STORED, y=_TITLE)
-    log_scale(axes.yaxis)
+    log_scale(axes, "y")
     most = 0.0
     for label, values in energies_to_show(columns).items():
         time, smooth = _thinned(columns["time"], values)
@@ -123,7 +123,7 @@ def _energies(axes: "Axes", columns: dict[str, Array]) -> None:
 
 def _ledger(axes: "Axes", columns: dict[str, Array]) -> None:
     axes.set_title(labels.ENERGY_RESIDUAL, y=_TITLE)
-    log_scale(axes.yaxis)
+    log_scale(axes, "y")
     name = "energy_residual"
     residual = np.abs(columns[name])
     # A residual of exactly 0 has no place on a logarithmic axis; it is drawn at the last bit of 1.

@@ -69,8 +69,8 @@ class _Powers(LogFormatterSciNotation):
         return _POWER.sub(lambda power: power[1].translate(_RAISED), text).replace(r"\times", "×")
 
 
-def log_scale(axis: "Axis") -> None:
-    """Let an axis be logarithmic, with powers of ten at its ticks.
+def log_scale(axes: "Axes", *names: str) -> None:
+    """Let axes of a drawing, ``"x"`` or ``"y"``, be logarithmic, with powers of ten at their ticks.
 
     Examples
     --------
@@ -78,13 +78,15 @@ def log_scale(axis: "Axis") -> None:
     >>> from drumrs.figures.shared import log_scale
     >>> axes = figures.new_figure(4.0, 3.0).subplots()
     >>> _ = axes.plot([1.0, 2.0], [2e-3, 30.0])
-    >>> log_scale(axes.yaxis)
+    >>> log_scale(axes, "y")
     >>> axes.yaxis.get_major_formatter()(1e-2), axes.yaxis.get_minor_formatter()(2e-2)
     ('10⁻²', '')
     """
-    axis.axes.set(**{f"{axis.axis_name}scale": "log"})
-    axis.set_major_formatter(_Powers())
-    axis.set_minor_formatter(_Powers())
+    for name in names:
+        axes.set(**{f"{name}scale": "log"})
+        axis: Axis = getattr(axes, f"{name}axis")
+        axis.set_major_formatter(_Powers())
+        axis.set_minor_formatter(_Powers())
 
 
 def write(figure: Figure, path: str | Path) -> None:

@@ -54,8 +54,8 @@ def collision_spectrum(spectra: "Mapping[str, pl.DataFrame]", unit: str = "J/m")
             )
             shares.plot(edges[:-1], 100.0 * rows["share_above"].to_numpy(), color=color, label=name)
         rates.set(ylabel="collisions in a bin [1/(kg s)]")
-        for axis in (rates.xaxis, rates.yaxis, shares.xaxis):
-            log_scale(axis)
+        log_scale(rates, "x", "y")
+        log_scale(shares, "x")
         shares.set(ylabel="share of the power above [%]", ylim=(0.0, 103.0))
         for axes in (rates, shares):
             axes.set_xlabel(f"energy of a collision [{unit}]")
