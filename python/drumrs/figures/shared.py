@@ -80,7 +80,7 @@ def log_scale(axes: "Axes", *names: str) -> None:
     >>> _ = axes.plot([1.0, 2.0], [2e-3, 30.0])
     >>> log_scale(axes, "y")
     >>> axes.yaxis.get_major_formatter()(1e-2), axes.yaxis.get_minor_formatter()(2e-2)
-    ('10⁻²', '')
+    ('10⁻²', '2×10⁻²')
     """
     for name in names:
         axes.set(**{f"{name}scale": "log"})
