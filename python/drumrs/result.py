@@ -164,7 +164,7 @@ class Result:
     discs
         What each bundle received, and its flights, one row each; where it has "discs".
     fields
-        Means of density, momentum and stress, one row a cell, from the start of the window on; where it has "fields".
+        Means of density, momentum and stress, one row a cell, over the averages' window; where it has "fields".
     zone_visits
         How the bundles visited the zones of ``run.zone``, one row a zone and bundle, likewise.
     dissipated

@@ -4,10 +4,8 @@
 //! threads may look at it, or stop it, between two slices of a run. Every slice leaves it up to date: looking never moves
 //! anything, and where slices end does not show in a bit.
 
-use std::borrow::Cow;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc;
-use std::thread;
 use std::time::{Duration, Instant};
 
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
@@ -124,7 +122,7 @@ fn on_a_thread(
     make: impl FnOnce() -> Result<Core, Error> + Send + 'static,
 ) -> PyResult<Core> {
     let (sender, mut receiver) = mpsc::channel();
-    let made = thread::Builder::new().spawn(move || sender.send(make()).ok());
+    let made = std::thread::Builder::new().spawn(move || sender.send(make()).ok());
     let refuse = |reason: String| Error::System { action: action.into(), reason };
     made.map_err(|error| refuse(error.to_string()))?;
     loop {
@@ -378,8 +376,11 @@ impl Simulation {
 
     /// What is summed up on request, up to now: see `contact_arrays::RecordedSums`.
     fn recorded_sums<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let sums = self.with(py, |core| contact_arrays::RecordedSums::of(core));
-        sums.into_dict(py)
+        self.with(py, |core| contact_arrays::RecordedSums::of(core)).into_dict(py)
+    }
+
+    fn tell_sums_until(&self, py: Python<'_>, time: f64) {
+        self.with(py, |core| core.tell_sums_until(time));
     }
 
     fn put_back_contacts(&self, py: Python<'_>, contacts: &Bound<'_, PyDict>) -> PyResult<()> {
@@ -442,7 +443,7 @@ impl Simulation {
         let told = columns(&parts, record.as_slice()).into_iter();
         told.map(|c| {
             [c.name, c.symbol, c.unit.into(), c.reading.name().into(), c.formula, c.meaning]
-                .map(Cow::into_owned)
+                .map(std::borrow::Cow::into_owned)
         })
         .collect()
     }

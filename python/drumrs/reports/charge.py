@@ -54,7 +54,7 @@ def flow(of: "RunData") -> "Iterator[Block]":
     yield Picture(
         "Where the load is, and how it moves",
         f"Mean solid fraction and velocity, coarse-grained over {found.width:.3g} m, {_MIRROR}"
-        + (" Summed up from the start of the window to the end of the run." if of.sums_fields else ""),
+        + (" Summed up over the window." if of.sums_fields else ""),
         draw,
     )
     if not of.sums_fields:
@@ -140,7 +140,7 @@ def visits(of: "RunData") -> "Iterator[Block]":
     table = of.result.zone_visits
     if table is not None:
         for zone in table["zone"].unique(maintain_order=True):
-            yield _recorded_visits(table.filter(zone=zone), zone, of.duration - of.window[0])
+            yield _recorded_visits(table.filter(zone=zone), zone, of.window[1] - of.window[0])
         return
     seen = counter_clockwise(of.frames)
     surface, diameter = of.surface, 2.0 * float(of.frames.radii.mean())
@@ -178,7 +178,7 @@ def _recorded_visits(table: "pl.DataFrame", zone: str, time: float) -> Table:
             ),
             (f"after {time:.3g} s, were all visits chance alike [%]", value(100.0 * found.spread(time))),
         ],
-        f"The zone is {zone!r} of run.zone; counted over the last {time:.3g} s. Spread: standard "
+        f"The zone is {zone!r} of run.zone; counted over {time:.3g} s. Spread: standard "
         "deviation over discs, over the mean, as the motion alone makes it. The last row is reckoned from the "
         f"{found.count} visits that another one followed: where it is below what was counted, discs that seldom come "
         "stay so, or the time is short for their cycles.",

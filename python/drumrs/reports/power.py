@@ -76,8 +76,8 @@ def beside_models(of: "RunData") -> "Iterator[Block]":
     if not of.gravity:
         raise ConfigError("gravity", 0.0, "more than 0, to compare with models of mills")
     filling = load.bulk_fill or of.summary.fill / (load.solid_fraction or SOLID_FRACTION)
-    critical = speed * math.sqrt(radius / of.gravity)
-    model, ours = morrell.charge(filling, critical), of.charge
+    froude = speed * speed * radius / of.gravity
+    model, ours = morrell.charge(filling, math.sqrt(froude)), of.charge
     slope = of.charge["surface_slope"].value
     flat = hogg_fuerstenau.arm(filling, slope)
     scale = of.mass * of.gravity * radius * speed
@@ -97,8 +97,8 @@ def beside_models(of: "RunData") -> "Iterator[Block]":
     yield Table(
         ("", "this run", "Morrell", "Hogg–Fuerstenau"),
         rows,
-        f"Filling J = {100.0 * filling:.3g} %, {100.0 * critical:.3g} % of the critical speed √(g/R). Angles are "
-        "counter-clockwise from the horizontal, of a mill that turns counter-clockwise.",
+        f"Filling J = {100.0 * filling:.3g} %, Froude number Ω²R/g = {froude:.3g}, whose root is Morrell’s φ. Angles "
+        "are counter-clockwise from the horizontal, of a mill that turns counter-clockwise.",
     )
     yield (
         "Morrell’s C-model (Trans. Inst. Min. Metall. C 105 (1996) 43 and 54) was fitted to wet industrial mills, "

@@ -103,7 +103,6 @@ export class Recording extends EventTarget {
 export const DIRECTIONS = 256;
 
 const FULL = 65535;
-const TURN = 65536;
 // Numbers at the head of a picture of the studio, 8 bytes each.
 const HEAD_NUMBERS = 6;
 
@@ -112,7 +111,8 @@ export function unpack(data) {
   const radii = decode(data.radii, Float32Array);
   const count = radii.length;
   const drumAngles = decode(data.drum_angles, Float64Array);
-  const [places, turns, shares] = [data.positions, data.angles, data.speeds].map((packed) => decode(packed, Uint16Array));
+  const places = decode(data.positions, Uint16Array);
+  const [turns, shares] = [data.angles, data.speeds].map((packed) => decode(packed, Uint8Array));
   const { positions, angles, speeds } = inUnits(places, turns, shares, data);
   const frames = Array.from(decode(data.times, Float64Array), (time, k) => ({
     time,
@@ -130,12 +130,14 @@ export function unpack(data) {
   return new Recording({ title, facts, radii, drumRadius, shell, reach, baffles, walls, window, speedScale, panels, species, forceScale, discs, frames });
 }
 
-// Meters, radians and meters in a second of the whole numbers of 16 bits that recording.py makes of them.
+// Meters, radians and meters in a second of the whole numbers that recording.py makes of them: 16 bits for places, for the
+// others 8 in a page, 16 in a picture of the studio.
 function inUnits(places, turns, shares, { reach, fastest }) {
+  const [turn, full] = [2 ** (8 * turns.BYTES_PER_ELEMENT), 2 ** (8 * shares.BYTES_PER_ELEMENT) - 1];
   return {
     positions: scaled(places, (2 * reach) / FULL, -reach),
-    angles: scaled(turns, (2 * Math.PI) / TURN, 0),
-    speeds: scaled(shares, fastest / FULL, 0),
+    angles: scaled(turns, (2 * Math.PI) / turn, 0),
+    speeds: scaled(shares, fastest / full, 0),
   };
 }
 
@@ -168,7 +170,7 @@ export function unpackFrame({ count, reach }, buffer) {
 
 // What holds the numbers of bundles and of directions to the drum.
 function numbersFor(count) {
-  return count + DIRECTIONS <= TURN ? Uint16Array : Uint32Array;
+  return count + DIRECTIONS <= FULL + 1 ? Uint16Array : Uint32Array;
 }
 
 // Return the panel that recording.py has packed.

@@ -8,6 +8,8 @@ import pytest
 from drumrs import measures
 from drumrs.errors import ConfigError
 from drumrs.measures.clearance import clearance
+from drumrs.measures.frame_window import FrameWindow
+from drumrs.measures.toe import toe_and_shoulder
 from drumrs.verification import made_up
 
 WINDOW = (0.0, 1.0)
@@ -35,6 +37,25 @@ def test_the_surface_is_a_radius_above_the_bed_at_its_slope():
     up = np.array([-np.sin(0.5), np.cos(0.5)])
     inner = np.abs(surface.along) < 0.5
     assert (surface.points() @ up)[inner] == pytest.approx(-np.cos(1.4) + 0.03, abs=0.015)
+
+
+def test_few_frames_do_not_draw_the_ends_of_the_charge_in():
+    """Discs at random at a shell that thins out over 40°: half of the filling is in the middle, seen often or not."""
+    rng = np.random.default_rng(1)
+
+    def seen(count):
+        angles = rng.uniform(-120.0, 60.0, (count, 1000))
+        kept = rng.uniform(0.0, 40.0, angles.shape) > angles - 20.0
+        # As many discs in each frame; those that are not at the shell lie deeper, about the same middle.
+        reach, angle = np.where(kept, 0.97, 0.4), np.radians(np.where(kept, angles, -40.0))
+        positions = np.stack([reach * np.cos(angle), reach * np.sin(angle)], axis=-1)[:, :30]
+        found = toe_and_shoulder(FrameWindow(positions, np.arange(count), np.arange(count)), 0.1, 1.0)
+        return np.degrees([found.toe, found.shoulder])
+
+    often = seen(3000)
+    assert often == pytest.approx([240.0, 40.0], abs=2.0)
+    few = np.array([seen(30) for _ in range(40)])
+    assert few.mean(axis=0) == pytest.approx(often, abs=2.5)
 
 
 def test_area_of_baffles_is_taken_out():
