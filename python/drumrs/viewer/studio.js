@@ -3,6 +3,8 @@
 //
 //   const studio = new Studio(element, live);
 //   studio.destroy();
+//
+// `lacks` names the parts of studio.html that this one is to do without: there the simulation cannot do what they ask for.
 
 import { STYLE } from "./assets.js";
 import { readTheme } from "./canvas.js";
@@ -28,23 +30,25 @@ const MOMENT = 1e-6;
 // What of a stage has a box, and stays as it is where another drum comes.
 const LAYERS = ["forces", "occupied", "corotating"];
 
+// What keys do: `name` is how they are written, `words` what they do, of several in a row the last one's; `part` what does the
+// same, without which there is no such key.
 const STUDIO_KEYS = {
-  " ": (studio) => studio.toggle(),
-  ArrowRight: (studio) => studio.ask("step"),
-  ArrowUp: (studio) => studio.sliders.turn(1),
-  ArrowDown: (studio) => studio.sliders.turn(-1),
-  r: (studio) => studio.ask("reset"),
-  c: (studio) => studio.nextMode(),
-  m: (studio) => studio.mark(),
-  f: (studio) => studio.show({ forces: !studio.stage.forces }),
-  o: (studio) => studio.show({ occupied: !studio.stage.occupied }),
-  n: (studio) => studio.choose([((studio.stage?.chosen.at(-1) ?? -1) + 1) % studio.recording.count]),
-  s: (studio) => studio.saveScreenshot(),
-  Escape: (studio) => studio.choose([]),
+  " ": { name: "space", words: "play or pause", act: (studio) => studio.toggle() },
+  ArrowRight: { name: "→", words: "one step", act: (studio) => studio.ask("step") },
+  r: { words: "reset", act: (studio) => studio.ask("reset") },
+  ArrowUp: { name: "↑", act: (studio) => studio.sliders.turn(1) },
+  ArrowDown: { name: "↓", words: "speed of the drum", act: (studio) => studio.sliders.turn(-1) },
+  c: { words: "color", act: (studio) => studio.nextMode() },
+  m: { words: "mark this time", act: (studio) => studio.mark() },
+  f: { words: "forces", part: "forces", act: (studio) => studio.show({ forces: !studio.stage.forces }) },
+  o: { words: "occupancy", act: (studio) => studio.show({ occupied: !studio.stage.occupied }) },
+  n: { words: "next bundle and its path", act: (studio) => studio.choose([((studio.stage?.chosen.at(-1) ?? -1) + 1) % studio.recording.count]) },
+  Escape: { name: "Esc", words: "no bundle", act: (studio) => studio.choose([]) },
+  s: { words: "screenshot", act: (studio) => studio.saveScreenshot() },
 };
 
 export class Studio {
-  constructor(element, live) {
+  constructor(element, live, lacks = []) {
     this.live = live;
     this.host = document.createElement("div");
     const root = this.host.attachShadow({ mode: "open" });
@@ -53,7 +57,9 @@ export class Studio {
     this.root = root;
     this.part = (name) => root.querySelector(`.${name}`);
     this.theme = {};
-    this.keys = STUDIO_KEYS;
+    for (const name of lacks) (this.part(name).closest("label") ?? this.part(name)).hidden = true;
+    this.keys = Object.fromEntries(Object.entries(STUDIO_KEYS).filter(([, { part }]) => !lacks.includes(part)));
+    this.listKeys();
     this.pictures = { count: 0, since: performance.now(), rate: 0 };
     this.written = 0;
     // As the system asks for: with less motion the drum stands until the reader lets it turn.
@@ -91,6 +97,15 @@ export class Studio {
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.refresh(), { signal });
     this.sizes = new ResizeObserver(() => this.refresh());
     this.sizes.observe(this.part("stage"));
+  }
+
+  listKeys() {
+    const list = this.part("keys").lastElementChild;
+    const all = Object.entries(this.keys);
+    all.forEach(([key, { name = key, words }], k) => {
+      list.append(Object.assign(document.createElement("kbd"), { textContent: name }), words ? ` ${words}` : " ");
+      if (words) list.append(k < all.length - 1 ? ", " : ".");
+    });
   }
 
   destroy() {
@@ -366,11 +381,11 @@ export class Studio {
 
   // Do what a key stands for, unless the control that has the focus needs the key itself.
   press(event) {
-    const act = this.keys[event.key];
+    const key = this.keys[event.key];
     const inside = this.root.activeElement;
     const own = inside?.matches("select, input[type=range], textarea") || (inside?.matches("button, input, summary") && event.key === " ");
-    if (!act || own || event.ctrlKey || event.metaKey || event.altKey) return;
+    if (!key || own || event.ctrlKey || event.metaKey || event.altKey) return;
     event.preventDefault();
-    act(this);
+    key.act(this);
   }
 }
