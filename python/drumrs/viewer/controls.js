@@ -80,7 +80,7 @@ export class Controls {
     this.part("title").textContent = title;
     this.part("facts").textContent = recording.facts;
     this.part("player").setAttribute("aria-label", `Player: ${title}`);
-    this.part("stage").setAttribute("aria-label", `${counted("bundle", recording.count)} in the drum: ${title}`);
+    this.part("stage").setAttribute("aria-label", `${counted(recording.count, "bundle")} in the drum: ${title}`);
     this.part("scrub").max = recording.frames.length - 1;
   }
 

@@ -296,7 +296,7 @@ export class Studio {
     const texts = {
       time: `${scene.time.toFixed(2)} s`,
       turning: `${rpm.toFixed(1).replace("-", "−")} rpm, ${Math.abs(scene.drumAngle / 2 / Math.PI).toFixed(2)} turns`,
-      pace: playing ? `${formatNumber(factor)} simulated seconds in a second, ${counted("picture", Math.round(pictures.rate))}.` : "Paused.",
+      pace: playing ? `${formatNumber(factor)} simulated seconds in a second, ${counted(Math.round(pictures.rate), "picture")}.` : "Paused.",
       ...legendOf(coloring, scene),
       layers: layersOf(stage),
     };
