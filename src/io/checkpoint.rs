@@ -52,19 +52,7 @@ impl Simulation {
     /// The error that stopped the simulation, if one did: there is nothing good to keep. `Error::Memory` where there is no
     /// room for the bytes.
     pub fn to_checkpoint(&self) -> Result<Vec<u8>, Error> {
-        if let Some(failure) = self.failure() {
-            return Err(failure.clone());
-        }
-        let snapshot = Snapshot {
-            physics_version: PHYSICS_VERSION,
-            config: self.config().to_json(),
-            seed: self.seed(),
-            state: Cow::Borrowed(self.state()),
-            engine: self.engine_state(),
-            rows: self.records().untaken_rows().into(),
-            frames: Cow::Borrowed(self.frames()),
-            contacts: self.records().contacts.as_slice().into(),
-        };
+        let snapshot = self.snapshot()?;
         let refused = |error: postcard::Error| refuse(error.to_string());
         let size = HEADER + write(&snapshot, None).map_err(refused)?;
         let mut bytes = Vec::new();
@@ -87,15 +75,47 @@ impl Simulation {
         let snapshot = read(bytes)?;
         let config =
             SimulationConfig::from_json(&snapshot.config).map_err(|error| refuse(error.to_string()))?;
-        let drum = check(&snapshot.state, &snapshot.engine, &config)?;
+        snapshot.resume(config, threads)
+    }
+
+    /// This simulation under another configuration: it goes on from the same state, with the records that were not taken.
+    ///
+    /// # Errors
+    /// As `to_checkpoint` and `from_checkpoint`, of which it is the same without the bytes.
+    pub fn with_config(&self, config: SimulationConfig) -> Result<Self, Error> {
+        memory::reserve(&mut Vec::<u8>::new(), self.untaken_size(), "changing a configuration")?;
+        self.snapshot()?.resume(config, self.threads())
+    }
+
+    fn snapshot(&self) -> Result<Snapshot<'_>, Error> {
+        if let Some(failure) = self.failure() {
+            return Err(failure.clone());
+        }
+        Ok(Snapshot {
+            physics_version: PHYSICS_VERSION,
+            config: self.config().to_json(),
+            seed: self.seed(),
+            state: Cow::Borrowed(self.state()),
+            engine: self.engine_state(),
+            rows: self.records().untaken_rows().into(),
+            frames: Cow::Borrowed(self.frames()),
+            contacts: self.records().contacts.as_slice().into(),
+        })
+    }
+}
+
+impl Snapshot<'_> {
+    /// The simulation that goes on from it under a configuration.
+    fn resume(self, config: SimulationConfig, threads: usize) -> Result<Simulation, Error> {
+        let drum = check(&self.state, &self.engine, &config)?;
         let mut records = Records::new(&drum, &config.run.record);
-        records.series.prepend(&snapshot.rows)?;
-        records.frames = snapshot.frames.into_owned();
-        records.contacts = snapshot.contacts.into_owned();
-        check_records(&snapshot.state, &records, snapshot.rows.len())?;
-        let state = snapshot.state.into_owned();
-        let simulation = Self::resume(config, snapshot.seed, threads, state, &snapshot.engine, records)?;
-        if simulation.has_whole_log(&snapshot.engine) {
+        records.series.prepend(&self.rows)?;
+        records.frames = self.frames.into_owned();
+        records.contacts = self.contacts.into_owned();
+        check_records(&self.state, &records, self.rows.len())?;
+        let state = self.state.into_owned();
+        let simulation = Simulation::resume(config, self.seed, threads, state, &self.engine, records)?;
+        if simulation.has_whole_log(&self.engine) {
             return Ok(simulation);
         }
         Err(refuse("its sums of contacts, fields or visits are not those of its bundles and its drum"))
