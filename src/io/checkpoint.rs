@@ -126,15 +126,15 @@ impl Snapshot<'_> {
 /// it would be compiled twice otherwise.
 #[inline(never)]
 fn write(snapshot: &Snapshot, room: Option<&mut [u8]>) -> postcard::Result<usize> {
-    postcard::serialize_with_flavor(snapshot, Sink { room, written: 0 })
+    postcard::serialize_with_flavor(snapshot, Buffer { room, written: 0 })
 }
 
-struct Sink<'a> {
+struct Buffer<'a> {
     room: Option<&'a mut [u8]>,
     written: usize,
 }
 
-impl postcard::ser_flavors::Flavor for Sink<'_> {
+impl postcard::ser_flavors::Flavor for Buffer<'_> {
     type Output = usize;
 
     fn try_extend(&mut self, data: &[u8]) -> postcard::Result<()> {
