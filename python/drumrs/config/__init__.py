@@ -4,8 +4,8 @@ Imports nothing else of drumrs but its errors and the reader of drawings. `types
 limits in words; `tables`, `drum_tables`, `load` and `contact` the tables of keys; `presets` materials by name; `liner`
 where a liner is read; `program` the phases of a program; `laws` what acts between two species; `config` the whole
 configuration. `layers` merges tables, `layer_file` reads them, `messages` words what is refused, `hints` tells of
-what may not be meant, `toml_writer` writes TOML with comments, `schema` a JSON schema for editors, `to_core` translates for the compiled
-core, `derived` asks it what follows.
+what may not be meant, `toml_writer` writes TOML with comments, `schema` a JSON schema for editors, `to_core`
+translates for the compiled core, `derived` asks it what follows.
 """
 
 from drumrs.config.config import Config, baseline, require_config
