@@ -146,8 +146,8 @@ def _main_command(
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command line and leave with its exit status."""
     _write_utf8()
-    status = run_command(arguments)
     with suppress(BrokenPipeError):
+        status = run_command(arguments)
         sys.stdout.flush()
         sys.exit(status)
     # Whoever read our output has what they want: `drumrs config | head`.

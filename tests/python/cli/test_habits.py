@@ -72,8 +72,9 @@ def test_a_terminal_gets_what_it_can_show():
     assert b"normal_stiffness 9.7e+07 ? 2.425e+07" in said
 
 
-def test_whoever_reads_the_beginning_hears_no_complaint():
-    words = " ".join([*DRUMRS, "quantities"])
+@pytest.mark.parametrize("command", ["quantities", "info"])  # at once, line by line
+def test_whoever_reads_the_beginning_hears_no_complaint(command):
+    words = " ".join([*DRUMRS, command])
     done = subprocess.run(
         ["bash", "-c", f"{words} | head -1; exit ${{PIPESTATUS[0]}}"],  # noqa: S607
         capture_output=True,
