@@ -18,7 +18,6 @@ from drumrs.errors import ConfigError, DrumrsError, missing_package
 from drumrs.studio.page import page
 from drumrs.studio.responder import Responder, picture, wants_forces, wants_picture
 from drumrs.studio.session import Session
-from drumrs.studio.view import View
 
 try:
     import uvicorn
@@ -32,6 +31,8 @@ except ModuleNotFoundError as error:
 
 if TYPE_CHECKING:
     from starlette.requests import Request
+
+    from drumrs.studio.view import View
 
 HOST = "127.0.0.1"
 # What a page may say at once [bytes].

@@ -165,6 +165,9 @@ export class Studio {
     this.part("mode").replaceChildren(...modesOf(this.recording).map((mode) => new Option(MODES[mode].label, mode)));
     this.part("preset").replaceChildren(...Object.entries(presets).map(([value, words]) => new Option(words, value)));
     this.part("preset").value = preset;
+    // Another machine may be measured in other ways.
+    if (preset !== this.preset) this.tiles.clear();
+    this.preset = preset;
     this.part("trade").replaceChildren(...trades.map((trade) => new Option(trade, trade)));
     this.sliders.show(controls);
     this.measure({ window: [0, 0], tiles: [], panels: [], speedScale: this.recording.speedScale });

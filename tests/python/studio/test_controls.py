@@ -117,7 +117,8 @@ def test_keys_of_the_page_are_those_that_it_lists(show):
 def test_a_page_that_lacks_a_part_has_no_key_for_it(show):
     studio = show()
     studio.page.evaluate("""() => {
-      const live = Object.assign(new EventTarget(), { asked: [], ask: ({ do: what }) => live.asked.push(what), close: () => {} });
+      const live = new EventTarget();
+      Object.assign(live, { asked: [], ask: ({ do: what }) => live.asked.push(what), close: () => {} });
       const place = document.querySelector("main").appendChild(document.createElement("div"));
       window.other = new studio.constructor(place, live, ["forces", "toml"]);
     }""")

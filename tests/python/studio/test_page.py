@@ -24,7 +24,9 @@ def test_it_runs_the_moment_it_opens(show):
     assert "±" in studio.part("tiles").inner_text()
     assert studio.page.locator(".panel canvas").count() == 2
     assert re.search(r" simulated seconds in a second, \d+ pictures?\.$", studio.part("pace").inner_text())
-    studio.page.evaluate("Object.assign(studio.pictures, { rate: 1, count: 0, since: performance.now() + 1e6 })")
+    studio.page.evaluate(
+        "Object.assign(studio.pictures, { rate: 1, count: 0, since: performance.now() + 1e6 })"
+    )
     studio.wait("studio.part('pace').textContent.endsWith(', 1 picture.')")
     # What is on the page is where it was in the simulation.
     studio.part("play").click()
@@ -116,7 +118,9 @@ def test_what_is_beside_the_drum_keeps_its_place(show):
     studio.part("rate").select_option("0.01")
     for key, value in (("rotation.rpm", 70), ("load.fill", 0.2)):
         studio.slide(key, value)
-        studio.wait("studio.part('tiles').querySelector('[data-name=falls_per_turn] span').textContent === '–'")
+        studio.wait(
+            "studio.part('tiles').querySelector('[data-name=falls_per_turn] span').textContent === '–'"
+        )
         assert studio.page.evaluate(names) == before
         assert studio.page.locator(".panel canvas").count() == 2
         # Lines of texts may come and go; tiles and curves are higher.
