@@ -118,8 +118,7 @@ def _as_target(name: str) -> str:
     """Say whether a quantity can be a target, and what the run has to keep for it."""
     if name not in readings.names():
         return ""
-    kept = [*(["frames"] if readings.needs_frames(name) else []), *readings.record_of(name)]
-    return ", ".join(["yes", *kept])
+    return ", ".join(["yes", *readings.kept_for(name)])
 
 
 def _places() -> Mapping[str, Sequence[str]]:

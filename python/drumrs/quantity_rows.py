@@ -250,6 +250,40 @@ MEASURES = (
         "how far the layer at the wall stays behind the drum, over the drum's speed",
         formula="1 − ω/Ω",
     ),
+    # mixing, and visits to zones
+    made(
+        "lacey_index",
+        "1",
+        "mean",
+        "Lacey's index over cells of ten discs that turn with the drum: of a species, lacey_index(by='ore'), or of "
+        "discs colored by where they were before a turn, by='side', 'layer' or 'depth'; turns=3 gives them three",
+        formula="(σ₀² − σ²)/(σ₀² − σ_r²)",
+    ),
+    made(
+        "zone_residence",
+        "s",
+        "ratio",
+        "mean time of a visit to a zone of run.zone, as zone_residence(zone='spray')",
+        symbol="w̄",
+    ),
+    made(
+        "zone_cycle",
+        "s",
+        "ratio",
+        "mean time from the beginning of a visit to that of the next one, as zone_cycle(zone='spray')",
+        symbol="c̄",
+    ),
+    made(
+        "zone_share", "1", "mean", "share of its time that a disc is in a zone, as zone_share(zone='spray')"
+    ),
+    made(
+        "zone_spread",
+        "1",
+        "run",
+        "standard deviation over discs of the time spent in a zone, over its mean, to be expected after a minute, as "
+        "zone_spread(zone='spray'), or after time=600",
+        formula="√(Var(W − (w̄/c̄) C) c̄/t)/w̄",
+    ),
     # flight
     made(
         "share_in_flight",

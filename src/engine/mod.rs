@@ -185,7 +185,11 @@ impl Engine {
 
     /// Σ m x after the last drift [kg].
     pub fn mass_moment(&self) -> Vec2 {
-        self.sums.iter().fold(Vec2::zeros(), |sum, part| sum + Vec2::from(part.mass_moment))
+        match &self.sums[..] {
+            // Most loads have one chunk, and a loop takes a while to begin.
+            [only] => Vec2::from(only.mass_moment),
+            sums => sums.iter().fold(Vec2::zeros(), |sum, part| sum + Vec2::from(part.mass_moment)),
+        }
     }
 
     /// Takes note of the last drift, in which the drum turned by `turn` [rad]. Returns a displacement that no particle has exceeded as
@@ -208,10 +212,16 @@ impl Engine {
     }
 
     /// Brings the pair list up to date with the positions.
+    #[inline]
     pub fn update_list(&mut self, particles: &mut Particles, world: World, drum: DrumMotion) {
-        if !self.list.is_due() {
-            return;
+        if self.list.is_due() {
+            self.check_list(particles, world, drum);
         }
+    }
+
+    /// Makes the pair list anew unless displacements show that it still holds.
+    #[cold]
+    fn check_list(&mut self, particles: &mut Particles, world: World, drum: DrumMotion) {
         self.write_back_positions(particles);
         if self.list.still_holds(&particles.positions, drum.rotation, &self.threads) {
             return;

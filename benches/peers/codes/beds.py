@@ -55,7 +55,7 @@ def grown(count: int, *, baffles: bool = False) -> drumrs.Config:
     diameter = base.load.diameter * math.sqrt(count / _FILL)
     rpm = (base.rotation.rpm or 0.0) * math.sqrt(base.drum.diameter / diameter)
     # A time whose frames fit into memory, however many bundles; it is never run to its end.
-    return base.replace({"drum.diameter": diameter, "rotation.rpm": rpm, "run.duration": 10.0})
+    return base.replace({"drum.diameter": diameter, "rotation.rpm": rpm, "run.duration": 2.0})
 
 
 def _tumbled(config: drumrs.Config) -> tuple[Array, float]:

@@ -1,7 +1,5 @@
 """`compare`: which of a few machines is best, by runs and seeds that are spent where they help."""
 
-import math
-import re
 from collections.abc import Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
@@ -11,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from drumrs.analysis import Estimate, Interval
 from drumrs.analysis.estimate import LEVEL
+from drumrs.decide.difference import Difference, with_unit
 from drumrs.decide.evaluate import Evaluator
 from drumrs.decide.selection import Selection, Standing, Wanted, require_enough, select
 from drumrs.decide.targets import Target
@@ -31,51 +30,6 @@ KIND, FILES = "compare", ("table.parquet", "differences.png", "runs")
 MOST_RUNS = 200
 _FEWEST_DESIGNS, _LETTERS = 2, 26
 _PERCENT = 100.0
-
-
-@dataclass(frozen=True)
-class Difference:
-    """A difference below which designs count as equal: a part of the best one's mean, or an amount in its unit.
-
-    Examples
-    --------
-    >>> from drumrs.decide.compare import Difference
-    >>> Difference.parse("5 %", "W/kg"), Difference.parse("0.2 W/kg", "W/kg")
-    (Difference(amount=0.05, is_relative=True), Difference(amount=0.2, is_relative=False))
-    """
-
-    amount: float
-    is_relative: bool
-
-    @classmethod
-    def parse(cls, text: str | float, unit: str) -> "Difference":
-        """Read a difference: a number in the target's unit, with or without it, or a percentage.
-
-        Raises
-        ------
-        ConfigError
-            Where it is neither, or not positive.
-        """
-        found = re.fullmatch(r"\s*([-+.\deE]+)\s*(.*?)\s*", str(text))
-        limit = (
-            f"a positive number with a % or in {unit}" if unit != "1" else "a positive number or percentage"
-        )
-        try:
-            number = float(found[1]) if found else math.nan
-        except ValueError:
-            number = math.nan
-        if not found or not 0.0 < number < math.inf or found[2] not in {"", "%", unit}:
-            raise ConfigError("difference", text, limit)
-        return cls(number / _PERCENT, True) if found[2] == "%" else cls(number, False)
-
-    def of(self, best: float) -> float:
-        """Return it as an amount, for a mean of the best design."""
-        return self.amount * abs(best) if self.is_relative else self.amount
-
-    def text(self, best: float, unit: str) -> str:
-        """Say it, for a mean of the best design."""
-        amount = _with_unit(f"{self.of(best):.2g}", unit)
-        return f"{_PERCENT * self.amount:g} % ({amount})" if self.is_relative else amount
 
 
 @dataclass(frozen=True)
@@ -143,7 +97,7 @@ class Comparison:
         best, target = self.best, self.target
         interval = best.estimate.interval()
         value = f"{interval.mean:.4g} ± {interval.half_width:.2g}"
-        told = f"{target.title} {_with_unit(value, target.unit)}"
+        told = f"{target.title} {with_unit(value, target.unit)}"
         named = {
             standing: ", ".join(design.name for design in self.designs if design.standing == standing)
             for standing in ("worse", "equal", "open")
@@ -162,7 +116,7 @@ class Comparison:
             )
         least = min(design.behind.low for design in self.designs if design is not best)
         than = "higher" if self.is_greatest else "lower"
-        by = _with_unit(f"{least:.2g}", target.unit)
+        by = with_unit(f"{least:.2g}", target.unit)
         share = f", {_PERCENT * least / abs(best.estimate.mean):.2g} %" if best.estimate.mean else ""
         return f"{best.name} is best ({told}): {than} than every other by {by}{share} at least, with 95 %."
 
@@ -342,7 +296,3 @@ def _named(designs: "Mapping[str, Config] | Sequence[Config]") -> "dict[str, Con
             problem = f"is the same configuration as {twin}, but must be another"
             raise ConfigError(f"the design {name}", problem=problem)
     return named
-
-
-def _with_unit(number: str, unit: str) -> str:
-    return number if unit == "1" else f"{number} {unit}"

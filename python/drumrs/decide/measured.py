@@ -1,12 +1,13 @@
 """What is measured on the frames and records of a run: a row for each function, with the names that it returns."""
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from drumrs import measures, registry
 from drumrs.analysis import Mean
 from drumrs.analysis.phases import mass_of
+from drumrs.decide import chosen
 from drumrs.errors import ConfigError
 
 if TYPE_CHECKING:
@@ -14,9 +15,29 @@ if TYPE_CHECKING:
 
 Window = tuple[float, float]
 Means = Mapping[str, Mean | float | None]
+# What an argument of a measure may be.
+Value = str | float
 
 _DEPTHS = ("surface_speed", "middle_speed", "deep_speed")
 _OF_LEDGER = ("load_knocking", "load_rubbing", "drum_knocking", "drum_rubbing")
+
+
+class Argument(NamedTuple):
+    """An argument of a measure.
+
+    Attributes
+    ----------
+    name
+        Its name.
+    example
+        A value that it may have, of its kind: a text or a positive number.
+    default
+        Its value where none is given; `None` where one must be given.
+    """
+
+    name: str
+    example: Value
+    default: Value | None = None
 
 
 class Measured(NamedTuple):
@@ -27,17 +48,54 @@ class Measured(NamedTuple):
     names
         The names.
     of
-        The function.
+        The function; it has the arguments by name.
     needs
-        ``"frames"``, or what `run.record` must have; nothing where series and configuration are enough.
-    has_window
-        Whether it is that of a window, not of the whole run: sums that a run keeps begin at t = 0.
+        ``"frames"``, ``"run.zone"``, or what `run.record` must have; nothing where series and configuration are enough.
+    since
+        Where what a run adds up begins; empty where it is that of any window.
+    arguments
+        The arguments that a target has to give.
+    check
+        Refuses arguments that do not go with a configuration.
     """
 
     names: tuple[str, ...]
-    of: "Callable[[Result, Window], Means]"
+    of: "Callable[..., Means]"
     needs: str = "frames"
-    has_window: bool = True
+    since: str = ""
+    arguments: tuple[Argument, ...] = ()
+    check: "Callable[..., None] | None" = None
+
+    def bind(self, called: str, given: Sequence[Value], named: Mapping[str, Value]) -> dict[str, Value]:
+        """Return all arguments by name, from those that a target gives in their order and by name.
+
+        Raises
+        ------
+        ConfigError
+            Where one is missing, there is one too many, or a number is none.
+        """
+        known = [one.name for one in self.arguments]
+        values = {**dict(zip(known, given, strict=False)), **named}
+        wrong = [name for name in named if name not in known or name in known[: len(given)]]
+        if wrong or len(given) > len(known):
+            may = f"may have {' and '.join(known)} only" if known else "takes no arguments"
+            more = f"the argument {wrong[0]}" if wrong else f"{len(given)} arguments"
+            raise ConfigError(called, problem=f"has {more}, but {may}, each once")
+        return {one.name: _argument(called, one, values.get(one.name, one.default)) for one in self.arguments}
+
+
+def _argument(called: str, one: Argument, value: Value | None) -> Value:
+    if value is None:
+        raise ConfigError(
+            called,
+            problem=f"lacks {one.name}",
+            hint=f"write {called.rsplit(maxsplit=1)[-1]}({one.name}={one.example!r})",
+        )
+    if isinstance(one.example, str):
+        return str(value)
+    if isinstance(value, str) or not 0.0 < value < math.inf:
+        raise ConfigError(f"{one.name} of {called}", value, "a positive number")
+    return float(value)
 
 
 def _one(name: str, of: Callable[..., Mean | None]) -> Measured:
@@ -75,6 +133,10 @@ def _split(result: "Result", _: Window) -> Means:
     duration = float(result.series["time"][-1])
     found = measures.knocking_and_rubbing(result.ledger_split, _mass(result), duration)
     return dict(zip(_OF_LEDGER, (*found["load"], *found["drum"]), strict=True))
+
+
+def _zone(result: "Result", window: Window, zone: str, time: float = 60.0) -> Means:
+    return chosen.zone(result.zone_visits, zone, time, window[1] - window[0])
 
 
 def _overlap(result: "Result", window: Window) -> Means:
@@ -115,6 +177,30 @@ _MEASURES = (
     _one("carried_round", measures.carried_round),
     _one("mixed_in_a_turn", measures.mixed_in_a_turn),
     Measured(
+        ("lacey_index",),
+        lambda result, window, by, turns: {
+            "lacey_index": chosen.lacey_index(result.frames, window, by, turns)
+        },
+        arguments=(Argument("by", "side"), Argument("turns", 1.0, 1.0)),
+        check=chosen.check_coloring,
+    ),
+    Measured(
+        ("zone_residence", "zone_cycle", "zone_share"),
+        _zone,
+        "run.zone",
+        since="the start of run.window",
+        arguments=(Argument("zone", "spray"),),
+        check=chosen.check_zone,
+    ),
+    Measured(
+        ("zone_spread",),
+        _zone,
+        "run.zone",
+        since="the start of run.window",
+        arguments=(Argument("zone", "spray"), Argument("time", 60.0, 60.0)),
+        check=chosen.check_zone,
+    ),
+    Measured(
         (
             *("share_in_flight", "falls_per_turn", "mean_drop"),
             *("landing_on_drum", "head_height", "impact_toe_angle"),
@@ -138,13 +224,13 @@ _MEASURES = (
         _impacts,
         "contacts",
     ),
-    Measured(("archard_wear", "finnie_wear", "wear_peak"), _wear, "wall_profile", has_window=False),
-    Measured(_OF_LEDGER, _split, "ledger_split", has_window=False),
+    Measured(("archard_wear", "finnie_wear", "wear_peak"), _wear, "wall_profile", since="t = 0"),
+    Measured(_OF_LEDGER, _split, "ledger_split", since="t = 0"),
     Measured(
         ("received_spread",),
         lambda result, _: {"received_spread": measures.received_spread(result.discs)},
         "discs",
-        has_window=False,
+        since="t = 0",
     ),
     Measured(
         ("torque_peak_factor",),

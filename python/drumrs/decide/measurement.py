@@ -6,22 +6,19 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from drumrs.config import Config, anchored
+from drumrs.config import Config
 from drumrs.config.layers import flat
 from drumrs.decide.emulator import Array
+from drumrs.decide.file import DecisionFile, share, whole
 from drumrs.decide.posterior import fewest_runs
-from drumrs.decide.problem import read_file, refuse_unknown, share, whole
 from drumrs.decide.space import Space
 from drumrs.decide.targets import Target
 from drumrs.errors import ConfigError
-from drumrs.sweep.sweep_file import table_of
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-_TABLES = ("base", "ranges", "measured", "candidate", "calibrate")
 _KEYS = ("runs", "discrepancy")
-_WHAT = "a calibration"
 _MOST_PARAMETERS = 5
 _RUNS_PER_PARAMETER = 12
 
@@ -103,25 +100,18 @@ class Experiment:
         >>> str(experiment.measured[0]), experiment.runs
         ('drum specific power at rotation.rpm = 40', 12)
         """
-        base, content, folder = read_file(source, _TABLES, _WHAT)
-        space = Space.read(flat(anchored(table_of(content, "ranges") or {}, folder)))
-        if len(space) > _MOST_PARAMETERS:
-            raise ConfigError(
-                "ranges", space.keys, f"{_MOST_PARAMETERS} parameters at most", bound=_MOST_PARAMETERS
-            )
-        space.check(base)
-        wanted = table_of(content, "calibrate") or {}
-        refuse_unknown(wanted, _KEYS, "calibrate.", _WHAT)
-        least = fewest_runs(len(space))
-        runs = whole(wanted, "runs", "calibrate", _RUNS_PER_PARAMETER * len(space), least)
+        file = DecisionFile.read(source, "calibrate")
+        space, wanted = file.space(_MOST_PARAMETERS), file.options(*_KEYS)
+        default = _RUNS_PER_PARAMETER * len(space)
+        runs = whole(wanted.get("runs", default), "calibrate.runs", fewest_runs(len(space)))
         discrepancy = share(wanted.get("discrepancy", "3 %"), "1", "calibrate.discrepancy")
         if not discrepancy.is_relative:
             raise ConfigError("calibrate.discrepancy", wanted["discrepancy"], "a share such as '3 %'")
-        measured = _measurements(content, "measured", base)
+        measured = _measurements(file, "measured")
         if not measured:
             raise ConfigError("measured", [], "one table [[measured]] at least: target, value, error, set")
-        candidates = _measurements(content, "candidate", base) or measured
-        return cls(base, space, measured, candidates, runs, discrepancy.amount)
+        candidates = _measurements(file, "candidate") or measured
+        return cls(file.base, space, measured, candidates, runs, discrepancy.amount)
 
     @property
     def numbers(self) -> tuple[Array, Array]:
@@ -136,15 +126,15 @@ class Experiment:
         return list(dict.fromkeys(one.settings for one in (*self.measured, *self.candidates)))
 
 
-def _measurements(content: Mapping[str, Any], name: str, base: Config) -> tuple[Measurement, ...]:
-    tables = content.get(name, [])
+def _measurements(file: DecisionFile, name: str) -> tuple[Measurement, ...]:
+    tables = file.content.get(name, [])
     if not isinstance(tables, (list, tuple)) or not all(isinstance(table, Mapping) for table in tables):
         raise ConfigError(name, tables, f"tables [[{name}]]")
-    return tuple(_measurement(table, f"{name}[{k}]", base) for k, table in enumerate(tables))
+    return tuple(_measurement(file, table, f"{name}[{k}]") for k, table in enumerate(tables))
 
 
-def _measurement(table: Mapping[str, Any], at: str, base: Config) -> Measurement:
-    refuse_unknown(table, ("target", "value", "error", "set"), f"{at}.", _WHAT)
+def _measurement(file: DecisionFile, table: Mapping[str, Any], at: str) -> Measurement:
+    file.refuse_unknown(table, ("target", "value", "error", "set"), f"{at}.")
     target = Target.parse(table.get("target", ""))
     value = None if at.startswith("candidate") else _number(table, "value", at, target)
     error = _number(table, "error", at, target)
@@ -154,7 +144,7 @@ def _measurement(table: Mapping[str, Any], at: str, base: Config) -> Measurement
     if not isinstance(settings, Mapping):
         raise ConfigError(f"{at}.set", settings, "a table of keys, such as { rotation.rpm = 30 }")
     dotted = flat(settings)
-    base.replace(dotted)
+    file.base.replace(dotted)
     return Measurement(target, value, error, tuple(sorted(dotted.items())))
 
 

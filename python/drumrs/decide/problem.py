@@ -2,26 +2,24 @@
 
 import hashlib
 import re
-from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from drumrs.analysis import Mean
-from drumrs.config import Config, anchored, read_layer
-from drumrs.config.layers import flat
-from drumrs.decide.compare import Difference
+from drumrs.config import Config
+from drumrs.decide.difference import Difference
+from drumrs.decide.file import DecisionFile, listed, share, whole
 from drumrs.decide.space import Space
 from drumrs.decide.targets import Target
 from drumrs.errors import ConfigError
-from drumrs.sweep.sweep_file import read_base, table_of
 
-_WHAT = "an optimization"
-_TABLES = ("base", "ranges", "axes", "optimize")
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+    from pathlib import Path
+
 _KEYS = ("minimize", "maximize", "subject_to", "tolerance", "runs", "batch", "confirm")
 _CONSTRAINT = re.compile(r"(?P<target>.+?)\s*(?P<sign>[<>]=?)\s*(?P<limit>[-+.\deE]+)\s*(?P<unit>.*)")
 _MOST_OBJECTIVES = 2
-_MOST_RUNS = 1000
 # Runs for each key that varies, unless the file says how many.
 _RUNS_PER_KEY = 20
 
@@ -137,16 +135,12 @@ class Problem:
         >>> str(problem.objectives[0]), str(problem.constraints[0]), problem.runs
         ('least drum specific power', 'dissipation_ratio >= 1.2', 20)
         """
-        base, content, folder = read_file(source, _TABLES, _WHAT)
-        tables = {key: table_of(content, key) or {} for key in _TABLES[1:]}
-        ranges, axes = (flat(anchored(tables[key], folder)) for key in ("ranges", "axes"))
-        space, wanted = Space.read(ranges, axes), tables["optimize"]
-        space.check(base)
-        refuse_unknown(wanted, _KEYS, "optimize.", _WHAT)
+        file = DecisionFile.read(source, "optimize")
+        space, wanted = file.space(), file.options(*_KEYS)
         objectives = [
             Goal(Target.parse(text), sign)
             for key, sign in (("minimize", 1.0), ("maximize", -1.0))
-            for text in _texts(wanted, key)
+            for text in listed(wanted, key)
         ]
         if not 1 <= len(objectives) <= _MOST_OBJECTIVES:
             limit = "one or two targets in optimize.minimize and optimize.maximize together"
@@ -158,14 +152,14 @@ class Problem:
             limit = "a share such as '1 %' where there are two objectives: of the hypervolume of their front"
             raise ConfigError("optimize.tolerance", wanted["tolerance"], limit)
         return cls(
-            base,
+            file.base,
             space,
             tuple(objectives),
-            tuple(Goal.constraint(text) for text in _texts(wanted, "subject_to")),
+            tuple(Goal.constraint(text) for text in listed(wanted, "subject_to")),
             tolerance,
-            whole(wanted, "runs", "optimize", _RUNS_PER_KEY * len(space), 2 * len(space) + 2),
-            whole(wanted, "batch", "optimize", 0, 0),
-            whole(wanted, "confirm", "optimize", 4, 2),
+            whole(wanted.get("runs", _RUNS_PER_KEY * len(space)), "optimize.runs", 2 * len(space) + 2),
+            whole(wanted.get("batch", 0), "optimize.batch", 0),
+            whole(wanted.get("confirm", 4), "optimize.confirm", 2),
         )
 
     @property
@@ -178,81 +172,6 @@ class Problem:
         """What tells searches apart that go other ways: all but when to stop and how to confirm."""
         words = repr((self.base.digest, self.space, [(str(goal), goal.target.text) for goal in self.goals]))
         return hashlib.sha256(words.encode()).hexdigest()[:20]
-
-
-def read_file(
-    source: "str | Path | Mapping[str, Any]", known: tuple[str, ...], what: str
-) -> tuple[Config, Mapping[str, Any], Path]:
-    """Read the file of a decision, or a mapping of the same form, whose ``base`` may be a `Config`.
-
-    Returns
-    -------
-    tuple
-        What all runs share; the content, whose tables are among the known ones; the folder to which paths are relative.
-
-    Raises
-    ------
-    ConfigError
-        Where the file cannot be read, or a table or a key of ``[base]`` is not accepted.
-    """
-    content, folder = (
-        (source, Path()) if isinstance(source, Mapping) else (read_layer(source), Path(source).parent)
-    )
-    refuse_unknown(content, known, "", what)
-    base = content.get("base")
-    return base if isinstance(base, Config) else read_base(content, folder), content, folder
-
-
-def refuse_unknown(table: Mapping[str, Any], known: tuple[str, ...], at: str, what: str) -> None:
-    """Refuse keys that a table cannot have.
-
-    Raises
-    ------
-    ConfigError
-        Where there is one; the sentence lists the keys there are.
-    """
-    for key in table:
-        if key not in known:
-            hint = (
-                "each run has a seed of its own"
-                if key == "seeds"
-                else f"the keys there are {', '.join(known)}"
-            )
-            raise ConfigError(f"{at}{key}", table[key], problem=f"is not a key of {what}", hint=hint)
-
-
-def whole(table: Mapping[str, Any], key: str, at: str, default: int, least: int) -> int:
-    """Read a whole number.
-
-    Raises
-    ------
-    ConfigError
-        Where it is none, or out of its limits.
-    """
-    value = table.get(key, default)
-    if isinstance(value, bool) or not isinstance(value, int) or not least <= value <= _MOST_RUNS:
-        raise ConfigError(f"{at}.{key}", value, f"a whole number from {least} to {_MOST_RUNS}", bound=least)
-    return value
-
-
-def share(value: Any, unit: str, key: str) -> Difference:
-    """Read a percentage, or a number in a unit.
-
-    Raises
-    ------
-    ConfigError
-        Where it is neither.
-    """
-    try:
-        return Difference.parse(value, unit)
-    except ConfigError as error:
-        error.key = key
-        raise
-
-
-def _texts(table: Mapping[str, Any], key: str) -> list[Any]:
-    value = table.get(key, [])
-    return list(value) if isinstance(value, (list, tuple)) else [value]
 
 
 def _number(text: str) -> float | None:

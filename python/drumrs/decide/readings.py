@@ -6,7 +6,7 @@ The series tells most of them; what is measured on frames and records is in `mea
 import difflib
 import math
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import fields
 from functools import cache
 from typing import TYPE_CHECKING
@@ -17,7 +17,7 @@ from drumrs.analysis.blocks import SeriesWindow
 from drumrs.analysis.phases import mass_of, summary_of_rows
 from drumrs.analysis.statistics import means_with_errors
 from drumrs.decide import measured
-from drumrs.decide.measured import Means, Window
+from drumrs.decide.measured import Means, Value, Window
 from drumrs.errors import ConfigError
 from drumrs.frames import COLUMNS
 from drumrs.result import Summary
@@ -41,6 +41,10 @@ _NOT_ASKED = {
 }
 
 
+# Arguments of a measure, by name.
+Arguments = tuple[tuple[str, Value], ...]
+# What takes none.
+_PLAIN = measured.Measured((), dict)
 # What follows from the configuration alone, without error.
 _FACTS = ("bundle_count", "fill", *registry.FACTS)
 _OF_PHASES = ("phase_work", "phase_specific_work")
@@ -84,9 +88,15 @@ def find(name: str) -> registry.Quantity:
 def record_of(name: str) -> tuple[str, ...]:
     """Return what `run.record` must have for a quantity."""
     how = measured.measured(name)
-    if how is not None and how.needs not in {"frames", ""}:
+    if how is not None and how.needs not in {"frames", "run.zone", ""}:
         return (how.needs,)
     return ("gross_work",) if name in _OF_GROSS_WORK else ()
+
+
+def kept_for(name: str) -> tuple[str, ...]:
+    """Return what a run has to keep for a quantity: frames, a record, visits to zones."""
+    how = measured.measured(name)
+    return (how.needs,) if how is not None and how.needs else record_of(name)
 
 
 def needs_frames(name: str) -> bool:
@@ -95,16 +105,32 @@ def needs_frames(name: str) -> bool:
     return how is not None and how.needs == "frames"
 
 
-def check(config: "Config", name: str, phase: str | None) -> None:
+def bind(name: str, given: Sequence[Value], named: Mapping[str, Value]) -> Arguments:
+    """Return the arguments of a quantity, by name, from those that a target gives.
+
+    Raises
+    ------
+    ConfigError
+        Where there is no such quantity, or it does not take these.
+    """
+    find(name)
+    how = measured.measured(name) or _PLAIN
+    return tuple(how.bind(_called(name), given, named).items())
+
+
+def check(config: "Config", name: str, phase: str | None, arguments: Arguments = ()) -> None:
     """Refuse, before it is run, a configuration whose run will not have a quantity.
 
     Raises
     ------
     ConfigError
-        Where there is no such phase or part, or too few frames for what is measured on them.
+        Where there is no such phase, part or zone, or too few frames for what is measured on them.
     """
     if name in _FACTS:
         return
+    how = measured.measured(name)
+    if how is not None and how.check is not None:
+        how.check(config, **dict(arguments))
     windows = windows_of(config, name, phase, config.run.duration)
     counts = {"baffle": config.drum.baffles.count, "rail": config.drum.liner.rail.count}
     part = re.match(rf"({'|'.join(counts)})_(\d+)_", name)
@@ -130,8 +156,10 @@ def windows_of(config: "Config", name: str, phase: str | None, ended: float) -> 
             raise ConfigError(_called(name), name, problem="is that of a phase", hint=f"write {name}[PHASE]")
         return [config.run.averaging_window]
     called, intervals, how = _called(f"{name}[{phase}]"), config.rotation.intervals, measured.measured(name)
-    if how is not None and not how.has_window:
-        problem = f"is that of a whole run from t = 0 on, not of a phase: {how.needs!r} adds up all of it"
+    if how is not None and how.since:
+        problem = (
+            f"is that of a whole run from {how.since} on, not of a phase: {how.needs!r} adds up all of it"
+        )
         raise ConfigError(called, phase, problem=problem)
     if not intervals:
         raise ConfigError(called, phase, problem="is that of a phase, but the run has no rotation.phase")
@@ -192,11 +220,11 @@ class Readings:
 
     def __init__(self, result: "Result") -> None:
         self.result = result
-        self._measured = cache(lambda how, window: how.of(result, window))
+        self._measured = cache(lambda how, window, arguments: how.of(result, window, **dict(arguments)))
         self._rows = cache(lambda window: SeriesWindow.of(result.series, window).rows)
         self._mass = cache(lambda: mass_of(result.config, result.series))
 
-    def mean(self, name: str, phase: str | None = None) -> Mean:
+    def mean(self, name: str, phase: str | None = None, arguments: Arguments = ()) -> Mean:
         """Return a quantity over the window, or over a phase of the program each time that it comes.
 
         A phase that comes again is averaged over its time; what is greatest is so over all of it, and energies are
@@ -214,7 +242,7 @@ class Readings:
         if name in _FACTS:
             return self._fact(name)
         windows = windows_of(self.result.config, name, phase, float(self.result.series["time"][-1]))
-        means = [self._over(name, window) for window in windows]
+        means = [self._over(name, window, arguments) for window in windows]
         return _together(means, windows, registry.quantity(name).reading, name)
 
     def _fact(self, name: str) -> Mean:
@@ -222,15 +250,19 @@ class Readings:
         found = getattr(summary, name) if hasattr(summary, name) else getattr(config.derived, name)
         return Mean(math.nan if found is None else float(found), 0.0)
 
-    def _over(self, name: str, window: Window) -> Mean:
+    def _over(self, name: str, window: Window, arguments: Arguments) -> Mean:
         how = measured.measured(name)
-        found = self._of_series(name, window) if how is None else self._of_measures(how, name, window)
+        found = (
+            self._of_series(name, window) if how is None else self._of_measures(how, name, window, arguments)
+        )
         if found is None:
             return Mean(math.nan, None)
         return found if isinstance(found, Mean) else Mean(found, None)
 
-    def _of_measures(self, how: measured.Measured, name: str, window: Window) -> Mean | float | None:
-        means: Means = self._measured(how, window)
+    def _of_measures(
+        self, how: measured.Measured, name: str, window: Window, arguments: Arguments
+    ) -> Mean | float | None:
+        means: Means = self._measured(how, window, arguments)
         if name not in means:
             raise not_there(self.result.config, name)
         return means[name]

@@ -10,10 +10,9 @@ import numpy as np
 
 from drumrs.analysis import Interval
 from drumrs.analysis.blocks import Array
-from drumrs.config import Config, anchored
-from drumrs.config.layers import flat
+from drumrs.config import Config
 from drumrs.decide.evaluate import Evaluator
-from drumrs.decide.problem import read_file, refuse_unknown
+from drumrs.decide.file import DecisionFile, listed, whole
 from drumrs.decide.sensitivity import Effect, Indices, morris, noise_of, saltelli, sobol, trajectories
 from drumrs.decide.space import Space
 from drumrs.decide.targets import Target
@@ -21,7 +20,6 @@ from drumrs.errors import ConfigError
 from drumrs.folders import claim, require_own
 from drumrs.pictures import attempt
 from drumrs.sweep import Case
-from drumrs.sweep.sweep_file import table_of
 from drumrs.tables import write_table
 
 if TYPE_CHECKING:
@@ -29,11 +27,10 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 KIND, FILES = "screen", ("table.parquet", "runs")
-_TABLES, _KEYS = ("base", "ranges", "axes", "screen"), ("targets", "trajectories", "points")
-_WHAT = "a screening"
+_KEYS = ("targets", "trajectories", "points")
 # A screening is where many keys are looked at for the first time.
 _MOST_KEYS = 30
-_TRAJECTORIES, _FEWEST_TRAJECTORIES, _MOST_TRAJECTORIES = 10, 4, 1000
+_TRAJECTORIES, _FEWEST_TRAJECTORIES = 10, 4
 _POINTS, _MOST_POINTS = 64, 2**14
 # Points of Sobol's design that are run with another seed as well, to know the noise.
 _AGAIN = 16
@@ -99,22 +96,16 @@ class ScreeningPlan:
         ConfigError
             Where the file cannot be read, or a key or value is not accepted.
         """
-        base, content, folder = read_file(source, _TABLES, _WHAT)
-        tables = {key: table_of(content, key) or {} for key in _TABLES[1:]}
-        ranges, axes = (flat(anchored(tables[key], folder)) for key in ("ranges", "axes"))
-        wanted = tables["screen"]
-        refuse_unknown(wanted, _KEYS, "screen.", _WHAT)
-        space = Space.read(ranges, axes, most=_MOST_KEYS)
-        space.check(base)
-        named = targets or wanted.get("targets", ["drum_specific_power"])
-        listed = [named] if isinstance(named, (str, Target)) else list(named)
+        file = DecisionFile.read(source, "screen")
+        space, wanted = file.space(_MOST_KEYS), file.options(*_KEYS)
+        named = list(targets) or listed(wanted, "targets", ("drum_specific_power",))
         count = wanted.get("trajectories", _TRAJECTORIES) if trajectories is None else trajectories
-        _require_whole("screen.trajectories", count, _FEWEST_TRAJECTORIES, _MOST_TRAJECTORIES)
+        whole(count, "screen.trajectories", _FEWEST_TRAJECTORIES)
         columns = wanted.get("points", _POINTS) if points is None else points
-        _require_whole("screen.points", columns, 0, _MOST_POINTS)
+        whole(columns, "screen.points", 0, _MOST_POINTS)
         if columns & (columns - 1) or columns == 1:
             raise ConfigError("screen.points", columns, "0 or a power of 2 from 2 on: Sobol's design is one")
-        return cls(base, space, tuple(Target.parse(text) for text in listed), count, columns)
+        return cls(file.base, space, tuple(map(Target.parse, named)), count, columns)
 
     @property
     def first_runs(self) -> int:
@@ -426,8 +417,3 @@ def _share(share: Interval) -> str:
     """Say a share with its interval; what is below 0 or above 1 by chance is that."""
     low, high = (_PERCENT * min(max(end, 0.0), 1.0) for end in (share.low, share.high))
     return f"{_PERCENT * min(max(share.mean, 0.0), 1.0):.0f} % ({low:.0f}–{high:.0f} %)"
-
-
-def _require_whole(key: str, value: Any, least: int, most: int) -> None:
-    if isinstance(value, bool) or not isinstance(value, int) or not least <= value <= most:
-        raise ConfigError(key, value, f"a whole number from {least} to {most}", bound=least)

@@ -123,13 +123,14 @@ class Space:
     def read(
         cls, ranges: Mapping[str, Any], choices: Mapping[str, Any] | None = None, most: int = MOST_KEYS
     ) -> "Space":
-        """Make a space of ranges, and of choices, by dotted key; of at most so many keys.
+        """Make a space of ranges, and of choices where there may be some, by dotted key; of at most so many keys.
 
         Raises
         ------
         ConfigError
             Where a range or a list of choices is not accepted, a key has both, or there are none or too many keys.
         """
+        where = "keys with [low, high]" + ("" if choices is None else ", or in [axes] with choices")
         choices = choices or {}
         for key in ranges:
             if key in choices:
@@ -137,8 +138,7 @@ class Space:
         found = [Parameter.within(key, ends) for key, ends in ranges.items()]
         found += [Parameter.among(key, listed) for key, listed in choices.items()]
         if not 1 <= len(found) <= most:
-            limit = f"1 to {most} keys with [low, high], or in [axes] with choices"
-            raise ConfigError("ranges", [one.key for one in found], limit, bound=most)
+            raise ConfigError("ranges", [one.key for one in found], f"1 to {most} {where}", bound=most)
         return cls(tuple(found))
 
     def __len__(self) -> int:

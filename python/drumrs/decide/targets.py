@@ -2,46 +2,19 @@
 
 import ast
 import math
-import operator
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from types import MappingProxyType
 from typing import TYPE_CHECKING, NamedTuple
 
 from drumrs.analysis import Estimate, Mean, estimate
-from drumrs.decide.readings import Readings, check, find, needs_frames, record_of
+from drumrs.decide.expression import Expression, Name
+from drumrs.decide.readings import Readings, check, needs_frames, record_of
 from drumrs.decide.readings import names as quantity_names
-from drumrs.decide.units import PLAIN, Unit, format_unit, parse_unit, product
 from drumrs.errors import ConfigError
 
 if TYPE_CHECKING:
     from drumrs.config import Config
     from drumrs.result import Result
-
-_OPERATORS: Mapping[type[ast.AST], Callable[[float, float], float]] = MappingProxyType(
-    {
-        ast.Add: operator.add,
-        ast.Sub: operator.sub,
-        ast.Mult: operator.mul,
-        ast.Div: operator.truediv,
-        ast.Pow: math.pow,
-    }
-)
-_FUNCTIONS: Mapping[str, Callable[[float], float]] = MappingProxyType(
-    {"abs": abs, "sqrt": math.sqrt, "log": math.log, "exp": math.exp}
-)
-_LONGEST = 300
-_ALLOWED = (
-    "an expression of names of quantities, numbers, + - * / ** ( ), abs, sqrt, log and exp, a quantity in a phase "
-    "as falls_per_turn[tumble]"
-)
-
-
-class Name(NamedTuple):
-    """A quantity, over the window or in a phase of the program."""
-
-    quantity: str
-    phase: str | None = None
 
 
 class Own(NamedTuple):
@@ -90,7 +63,7 @@ class Target:
     text: str
     names: tuple[Name, ...]
     unit: str
-    _tree: ast.expr = field(repr=False, compare=False)
+    _expression: Expression = field(repr=False, compare=False)
     own: Own | None = None
 
     @classmethod
@@ -123,11 +96,11 @@ class Target:
         """
         if isinstance(text, Target):
             return text
-        tree = _parsed(text)
-        names = tuple(dict.fromkeys(_names(tree)))
+        expression = Expression.parse(text)
+        names = expression.names
         if not names:
             raise ConfigError("target", text, "of at least one quantity")
-        return cls(str(text).strip(), names, format_unit(_unit_of(tree)), tree)
+        return cls(text.strip(), names, expression.unit, expression)
 
     @classmethod
     def of(
@@ -173,7 +146,7 @@ class Target:
             limit = "a name such as those of quantities, and not one of them"
             raise ConfigError("the name of a target", name, limit)
         own = Own(measure, tuple(record), needs_frames)
-        return cls(name, (Name(name),), unit, ast.Name(name), own)
+        return cls(name, (Name(name),), unit, Expression(ast.Name(name)), own)
 
     def __str__(self) -> str:
         """Return the expression as it was given."""
@@ -246,7 +219,7 @@ class Target:
             return self.own.mean(readings.result)
         found = {name: readings.mean(*name) for name in self.names}
         values = {name: mean.value for name, mean in found.items()}
-        return Mean(self._at(values), self._error(found, values))
+        return Mean(self._expression.value(values), self._error(found, values))
 
     def __call__(self, result: "Result") -> Estimate:
         """Return the estimate that one run gives; the arguments and errors are those of `mean`."""
@@ -276,147 +249,15 @@ class Target:
             [mean.value for mean in there], None if by_scatter else [mean.error for mean in there]
         )
 
-    def _at(self, values: Mapping[Name, float]) -> float:
-        try:
-            value = _value(self._tree, values)
-        except (ArithmeticError, ValueError):
-            return math.nan  # such as a ratio to a power that is 0
-        return value if math.isfinite(value) else math.nan
-
     def _error(self, found: Mapping[Name, Mean], values: Mapping[Name, float]) -> float | None:
         """Return by how much the value changes, at most, where every quantity is off by its error."""
         total = 0.0
         for name, mean in found.items():
             if mean.error is None:
                 return None
-            ends = [self._at({**values, name: mean.value + sign * mean.error}) for sign in (1.0, -1.0)]
+            ends = [
+                self._expression.value({**values, name: mean.value + sign * mean.error})
+                for sign in (1.0, -1.0)
+            ]
             total += abs(ends[0] - ends[1]) / 2.0
         return total if math.isfinite(total) else None
-
-
-def _parsed(text: str) -> ast.expr:
-    limit = _ALLOWED
-    if not isinstance(text, str) or len(text) > _LONGEST:
-        raise ConfigError("target", text, limit)
-    try:
-        tree = ast.parse(text.strip(), mode="eval").body
-    except (SyntaxError, ValueError, RecursionError, MemoryError):
-        raise ConfigError("target", text, limit) from None
-    for node in _nodes(tree):
-        if not _is_allowed(node):
-            piece = ast.get_source_segment(text.strip(), node)
-            problem = f"has {piece} in it, but must be {limit}"
-            raise ConfigError(f"the target {text}", text, limit, problem=problem)
-    return tree
-
-
-def _nodes(node: ast.expr) -> Iterator[ast.expr]:
-    """Give the node and all that are part of its value."""
-    yield node
-    for part in _operands(node):
-        yield from _nodes(part)
-
-
-def _operands(node: ast.expr) -> list[ast.expr]:
-    if isinstance(node, ast.BinOp):
-        return [node.left, node.right]
-    if isinstance(node, ast.UnaryOp):
-        return [node.operand]
-    return node.args if isinstance(node, ast.Call) else []
-
-
-def _is_allowed(node: ast.expr) -> bool:
-    if isinstance(node, ast.BinOp):
-        if isinstance(node.op, ast.Pow):
-            return _exponent(node) is not None
-        return type(node.op) in _OPERATORS
-    if isinstance(node, ast.UnaryOp):
-        return isinstance(node.op, (ast.USub, ast.UAdd))
-    if isinstance(node, ast.Call):
-        named = isinstance(node.func, ast.Name) and node.func.id in _FUNCTIONS
-        return named and len(node.args) == 1 and not node.keywords
-    if isinstance(node, ast.Constant):
-        return isinstance(node.value, (int, float)) and not isinstance(node.value, bool)
-    return _name(node) is not None
-
-
-def _name(node: ast.expr) -> Name | None:
-    """Return the quantity that a node names; `None` where it names none."""
-    if isinstance(node, ast.Name):
-        return Name(node.id)
-    if not isinstance(node, ast.Subscript) or not isinstance(node.value, ast.Name):
-        return None
-    if isinstance(node.slice, ast.Name):
-        return Name(node.value.id, node.slice.id)
-    return Name(node.value.id, str(node.slice.value)) if isinstance(node.slice, ast.Constant) else None
-
-
-def _names(tree: ast.expr) -> Iterator[Name]:
-    for node in _nodes(tree):
-        name = _name(node)
-        if name is not None:
-            find(name.quantity)
-            yield name
-
-
-def _exponent(node: ast.BinOp) -> float | None:
-    """Return an exponent, which must be a number, with or without a sign."""
-    try:
-        number = ast.literal_eval(node.right)
-    except (ValueError, TypeError):
-        return None
-    return float(number) if isinstance(number, (int, float)) else None
-
-
-def _value(node: ast.expr, values: Mapping[Name, float]) -> float:
-    if isinstance(node, ast.Constant):
-        return float(node.value)  # type: ignore[arg-type]  # a number: `_is_allowed`
-    name = _name(node)
-    if name is not None:
-        return values[name]
-    parts = [_value(part, values) for part in _operands(node)]
-    if isinstance(node, ast.BinOp):
-        return _OPERATORS[type(node.op)](parts[0], parts[1])
-    if isinstance(node, ast.Call):
-        return _FUNCTIONS[node.func.id](parts[0])  # type: ignore[attr-defined]  # a name: `_is_allowed`
-    return -parts[0] if isinstance(node.op, ast.USub) else parts[0]  # type: ignore[attr-defined]
-
-
-def _unit_of(node: ast.expr) -> Unit:
-    """Return the unit of a node.
-
-    Raises
-    ------
-    ConfigError
-        Where quantities of different units are added, or a function is of one that is no plain number.
-    """
-    name = _name(node)
-    if name is not None:
-        return parse_unit(find(name.quantity).unit)
-    units = [_unit_of(part) for part in _operands(node)]
-    if isinstance(node, ast.Call):
-        return _unit_of_function(node, units[0])
-    if not isinstance(node, ast.BinOp):
-        return units[0] if units else PLAIN
-    if isinstance(node.op, ast.Pow):
-        return product(PLAIN, units[0], _exponent(node) or 0.0)
-    if isinstance(node.op, (ast.Mult, ast.Div)):
-        return product(units[0], units[1], 1.0 if isinstance(node.op, ast.Mult) else -1.0)
-    if dict(units[0]) != dict(units[1]):
-        one, other = (format_unit(unit) for unit in units)
-        problem = f"adds {one} and {other}, but must add what has the same unit"
-        hint = "divide each by what makes it a plain number"
-        raise ConfigError(f"the target {ast.unparse(node)}", problem=problem, hint=hint)
-    return units[0]
-
-
-def _unit_of_function(node: ast.Call, unit: Unit) -> Unit:
-    function = node.func.id  # type: ignore[attr-defined]  # a name: `_is_allowed`
-    if function == "abs":
-        return unit
-    if function == "sqrt":
-        return product(PLAIN, unit, 0.5)
-    if unit:
-        problem = f"has {function} of a quantity in {format_unit(unit)}, but must have it of a plain number"
-        raise ConfigError(f"the target {ast.unparse(node)}", problem=problem)
-    return PLAIN

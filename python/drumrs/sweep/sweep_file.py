@@ -45,7 +45,7 @@ def read_sweep(path: str | Path, seeds: "Seeds" = None) -> Sweep:
     >>> len(read_sweep(path).cases)
     4
     """
-    content = read_layer(path)
+    content = read_layer(path, "the file of a sweep", "drumrs sweep --help says what it holds")
     for key in content:
         if key not in _KEYS:
             raise ConfigError(key, content[key], problem="is not a key of a sweep file", hint=_meant(key))

@@ -1,11 +1,11 @@
 //! Contacts that open and end, in an order that neither lists nor threads show in.
 
+use super::Bodies;
 use super::pass::{ChunkStep, Scratch};
-use super::{Bodies, Totals};
 use crate::engine::contacts::{ContactList, ContactRecord, ContactTally, NOT_LISTED};
 use crate::engine::motion::MotionView;
 use crate::engine::pair_list::{Neighbors, Opened};
-use crate::engine::simd::{ALL_LANES, F64x4, LANES};
+use crate::engine::simd::{ALL_LANES, LANES};
 use crate::physics::contact::law::ContactLaw;
 
 /// The blocks of a list with contacts that have ended.
@@ -72,16 +72,9 @@ impl<V: MotionView> ChunkStep<'_, V> {
         !list.is_empty()
     }
 
-    /// Keeps the sums, of which depths are in units of `unit`, and takes out contacts that have ended.
+    /// Takes out contacts that have ended.
     #[inline]
-    pub fn close<L: ContactLaw>(
-        &mut self,
-        list: &mut ContactList<L>,
-        neighbors: &mut Neighbors,
-        sums: &Totals<F64x4>,
-        unit: f64,
-    ) {
-        self.totals.close(sums, unit);
+    pub fn close<L: ContactLaw>(&mut self, list: &mut ContactList<L>, neighbors: &mut Neighbors) {
         if L::IS_RECORDED && list.is_tallied {
             self.note_moved(list);
             self.note_ended(list);

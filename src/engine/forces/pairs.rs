@@ -43,26 +43,28 @@ pub fn evaluate<L: ContactLaw, V: MotionView>(
     if !step.open(list, neighbors) {
         return;
     }
-    let mut totals = step.totals.open();
     let ContactList { ids, blocks, other_moments, tallies, parameters, .. } = list;
     let lists = PassLists { ids, blocks, other_moments, tallies };
-    let unit = match parameters {
+    match parameters {
         ListParameters::Same(same) => {
-            let own = PairParameters::<L>::map(same, F64x4::splat);
-            if lists.other_moments.is_empty() {
-                run::<L, V, false, false>(lists, |_| own, step, &mut totals);
+            let unit = same.1.radius.min(same.1.other_radius);
+            let parameters = || {
+                let own = PairParameters::<L>::map(same, F64x4::splat);
+                move |_| own
+            };
+            // Equal bodies have one moment unless the law rolls: code for the other case would never run.
+            if L::ROLLS {
+                run::<L, V, _, true, false>(lists, parameters, unit, step);
             } else {
-                run::<L, V, true, false>(lists, |_| own, step, &mut totals);
+                run::<L, V, _, false, false>(lists, parameters, unit, step);
             }
-            same.1.radius.min(same.1.other_radius)
         }
         ListParameters::Each(each) => {
-            let of = |block: usize| PairParameters::<L>::map(&each[block], F64x4::new);
-            run::<L, V, true, true>(lists, of, step, &mut totals);
-            1.0
+            let parameters = || |block: usize| PairParameters::<L>::map(&each[block], F64x4::new);
+            run::<L, V, _, true, true>(lists, parameters, 1.0, step);
         }
-    };
-    step.close(list, neighbors, &totals, unit);
+    }
+    step.close(list, neighbors);
 }
 
 /// Takes the pairs that touch out of the near list.
@@ -95,14 +97,20 @@ struct PassLists<'a, L: ContactLaw> {
 }
 
 /// One pass over a list. With `BOTH`, moments on bodies j are kept apart from those on bodies i; with `MIXED`, radii differ,
-/// and depths are ratios.
+/// and depths are ratios: otherwise lengths in units of `unit`.
+///
+/// Parameters become lanes, and sums are opened and closed, in here: handed over, they would go through memory once more, which
+/// is some 30 instructions of a step.
 #[inline(never)]
-fn run<L: ContactLaw, V: MotionView, const BOTH: bool, const MIXED: bool>(
+fn run<L: ContactLaw, V: MotionView, P, const BOTH: bool, const MIXED: bool>(
     PassLists { ids, blocks, other_moments, tallies }: PassLists<L>,
-    parameters: impl Fn(usize) -> Of<PairParameters<L>, F64x4>,
+    parameters: impl FnOnce() -> P,
+    unit: f64,
     step: &mut ChunkStep<V>,
-    totals: &mut Totals<F64x4>,
-) {
+) where
+    P: Fn(usize) -> Of<PairParameters<L>, F64x4>,
+{
+    let (parameters, mut totals) = (parameters(), step.totals.open());
     let records_gross_work = L::IS_RECORDED && step.inputs.records_gross_work;
     let ChunkStep {
         sums,
@@ -127,7 +135,7 @@ fn run<L: ContactLaw, V: MotionView, const BOTH: bool, const MIXED: bool>(
                 motion,
                 time,
                 sums,
-                totals,
+                &mut totals,
                 BlockRecords {
                     gross_work: records_gross_work.then_some(&mut kept.gross_work),
                     tally,
@@ -137,6 +145,7 @@ fn run<L: ContactLaw, V: MotionView, const BOTH: bool, const MIXED: bool>(
             ended.note(index, touching);
         }
     }
+    step.totals.close(&totals, unit);
 }
 
 /// Where the bodies of some blocks meet. A function of its own, for which the registers suffice.
@@ -242,9 +251,12 @@ pub fn evaluate_block<L: ContactLaw>(
     let history = L::History::map(&block.history, F64x4::new);
     let contact = Kinematics::new(motion, &last, time.map(F64x4::splat));
     let (response, history) = L::respond(law, &contact, &history);
-    let (push, pull) = (response.normal_force, response.tangential_force);
-    let force = Vec2x4 { x: normal.x * push + normal.y * pull, y: normal.y * push - normal.x * pull };
-    let moment = if L::ROLLS { arm * pull + response.rolling_moment } else { arm * pull };
+    let (along_normal, tangential) = (response.normal_force, response.tangential_force);
+    let force = Vec2x4 {
+        x: normal.x * along_normal + normal.y * tangential,
+        y: normal.y * along_normal - normal.x * tangential,
+    };
+    let moment = if L::ROLLS { arm * tangential + response.rolling_moment } else { arm * tangential };
     totals.add_flows(L::FLOWS, &response.flows);
     if L::IS_RECORDED
         && let Some(tally) = records.tally
@@ -257,7 +269,7 @@ pub fn evaluate_block<L: ContactLaw>(
         // The last force as the normal and the tangent of now see it.
         let (x, y) = (last.force_x, last.force_y);
         let last_force = [x * normal.x + y * normal.y, x * normal.y - y * normal.x];
-        tallies::add_gross_work(sums, &GrossWork::of_step(&contact, last_force, [push, pull]));
+        tallies::add_gross_work(sums, &GrossWork::of_step(&contact, last_force, [along_normal, tangential]));
     }
     block.state = ContactState {
         overlap: contact.overlap.to_array(),
@@ -269,7 +281,7 @@ pub fn evaluate_block<L: ContactLaw>(
     block.history = L::History::map(&history, F64x4::to_array);
     BlockForces {
         force,
-        tangential: pull,
+        tangential,
         rolling_moment: response.rolling_moment,
         moment,
         overlap: contact.overlap,

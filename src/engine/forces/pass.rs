@@ -73,7 +73,7 @@ pub struct Pass<L: ContactLaw> {
     pub outcomes: Vec<ChunkOutcome>,
     /// By chunk: the chunks that may have reactions for it; ascending.
     pub senders: Vec<Vec<u32>>,
-    /// What each surface of the drum did to the load in the last pass.
+    /// What each surface of the drum did to the load in the last pass, where there are several chunks.
     pub surfaces: Vec<SurfaceLoad>,
     count: usize,
 }
@@ -132,8 +132,9 @@ impl<L: ContactLaw> Pass<L> {
     }
 
     /// Whether there is code of its own for a load of one chunk, whose contacts need not ask whether a particle is another chunk's.
-    /// Asking costs 1 to 5 %. Laws with terms do without: there are many, and each takes its share of the program's size.
-    const KNOWS_ONE_CHUNK: bool = !L::HAS_TERMS;
+    /// Asking costs 1 to 5 %. Laws with terms do without, and clipped ones of which more is recorded: there are many, and each takes
+    /// its share of the program's size.
+    const KNOWS_ONE_CHUNK: bool = !L::HAS_TERMS && !(L::CLIPS && L::IS_RECORDED);
 
     /// Chunk after chunk, and each is moved on while it is in the cache.
     fn evaluate_in_turn<const N: usize, const M: usize, const H: usize, const ONE_CHUNK: bool>(
@@ -192,7 +193,11 @@ impl<L: ContactLaw> Pass<L> {
 
     /// Adds what the chunks did to the load, in their order.
     fn add_up(&mut self) {
-        let Some((first, others)) = self.outcomes.split_first() else { return };
+        // Those of one chunk are read where they are.
+        let [first, others @ ..] = &self.outcomes[..] else { return };
+        if others.is_empty() {
+            return;
+        }
         self.surfaces.copy_from_slice(&first.surfaces);
         for outcome in others {
             for (surface, part) in self.surfaces.iter_mut().zip(&outcome.surfaces) {

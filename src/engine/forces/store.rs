@@ -132,7 +132,10 @@ impl<L: ContactLaw> ContactStore for Pass<L> {
     }
 
     fn surfaces(&self) -> &[SurfaceLoad] {
-        &self.surfaces
+        match &self.outcomes[..] {
+            [only] => &only.surfaces,
+            _ => &self.surfaces,
+        }
     }
 
     fn stored(&self) -> Stored<f64> {

@@ -130,7 +130,7 @@ def test_what_does_not_matter_is_said(tmp_path, monkeypatch):
             {"measured": [{**ONE_ANGLE[0], "sigma": 1.0}]},
             r"measured\[0\].sigma is not a key of a calibration",
         ),
-        ({"ranges": {}}, "1 to 6 keys"),
+        ({"ranges": {}}, "1 to 5 keys with"),
         ({"calibrate": {"runs": 3}}, "calibrate.runs is 3, but must be a whole number from 9"),
         ({"calibrate": {"discrepancy": 0.1}}, "a share such as '3 %'"),
     ],

@@ -7,7 +7,7 @@ import drumrs
 from drumrs.analysis import Estimate, Interval
 from drumrs.cli import main
 from drumrs.decide import Comparison, Design, Target
-from drumrs.decide.compare import Difference
+from drumrs.decide.difference import Difference
 from drumrs.errors import ConfigError
 
 SLOW = drumrs.baseline(fill=0.05).replace({"run.duration": 0.1, "run.frame_every": 0.02})

@@ -19,7 +19,7 @@ class MadeUp(readings.Readings):
     def __init__(self, **means):
         self._means = means
 
-    def mean(self, name, phase=None):
+    def mean(self, name, phase=None, _=()):
         return self._means[name if phase is None else f"{name}_{phase}"]
 
 
@@ -59,6 +59,11 @@ def recorded(tmp_path_factory):
 
 # What a run without phases and walls does not have.
 WITHOUT = {
+    "lacey_index": "the target lacey_index lacks by; write lacey_index(by='side')",
+    **{
+        name: f"the target {name} lacks zone; write {name}(zone='spray')"
+        for name in ("zone_residence", "zone_cycle", "zone_share", "zone_spread")
+    },
     "phase_work": "is that of a phase; write phase_work[PHASE]",
     "phase_specific_work": "is that of a phase; write phase_specific_work[PHASE]",
     **dict.fromkeys(
@@ -190,6 +195,19 @@ def test_every_unit_of_the_registry_is_read_and_written_back():
         ("drum_power.real", "an expression of names"),
         ("[drum_power]", "an expression of names"),
         ("drum_power if arm else 1", "an expression of names"),
+        ("sin(arm)", "the target sin is not the name of a quantity"),
+        ("drum_power(by='side')", "drum_power has the argument by, but takes no arguments"),
+        ("lacey_index(color='side')", "has the argument color, but may have by and turns only, each once"),
+        ("lacey_index('side', by='layer')", "has the argument by, but may have by and turns only, each once"),
+        ("lacey_index(side, 1, 2)", "has 3 arguments, but may have by and turns only"),
+        ("lacey_index(by=side, turns=-1)", "an expression of names"),
+        (
+            "lacey_index(by=side, turns=0)",
+            "turns of the target lacey_index is 0, but must be a positive number",
+        ),
+        ("lacey_index(by=side, turns=many)", "is 'many', but must be a positive number"),
+        ("lacey_index(**arm)", "an expression of names"),
+        ("sqrt(arm, x=1)", "an expression of names"),
         ("drum_power /", "an expression of names"),
         ("2 * 3", "at least one quantity"),
         ("", "an expression of names"),

@@ -7,8 +7,8 @@ import pytest
 
 from drumrs import measures
 from drumrs.errors import ConfigError
+from drumrs.measures.clearance import clearance
 from drumrs.measures.frame_window import FrameWindow
-from drumrs.measures.room import around
 from drumrs.measures.toe import toe_and_shoulder
 from drumrs.verification import made_up
 
@@ -83,10 +83,10 @@ def test_occupancy_knows_its_error():
 def test_room_counts_the_size_of_each_disc_and_baffles():
     frames = made_up.frames([[[0.0, 0.0], [0.5, 0.0]]] * 2, [0.2, 0.05], drum_angles=[0.0, np.pi / 2.0])
     points = np.array([[0.35, 0.0], [0.0, 0.9]])
-    assert around(frames, 0, points) == pytest.approx([0.1, 0.7])
+    assert clearance(frames, 0, points) == pytest.approx([0.1, 0.7])
     baffled = replace(frames, baffles=(np.array([[0.8, 0.1], [1.0, 0.1], [1.0, 0.2], [0.8, 0.2]]),))
     # A quarter of a turn later the baffle is at the top, 0.1 to the left.
-    assert around(baffled, 1, points) == pytest.approx([0.1, 0.1])
+    assert clearance(baffled, 1, points) == pytest.approx([0.1, 0.1])
 
 
 def test_a_drum_without_a_rim_is_refused():
