@@ -62,7 +62,7 @@ def compare(
         designs, by, out=out, greatest=greatest, difference=difference, most=most, jobs=jobs
     )
     _print(found)
-    print_paths([path for name in ("table.parquet", "differences.png") if (path := out / name).exists()])
+    print_paths([out / name for name in ("table.parquet", "differences.png")])
     return 0
 
 
