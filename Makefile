@@ -43,22 +43,8 @@ test: develop $(TOOLS) ## test the physics, the package and the documentation
 	cargo test --doc
 	$(BIN)/python -m pytest --numprocesses 2 --dist loadfile -m "not slow"
 
-check-long: develop $(TOOLS) $(PROGRAMS) $(NOTEBOOKS) ## what takes hours: random loads, kills, long runs, fuzzing, the study in small, examples in full
-	$(BIN)/python -m pytest -m slow
-	PROPTEST_CASES=30000 cargo test --release --test random_loads
-	$(BIN)/python tests/endurance/kill_and_resume.py
-	$(BIN)/python tests/endurance/short_cases.py
-	$(BIN)/python tests/endurance/long_run.py
-	$(BIN)/python tests/endurance/million_rows.py
-	cargo test --test contracts fuzz -- --ignored # writes fuzz/seeds/checkpoint
-	for target in checkpoint config outline rotation; do \
-	    mkdir -p fuzz/corpus/$$target; \
-	    cargo +nightly fuzz run $$target fuzz/corpus/$$target fuzz/seeds/$$target -- -max_total_time=600 || exit 1; \
-	done
-	$(BIN)/drumrs reproduce --quick --out $(OUT)/check-long
-	for example in examples/*.py; do \
-	    PATH="$(abspath $(BIN)):$$PATH" $(BIN)/python $$example --out $(OUT)/check-long/$$(basename $$example .py) || exit 1; \
-	done
+check-long: develop $(TOOLS) $(PROGRAMS) $(NOTEBOOKS) ## test what takes hours, with a table of what passed; PARTS="fuzz study" for some of it (.ci/long says what)
+	.ci/long $(PARTS)
 
 $(PROGRAMS):
 	$(PYTHON) -m venv target/programs

@@ -7,7 +7,7 @@
 //!
 //! | level | modules                                                                                                |
 //! |-------|--------------------------------------------------------------------------------------------------------|
-//! | 0     | [`error`], [`physics::columns`], [`physics::scalar`], [`physics::vector`]                              |
+//! | 0     | [`error`], [`physics::columns`], [`physics::scalar`], [`physics::sorting`], [`physics::vector`]        |
 //! | 1     | [`physics::contact`], [`physics::drum`], [`physics::particles`], [`physics::rotation`]                 |
 //! | 2     | [`physics::energy`], [`physics::load`]                                                                 |
 //! | 3     | [`engine`], [`observe`]                                                                                |

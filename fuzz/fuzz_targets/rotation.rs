@@ -1,8 +1,8 @@
-//! Any bytes as a program of speeds: see `rotation` in `tests/contracts/hostile.rs`.
+//! Any bytes as a program of speeds: see `rotation` in `tests/contracts/robustness.rs`.
 #![no_main]
 
-#[path = "../../tests/contracts/hostile.rs"]
+#[path = "../../tests/contracts/robustness.rs"]
 #[allow(dead_code)] // Each target uses its own part.
-mod hostile;
+mod robustness;
 
-libfuzzer_sys::fuzz_target!(|bytes: &[u8]| hostile::rotation(bytes));
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| robustness::rotation(bytes));

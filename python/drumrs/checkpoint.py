@@ -11,9 +11,6 @@ from drumrs.files import read_plain, write_whole
 _NAME = b"drumrs checkpoint "
 _VERSION = b"1"
 _DIGEST_SIZE = hashlib.sha256().digest_size
-# The core's own bytes, as src/io/checkpoint.rs lays them out: magic and format, digest, and the rest in postcard.
-_CORE_HEAD = 12
-_CORE_BODY = _CORE_HEAD + _DIGEST_SIZE
 
 
 def write_checkpoint(path: str | Path, config: Config, core: bytes | memoryview) -> None:
@@ -64,38 +61,3 @@ def read_checkpoint(path: str | Path) -> tuple[Config, bytes]:
     except (ValueError, RecursionError):
         # A digest that matches is not yet one that drumrs made.
         raise CheckpointError("it holds no valid configuration", str(path)) from None
-
-
-def with_config(core: bytes | memoryview, config: str) -> bytes:
-    """Return the core's bytes with another configuration: what comes of them goes on from the same state under it.
-
-    Parameters
-    ----------
-    core
-        What the core's `checkpoint` returned.
-    config
-        The configuration as the core reads it.
-    """
-    data = memoryview(core)
-    _, version_end = _read_varint(data, _CORE_BODY)
-    size, text = _read_varint(data, version_end)
-    said = config.encode()
-    body = b"".join((data[_CORE_BODY:version_end], _varint(len(said)), said, data[text + size :]))
-    return b"".join((data[:_CORE_HEAD], hashlib.sha256(body).digest(), body))
-
-
-def _read_varint(data: memoryview, at: int) -> tuple[int, int]:
-    """Read a whole number of postcard, seven bits a byte, the lowest first; return it and where it ends."""
-    value = shift = 0
-    while data[at] & 0x80:
-        value |= (data[at] & 0x7F) << shift
-        at, shift = at + 1, shift + 7
-    return value | data[at] << shift, at + 1
-
-
-def _varint(value: int) -> bytes:
-    digits = bytearray()
-    while value >= 0x80:  # noqa: PLR2004 - a byte's flag that another one follows
-        digits.append(value & 0x7F | 0x80)
-        value >>= 7
-    return bytes([*digits, value])

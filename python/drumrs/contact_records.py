@@ -2,7 +2,7 @@
 
 `run.record` names them, and `run.zone` the zones of "zone_visits". Those of contacts cover the whole run from t = 0,
 contacts that are still open included, and split the same energies: those that contacts took, `Result.dissipated`, of
-which the series' columns of these names are samples. Fields and visits begin with the averages' window.
+which the series' columns of these names are samples. Fields and visits are those of the averages' window.
 """
 
 import io

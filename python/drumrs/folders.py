@@ -135,6 +135,22 @@ def claim(folder: Path, kind: str, title: str, digest: str) -> None:
     write_whole(folder / marker(kind), f"{json.dumps(content, ensure_ascii=False)}\n".encode())
 
 
+def require_format(folder: Path, kind: str) -> None:
+    """Refuse to read a folder whose marker names a newer format; one without a marker has its files checked alone.
+
+    Raises
+    ------
+    ConfigError
+        Where a newer version of drumrs made it.
+    """
+    found = (read_object(folder / marker(kind)) or {}).get("format", _FORMAT)
+    if not isinstance(found, int) or found > _FORMAT:
+        limit = f"of format {_FORMAT} at most: a newer drumrs made it"
+        raise ConfigError(
+            folder, found, limit, problem=f"is of format {found}, but must be {limit}", bound=_FORMAT
+        )
+
+
 def is_claimed(folder: Path, kind: str, digest: str) -> bool:
     """Tell whether a folder says that it is of a kind, with this digest."""
     return (read_object(folder / marker(kind)) or {}).get("digest") == digest

@@ -97,7 +97,7 @@ class Parts:
         tables = [taken, last.lazy()] if records.taken_contacts else [last.lazy()]
         words = file_words("contacts", records.contact_tables(with_contacts=False)["dissipated"])
         with replacing(path) as temporary:
-            sink_table(temporary, pl.concat(tables), words, row_group_size=ROW_GROUP_SIZE)
+            sink_table(temporary, pl.concat(tables), words, row_group_size=ROW_GROUP_SIZE, level=1)
 
     def remove(self) -> None:
         """Remove all parts, and what a kill left of one."""
@@ -124,7 +124,8 @@ class Parts:
             part.save(self._name("frames", first + start), first + start)
         if records.lists_contacts and len(held["contacts"]["opened"]):
             table = records.as_contacts(held["contacts"])
-            write_table(self._name("contacts", held["first_contact"]), table, {})
+            # It is read and written once more: to compress it would take longer than all else.
+            write_table(self._name("contacts", held["first_contact"]), table, {}, "uncompressed")
         held.clear()
 
     def _name(self, kind: str, first: int) -> Path:

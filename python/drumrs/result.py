@@ -12,6 +12,7 @@ from drumrs.contact_records import COLUMNS, read_contact_tables
 from drumrs.datasets import dataset
 from drumrs.errors import ConfigError
 from drumrs.files import read_object, read_plain, require_plain, write_whole
+from drumrs.folders import require_format
 from drumrs.frames import Frames
 from drumrs.notebook import table
 from drumrs.registry import known, metadata, quantity, recorded, require
@@ -163,7 +164,7 @@ class Result:
     discs
         What each bundle received, and its flights, one row each; where it has "discs".
     fields
-        Means of density, momentum and stress, one row a cell, from the start of the window on; where it has "fields".
+        Means of density, momentum and stress, one row a cell, over the averages' window; where it has "fields".
     zone_visits
         How the bundles visited the zones of ``run.zone``, one row a zone and bundle, likewise.
     dissipated
@@ -266,6 +267,7 @@ def load(folder: str | Path) -> Result:
     import polars as pl
 
     folder = Path(folder)
+    require_format(folder, "run")
     if not (folder / "summary.json").is_file():
         ended = read_object(folder / UNSTABLE)
         if ended is not None:

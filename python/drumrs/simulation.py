@@ -106,6 +106,7 @@ class Simulation(HasRecords, HasSpeed):
             core = _core.Simulation(config.to_core_json(), config.run.seed, threads, arrays)
         except ConfigError as error:
             raise in_terms_of_fill(config, error) from None
+        core.tell_sums_until(config.run.told_until)
         self._start(config, core)
         require_samples(config, self.time_step)
         require_memory(config, self.time_step, self._records.sizes, with_frames=in_memory)
@@ -223,6 +224,7 @@ class Simulation(HasRecords, HasSpeed):
             raise ConfigError("duration", duration, f"at least run.duration = {run.duration}")
         window = (run.averaging_window[0], duration)
         self._config = self._config.replace({"run": {"duration": duration, "window": window}})
+        self._core.tell_sums_until(self._config.run.told_until)
 
     @property
     def config(self) -> Config:

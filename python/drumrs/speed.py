@@ -5,7 +5,6 @@ import numbers
 import threading
 from typing import Any
 
-from drumrs.checkpoint import with_config
 from drumrs.config import Config
 from drumrs.config.program import with_speed
 from drumrs.errors import ConfigError, DrumrsError
@@ -68,8 +67,7 @@ class HasSpeed:
             knots = with_speed(self._config.rotation.knots, rpm, earliest, ramp)
             changes = {"rotation.program": knots, "run.time_step": self._core.time_step}
             config = self._config.replace(changes)
-            data = with_config(self._core.checkpoint().data, config.to_core_json())
-            core = self._core.from_checkpoint(data, self._core.threads)
+            core = self._core.with_config(config.to_core_json())
             self._config, self._core = config, core
             self._records = Records(core, config, self._records.columns)
         finally:

@@ -18,10 +18,12 @@ Compression = Literal["zstd", "uncompressed"]
 ROW_GROUP_SIZE = 2**18
 
 
-def write_table(path: str | Path, table: "pl.DataFrame", metadata: Mapping[str, str]) -> None:
+def write_table(
+    path: str | Path, table: "pl.DataFrame", metadata: Mapping[str, str], compression: Compression = "zstd"
+) -> None:
     """Write a table as parquet, whole or not at all, with `metadata` on the file."""
     with replacing(path) as temporary, _system_errors(temporary):
-        table.write_parquet(temporary, metadata=with_schema(metadata, table.schema))
+        table.write_parquet(temporary, metadata=with_schema(metadata, table.schema), compression=compression)
 
 
 def sink_table(
@@ -31,6 +33,7 @@ def sink_table(
     *,
     row_group_size: int,
     compression: Compression = "zstd",
+    level: int | None = None,
 ) -> None:
     """Write a table that may be larger than all memory; the bytes depend on what it holds, not on how it comes.
 
@@ -46,6 +49,8 @@ def sink_table(
         Rows of a group of the file.
     compression
         How columns are compressed.
+    level
+        How hard; that of polars unless given. Of digits that are chance, more makes files hardly smaller.
 
     Raises
     ------
@@ -58,6 +63,7 @@ def sink_table(
             row_group_size=row_group_size,
             metadata=with_schema(metadata, table.collect_schema()),
             compression=compression,
+            compression_level=level,
             mkdir=False,
         )
 

@@ -23,7 +23,7 @@ use crate::simulation::{Records, Simulation};
 
 const MAGIC: &[u8; 8] = b"DRUMRS\r\n";
 /// Version of the layout below; a checkpoint of another one is refused.
-pub const FORMAT_VERSION: u32 = 9;
+pub const FORMAT_VERSION: u32 = 10;
 /// Beyond this, step × time step is no longer exact to a step.
 const MOST_STEPS: u64 = 1 << 53;
 const HEADER: usize = MAGIC.len() + 4 + 32;
@@ -52,26 +52,14 @@ impl Simulation {
     /// The error that stopped the simulation, if one did: there is nothing good to keep. `Error::Memory` where there is no
     /// room for the bytes.
     pub fn to_checkpoint(&self) -> Result<Vec<u8>, Error> {
-        if let Some(failure) = self.failure() {
-            return Err(failure.clone());
-        }
-        let snapshot = Snapshot {
-            physics_version: PHYSICS_VERSION,
-            config: self.config().to_json(),
-            seed: self.seed(),
-            state: Cow::Borrowed(self.state()),
-            engine: self.engine_state(),
-            rows: self.records().untaken_rows().into(),
-            frames: Cow::Borrowed(self.frames()),
-            contacts: self.records().contacts.as_slice().into(),
-        };
+        let snapshot = self.snapshot()?;
         let refused = |error: postcard::Error| refuse(error.to_string());
-        let size = HEADER + postcard::experimental::serialized_size(&snapshot).map_err(refused)?;
+        let size = HEADER + write(&snapshot, None).map_err(refused)?;
         let mut bytes = Vec::new();
         memory::reserve(&mut bytes, size, "writing a checkpoint")?;
         bytes.resize(size, 0);
         let (header, body) = bytes.split_at_mut(HEADER);
-        postcard::to_slice(&snapshot, body).map_err(refused)?;
+        write(&snapshot, Some(body)).map_err(refused)?;
         let (magic, rest) = header.split_at_mut(MAGIC.len());
         let (version, digest) = rest.split_at_mut(4);
         magic.copy_from_slice(MAGIC);
@@ -87,18 +75,84 @@ impl Simulation {
         let snapshot = read(bytes)?;
         let config =
             SimulationConfig::from_json(&snapshot.config).map_err(|error| refuse(error.to_string()))?;
-        let drum = check(&snapshot.state, &snapshot.engine, &config)?;
+        snapshot.resume(config, threads)
+    }
+
+    /// This simulation under another configuration: it goes on from the same state, with the records that were not taken.
+    ///
+    /// # Errors
+    /// As `to_checkpoint` and `from_checkpoint`, of which it is the same without the bytes.
+    pub fn with_config(&self, config: SimulationConfig) -> Result<Self, Error> {
+        memory::reserve(&mut Vec::<u8>::new(), self.untaken_size(), "changing a configuration")?;
+        self.snapshot()?.resume(config, self.threads())
+    }
+
+    fn snapshot(&self) -> Result<Snapshot<'_>, Error> {
+        if let Some(failure) = self.failure() {
+            return Err(failure.clone());
+        }
+        Ok(Snapshot {
+            physics_version: PHYSICS_VERSION,
+            config: self.config().to_json(),
+            seed: self.seed(),
+            state: Cow::Borrowed(self.state()),
+            engine: self.engine_state(),
+            rows: self.records().untaken_rows().into(),
+            frames: Cow::Borrowed(self.frames()),
+            contacts: self.records().contacts.as_slice().into(),
+        })
+    }
+}
+
+impl Snapshot<'_> {
+    /// The simulation that goes on from it under a configuration.
+    fn resume(self, config: SimulationConfig, threads: usize) -> Result<Simulation, Error> {
+        let drum = check(&self.state, &self.engine, &config)?;
         let mut records = Records::new(&drum, &config.run.record);
-        records.series.prepend(&snapshot.rows)?;
-        records.frames = snapshot.frames.into_owned();
-        records.contacts = snapshot.contacts.into_owned();
-        check_records(&snapshot.state, &records, snapshot.rows.len())?;
-        let state = snapshot.state.into_owned();
-        let simulation = Self::resume(config, snapshot.seed, threads, state, &snapshot.engine, records)?;
-        if simulation.has_whole_log(&snapshot.engine) {
+        records.series.prepend(&self.rows)?;
+        records.frames = self.frames.into_owned();
+        records.contacts = self.contacts.into_owned();
+        check_records(&self.state, &records, self.rows.len())?;
+        let state = self.state.into_owned();
+        let simulation = Simulation::resume(config, self.seed, threads, state, &self.engine, records)?;
+        if simulation.has_whole_log(&self.engine) {
             return Ok(simulation);
         }
         Err(refuse("its sums of contacts, fields or visits are not those of its bundles and its drum"))
+    }
+}
+
+/// Writes a snapshot where there is room for it, and returns how many bytes it takes. Counting goes through the same code as writing:
+/// it would be compiled twice otherwise.
+#[inline(never)]
+fn write(snapshot: &Snapshot, room: Option<&mut [u8]>) -> postcard::Result<usize> {
+    postcard::serialize_with_flavor(snapshot, Buffer { room, written: 0 })
+}
+
+struct Buffer<'a> {
+    room: Option<&'a mut [u8]>,
+    written: usize,
+}
+
+impl postcard::ser_flavors::Flavor for Buffer<'_> {
+    type Output = usize;
+
+    fn try_extend(&mut self, data: &[u8]) -> postcard::Result<()> {
+        let end = self.written + data.len();
+        if let Some(room) = &mut self.room {
+            let place = room.get_mut(self.written..end).ok_or(postcard::Error::SerializeBufferFull)?;
+            place.copy_from_slice(data);
+        }
+        self.written = end;
+        Ok(())
+    }
+
+    fn try_push(&mut self, byte: u8) -> postcard::Result<()> {
+        self.try_extend(&[byte])
+    }
+
+    fn finalize(self) -> postcard::Result<usize> {
+        Ok(self.written)
     }
 }
 

@@ -8,4 +8,5 @@ pub mod load;
 pub mod particles;
 pub mod rotation;
 pub mod scalar;
+pub mod sorting;
 pub mod vector;

@@ -102,7 +102,7 @@ fn column<T: Element + Copy>(table: &Bound<'_, PyDict>, key: &str) -> Result<Vec
     Ok(array.as_array().to_vec())
 }
 
-/// What is summed up on request, up to now.
+/// What is summed up on request, up to now; by place, up to the time that was asked for.
 pub struct RecordedSums {
     log: ContactLog,
     fields: FieldSums,
@@ -120,11 +120,12 @@ impl RecordedSums {
     /// That of a simulation.
     pub fn of(core: &Core) -> Self {
         let particles = &core.state().particles;
+        let (fields, visits) = core.told_sums();
         Self {
             log: core.contact_log(),
-            fields: core.state().fields.clone(),
+            fields: fields.clone(),
             grid: core.grid(),
-            visits: core.state().visits.clone(),
+            visits: visits.to_vec(),
             look_interval: core.visit_interval(),
             bins: core.profile_bins().to_vec(),
             dissipated: core.dissipated(),

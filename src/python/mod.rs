@@ -6,6 +6,7 @@ mod contact_arrays;
 mod error;
 mod fair_lock;
 mod fork_guard;
+mod pace;
 mod simulation;
 
 /// The compiled core of drumrs. Use the package `drumrs` instead.

@@ -4,11 +4,8 @@
 //! threads may look at it, or stop it, between two slices of a run. Every slice leaves it up to date: looking never moves
 //! anything, and where slices end does not show in a bit.
 
-use std::borrow::Cow;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc;
-use std::thread;
-use std::time::{Duration, Instant};
 
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
@@ -16,6 +13,7 @@ use pyo3::types::PyDict;
 
 use super::fair_lock::FairLock;
 use super::fork_guard::Entered;
+use super::pace::{Pace, SLICE};
 use super::{arrays, averages, contact_arrays};
 use crate::engine::parallel::CHUNK;
 use crate::error::Error;
@@ -26,15 +24,6 @@ use crate::observe::recorder::{Recording, columns};
 use crate::observe::summary::summarize;
 use crate::physics::particles::Particles;
 use crate::simulation::Simulation as Core;
-
-/// How long a slice of a run takes, after which signals are looked for.
-const SLICE: Duration = Duration::from_millis(30);
-/// The least number of steps of a slice: to end one and to begin another costs a small part of a step.
-const SLICE_STEPS: u64 = 50;
-/// How long so many steps may take, so that a signal is heard within a second at any size.
-const LONGEST_SLICE: Duration = Duration::from_millis(500);
-/// Particles times steps of the first slice, whose speed is not known yet: a tenth of a second on a slow machine.
-const FIRST_SLICE: u64 = 500_000;
 
 /// A drum with its load; see `drumrs.Simulation`.
 #[pyclass(frozen, module = "drumrs._core")]
@@ -69,10 +58,7 @@ impl Simulation {
     /// Does steps until step `end` or until a slice of time is over; returns the step.
     fn slice(&self, py: Python<'_>, end: u64, pace: &mut Pace) -> Result<u64, Error> {
         self.with(py, |core| {
-            let steps = pace.steps.min(end.saturating_sub(core.state().step));
-            let start = now();
-            core.run(steps)?;
-            pace.adapt(steps, start.elapsed());
+            pace.slice(end.saturating_sub(core.state().step), |steps| core.run(steps))?;
             Ok(core.state().step)
         })
     }
@@ -91,31 +77,6 @@ impl Simulation {
     }
 }
 
-/// Steps that fit into a slice, learnt while running.
-struct Pace {
-    steps: u64,
-}
-
-impl Pace {
-    /// Of the first slice of a load.
-    fn of(count: usize) -> Self {
-        Self { steps: (FIRST_SLICE / (count as u64).max(1)).clamp(1, SLICE_STEPS) }
-    }
-
-    fn adapt(&mut self, steps: u64, elapsed: Duration) {
-        let step = (elapsed.as_secs_f64() / steps.max(1) as f64).max(1e-9);
-        let fitting = |time: Duration| (time.as_secs_f64() / step) as u64;
-        // The first steps are slower than the rest, and few: slices grow fast, but not at one bound.
-        let wanted = fitting(SLICE).min(4 * self.steps);
-        self.steps = wanted.max(SLICE_STEPS.min(fitting(LONGEST_SLICE))).max(1);
-    }
-}
-
-#[allow(clippy::disallowed_methods)] // The clock only sets how long the interpreter is released.
-fn now() -> Instant {
-    Instant::now()
-}
-
 /// Makes a simulation on a thread of its own, so that Ctrl-C is heard while a large load is packed; what is made after
 /// that ends unseen.
 fn on_a_thread(
@@ -124,7 +85,7 @@ fn on_a_thread(
     make: impl FnOnce() -> Result<Core, Error> + Send + 'static,
 ) -> PyResult<Core> {
     let (sender, mut receiver) = mpsc::channel();
-    let made = thread::Builder::new().spawn(move || sender.send(make()).ok());
+    let made = std::thread::Builder::new().spawn(move || sender.send(make()).ok());
     let refuse = |reason: String| Error::System { action: action.into(), reason };
     made.map_err(|error| refuse(error.to_string()))?;
     loop {
@@ -174,6 +135,12 @@ impl Simulation {
     /// The bytes of a checkpoint, in an array: as large as the records, they are not copied.
     fn checkpoint<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<u8>>> {
         Ok(self.with(py, |core| core.to_checkpoint())?.into_pyarray(py))
+    }
+
+    /// A simulation that goes on from this one's state under another configuration.
+    fn with_config(&self, py: Python<'_>, config: &str) -> PyResult<Self> {
+        let config = SimulationConfig::from_json(config)?;
+        Ok(Self::around(self.with(py, |core| core.with_config(config))?))
     }
 
     #[pyo3(signature = (steps, progress = None))]
@@ -378,8 +345,11 @@ impl Simulation {
 
     /// What is summed up on request, up to now: see `contact_arrays::RecordedSums`.
     fn recorded_sums<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let sums = self.with(py, |core| contact_arrays::RecordedSums::of(core));
-        sums.into_dict(py)
+        self.with(py, |core| contact_arrays::RecordedSums::of(core)).into_dict(py)
+    }
+
+    fn tell_sums_until(&self, py: Python<'_>, time: f64) {
+        self.with(py, |core| core.tell_sums_until(time));
     }
 
     fn put_back_contacts(&self, py: Python<'_>, contacts: &Bound<'_, PyDict>) -> PyResult<()> {
@@ -442,7 +412,7 @@ impl Simulation {
         let told = columns(&parts, record.as_slice()).into_iter();
         told.map(|c| {
             [c.name, c.symbol, c.unit.into(), c.reading.name().into(), c.formula, c.meaning]
-                .map(Cow::into_owned)
+                .map(std::borrow::Cow::into_owned)
         })
         .collect()
     }

@@ -108,6 +108,8 @@ impl Simulation {
             log: ContactLog::default(),
             fields: FieldSums::default(),
             visits: Vec::new(),
+            last_told: None,
+            told: None,
             particles,
         };
         let engine_state = EngineState { contacts, totals: Vec::new(), events: Vec::new() };

@@ -28,8 +28,21 @@ pub struct State {
     pub fields: FieldSums,
     /// By zone and disc, in id order, its visits.
     pub visits: Vec<Visits>,
+    /// The last step of which sums by place are told; none goes on to the end of the run.
+    pub last_told: Option<u64>,
+    /// What they were then, once they have gone on beyond it.
+    pub told: Option<PlaceSums>,
     /// How much has been recorded.
     pub recorded: Recorded,
+}
+
+/// What is summed up by place, as it was at some step.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct PlaceSums {
+    /// Sums in cells.
+    pub fields: FieldSums,
+    /// By zone and disc, in id order, its visits.
+    pub visits: Vec<Visits>,
 }
 
 /// How much has been recorded since the start, wherever it is kept, and what the next sample needs of the last.

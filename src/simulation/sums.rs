@@ -2,6 +2,7 @@
 
 use super::Simulation;
 use super::run::CHECK_STEPS;
+use super::state::{PlaceSums, State};
 use crate::observe::fields::{FieldGrid, FieldSums};
 use crate::observe::visits::Visits;
 use crate::physics::drum::RIM;
@@ -17,8 +18,35 @@ impl Simulation {
 
     /// Whether sums are those of these cells, zones and discs: of a state that was read.
     pub(super) fn has_whole_sums(&self) -> bool {
-        self.state.fields.cells.len() == self.derived.grid.map_or(0, |grid| grid.cell_count())
-            && self.state.visits.len() == self.visit_count()
+        let cells = self.derived.grid.map_or(0, |grid| grid.cell_count());
+        let is_whole = |fields: &FieldSums, visits: &[Visits]| {
+            fields.cells.len() == cells && visits.len() == self.visit_count()
+        };
+        is_whole(&self.state.fields, &self.state.visits)
+            && self.state.told.as_ref().is_none_or(|own| is_whole(&own.fields, &own.visits))
+    }
+
+    /// Lets fields and visits be told as they are at a time [s]. They are summed up beyond it, so that a later time, where the
+    /// run goes on, leaves nothing out.
+    pub fn tell_sums_until(&mut self, time: f64) {
+        self.state.last_told = Some((time / self.derived.time_step).round() as u64);
+        self.state.told = None;
+    }
+
+    /// The fields and the visits to be told: up to now, or to an earlier time that was asked for.
+    pub fn told_sums(&self) -> (&FieldSums, &[Visits]) {
+        match &self.state.told {
+            Some(told) => (&told.fields, &told.visits),
+            None => (&self.state.fields, &self.state.visits),
+        }
+    }
+
+    /// Keeps the sums as they are, before what comes after the last step to be told is added.
+    fn keep_told_sums(&mut self) {
+        let State { step, last_told, told, fields, visits, .. } = &mut self.state;
+        if last_told.is_some_and(|last| *step > last) && told.is_none() {
+            *told = Some(PlaceSums { fields: fields.clone(), visits: visits.clone() });
+        }
     }
 
     fn visit_count(&self) -> usize {
@@ -31,6 +59,7 @@ impl Simulation {
         if self.derived.zones.is_empty() || step < first || !step.is_multiple_of(CHECK_STEPS) {
             return;
         }
+        self.keep_told_sums();
         let (number, is_first) = (step / CHECK_STEPS, step - first < CHECK_STEPS);
         let turns = self.derived.zones.iter().any(Zone::turns);
         let drum = if turns { Rotation::new(self.drum_angle()) } else { Rotation::IDENTITY };
@@ -48,6 +77,7 @@ impl Simulation {
         let Some(grid) = self.derived.grid.filter(|_| self.state.step >= self.derived.first_summed) else {
             return;
         };
+        self.keep_told_sums();
         let mut sums = std::mem::take(&mut self.state.fields);
         let drum = Rotation::new(self.drum_angle());
         let positions = &self.state.particles.positions;

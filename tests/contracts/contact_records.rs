@@ -136,6 +136,31 @@ fn sorts_of_the_memory_keep_the_contacts() {
     assert!((received - taken).abs() < 1e-12 * taken, "{received:e} {taken:e}");
 }
 
+/// What is told is what there was at that time, be it read at once, later or after a restart; and a later time leaves nothing out.
+#[test]
+fn sums_by_place_are_told_as_they_were_at_a_time() {
+    for config in loads() {
+        let told = |simulation: &Simulation| {
+            let (fields, visits) = simulation.told_sums();
+            assert!(fields.moments > 1);
+            postcard::to_stdvec(&(fields, visits)).expect("plain numbers")
+        };
+        let early = after(&config, 1, 1201);
+        let mut simulation = started(&config, 1);
+        simulation.tell_sums_until(1201.0 * TIME_STEP);
+        for steps in [900, 301, 1, 600, 1000] {
+            simulation.run(steps).unwrap();
+        }
+        assert!(told(&early) == told(&simulation), "{} bundles", config.load.count);
+        let saved = simulation.to_checkpoint().unwrap();
+        let mut resumed = Simulation::from_checkpoint(&saved, 1).unwrap();
+        resumed.run(500).unwrap();
+        assert!(told(&early) == told(&resumed));
+        resumed.tell_sums_until(f64::INFINITY);
+        assert!(told(&after(&config, 1, 3302)) == told(&resumed));
+    }
+}
+
 #[test]
 fn recording_contacts_changes_nothing_else() {
     for config in loads() {

@@ -8,7 +8,7 @@ use drumrs::simulation::Simulation;
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
-use crate::hostile;
+use crate::robustness;
 
 /// The kept bytes of a target, by name.
 fn seeds(target: &str) -> Vec<Vec<u8>> {
@@ -57,12 +57,12 @@ fn changed(seeds: Vec<Vec<u8>>, copies: usize, check: fn(&[u8])) {
 
 #[test]
 fn any_bytes_as_a_configuration_are_an_error_or_a_simulation() {
-    changed(seeds("config"), 300, hostile::config);
+    changed(seeds("config"), 300, robustness::config);
 }
 
 #[test]
 fn any_bytes_as_a_checkpoint_are_an_error_or_a_simulation() {
-    changed(checkpoints(), 300, hostile::checkpoint);
+    changed(checkpoints(), 300, robustness::checkpoint);
 }
 
 #[test]
@@ -71,8 +71,8 @@ fn every_byte_of_a_checkpoint_may_be_any_other() {
     for at in 0..seed.len() {
         let mut bytes = seed.clone();
         bytes[at] ^= 1 << (at % 8);
-        hostile::checkpoint(&bytes);
-        hostile::checkpoint(&seed[..at]);
+        robustness::checkpoint(&bytes);
+        robustness::checkpoint(&seed[..at]);
     }
 }
 
@@ -88,10 +88,10 @@ fn write_checkpoints_to_start_from() {
 
 #[test]
 fn any_bytes_as_outlines_are_an_error_or_a_drum() {
-    changed(seeds("outline"), 500, hostile::outline);
+    changed(seeds("outline"), 500, robustness::outline);
 }
 
 #[test]
 fn any_bytes_as_a_program_are_an_error_or_a_rotation() {
-    changed(seeds("rotation"), 2000, hostile::rotation);
+    changed(seeds("rotation"), 2000, robustness::rotation);
 }

@@ -5,14 +5,15 @@
 #[path = "../common/mod.rs"]
 mod common;
 
+mod changes;
 mod config;
 mod contact_records;
 mod determinism;
 mod errors;
 mod fuzz;
-mod hostile;
-mod lanes;
 mod neighbors;
 mod parts;
 mod reference;
+mod robustness;
+mod simd;
 mod summary;

@@ -1,6 +1,6 @@
 """A sweep of 10^6 cases, packed: its rows are scanned in seconds, in little memory.
 
-python tests/endurance/million_rows.py [ROWS]    # five minutes
+python tests/endurance/million_rows.py [ROWS]    # a minute
 
 The rows are made up from one case that is run; their files are written as `drumrs pack` writes them.
 """

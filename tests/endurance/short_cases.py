@@ -1,6 +1,6 @@
 """A sweep of 10 000 short cases: memory stays flat.
 
-python tests/endurance/short_cases.py [CASES]    # a quarter of an hour
+python tests/endurance/short_cases.py [CASES]    # minutes
 
 A thread of its own for every simulation would show here: the system's allocator keeps an arena for each of the threads
 that it has seen.

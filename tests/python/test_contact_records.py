@@ -276,6 +276,29 @@ def test_fields_and_visits_begin_with_the_window():
     assert (visits["cycles"] <= visits["entries"]).all()
 
 
+def test_fields_and_visits_end_with_the_window():
+    """As those of a run that ends there; and one that goes on beyond its window has lost nothing."""
+    spray = {"name": "spray", "corners": [[-0.24, -0.24], [0.24, -0.24], [0.24, 0.0], [-0.24, 0.0]]}
+
+    def tables(window, *durations):
+        asked = {"run.window": window, "run.zone": [spray], "run.record": ["fields"]}
+        simulation = drumrs.Simulation(recorded(durations[0], **asked))
+        simulation.run()
+        for longer in durations[1:]:
+            simulation.extend_to(longer)
+            simulation.run()
+        made = simulation.records.contact_tables()
+        return made["fields"], made["zone_visits"]
+
+    def same(one, other):
+        return all(own.equals(theirs) for own, theirs in zip(one, other, strict=True))
+
+    early = tables([0.1, 0.2], 0.2)
+    assert same(tables([0.1, 0.2], 0.4), early)
+    assert same(tables([0.1, 0.2], 0.3, 0.4), tables([0.1, 0.4], 0.4))
+    assert not same(tables([0.1, 0.4], 0.4), early)
+
+
 @pytest.mark.parametrize(
     ("zone", "message"),
     [

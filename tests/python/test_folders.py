@@ -138,6 +138,14 @@ def test_a_damaged_marker_does_not_give_a_run_away(result, folder):
         drumrs.save(result, folder)
 
 
+@pytest.mark.parametrize("found", [2, "x"])
+def test_a_run_of_a_newer_format_is_not_read(folder, found):
+    mark = json.loads((folder / "drumrs-run.json").read_text())
+    (folder / "drumrs-run.json").write_text(json.dumps({**mark, "format": found}))
+    with pytest.raises(ConfigError, match=f"is of format {found}, but must be of format 1 at most: a newer"):
+        drumrs.load(folder)
+
+
 def test_results_of_several_kinds_do_not_share_a_folder(drum, folder, tmp_path):
     from drumrs.paper import Reproduction
 

@@ -88,3 +88,9 @@ def test_a_simulation_keeps_its_series_and_the_last_frame():
         simulation.run(steps=1000)
     assert str(first.value) == str(second.value)
     assert len(simulation.frames) == 2
+
+
+def test_who_made_springs_softer_is_told_the_way_out(drum):
+    status, _, told = drum("run", *SOFT)
+    assert status != 0
+    assert "the springs are 30000 times softer than the case's: overlaps go with the root of --softer" in told

@@ -30,10 +30,6 @@ class WorkerLive extends EventTarget {
 }
 
 const live = new WorkerLive(JSON.parse(document.querySelector("#drum").textContent));
-const studio = new Studio(document.querySelector("main"), live);
 // Cases, measures and forces take the package.
-for (const name of ["toml", "python"]) studio.part(name).hidden = true;
-for (const name of ["trade", "forces"]) studio.part(name).closest("label").hidden = true;
-const { show } = studio;
-studio.show = ({ forces, ...changes }) => show.call(studio, changes);
+const studio = new Studio(document.querySelector("main"), live, ["toml", "python", "trade", "forces"]);
 Object.assign(window, { studio });

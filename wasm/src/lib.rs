@@ -7,7 +7,6 @@ use drumrs::error::Error;
 use drumrs::io::config::SimulationConfig;
 use drumrs::physics::particles::Particles;
 use drumrs::physics::vector::Vec2;
-use sha2::{Digest, Sha256};
 use wasm_bindgen::prelude::*;
 
 /// A drum with its load, at some step.
@@ -35,10 +34,9 @@ impl Simulation {
 
     /// Goes on from this state under another configuration, with the samples to come.
     pub fn change(&mut self, config: &str) -> Result<(), JsError> {
+        let config = SimulationConfig::from_json(config).map_err(told)?;
         self.core.take_rows().map_err(told)?;
-        let bytes = self.core.to_checkpoint().map_err(told)?;
-        let changed = with_config(&bytes, config)?;
-        self.core = drumrs::simulation::Simulation::from_checkpoint(&changed, 1).map_err(told)?;
+        self.core = self.core.with_config(config).map_err(told)?;
         Ok(())
     }
 
@@ -113,17 +111,6 @@ impl Simulation {
     fn pairs(&self, values: fn(&Particles) -> &[Vec2]) -> Vec<f64> {
         self.by_id(values).iter().flat_map(|vector| [vector.x, vector.y]).collect()
     }
-}
-
-/// Where the digest of a checkpoint begins, and where what it is of.
-const DIGEST: usize = 12;
-const BODY: usize = DIGEST + 32;
-
-/// The bytes of a checkpoint with another configuration, as `drumrs.checkpoint.with_config` makes them.
-fn with_config(bytes: &[u8], config: &str) -> Result<Vec<u8>, postcard::Error> {
-    let ((version, _), rest) = postcard::take_from_bytes::<(u32, &str)>(&bytes[BODY..])?;
-    let body = [&postcard::to_allocvec(&(version, config))?, rest].concat();
-    Ok([&bytes[..DIGEST], &Sha256::digest(&body), &body].concat())
 }
 
 /// An error of the core in a sentence, with the way out.

@@ -1,5 +1,6 @@
 """The command `drumrs`: its list of commands, and what an error becomes."""
 
+import errno
 import io
 import logging
 import os
@@ -145,8 +146,8 @@ def _main_command(
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command line and leave with its exit status."""
     _write_utf8()
-    status = run_command(arguments)
     with suppress(BrokenPipeError):
+        status = run_command(arguments)
         sys.stdout.flush()
         sys.exit(status)
     # Whoever read our output has what they want: `drumrs config | head`.
@@ -185,7 +186,8 @@ def _outcome(words: Sequence[str], asked: Asked) -> int:
     except BrokenPipeError:
         raise
     except (OSError, MemoryError) as error:
-        return _fail(_system_message(error), error, _FAILED)
+        is_named_wrong = isinstance(error, OSError) and error.errno == errno.ENAMETOOLONG
+        return _fail(_system_message(error), error, _BAD_INPUT if is_named_wrong else _FAILED)
     except (KeyboardInterrupt, ImportError) as error:
         # Where Ctrl-C falls into the import of a module in C++, it is the cause of an ImportError.
         interrupt = error if isinstance(error, KeyboardInterrupt) else error.__cause__
@@ -229,6 +231,8 @@ def _system_message(error: OSError | MemoryError) -> str:
     """Return the message of an error of the operating system, or of memory."""
     if isinstance(error, OSError) and error.errno in NO_ROOM and error.strerror:
         return f"cannot write: {error.strerror}"
+    if isinstance(error, OSError) and error.errno == errno.ENAMETOOLONG:
+        return f"{str(error.filename)!r} cannot be the name of a file: {error.strerror}"
     return str(error) or "out of memory"
 
 

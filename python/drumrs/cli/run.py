@@ -101,6 +101,10 @@ def run(
         reached = _finish(simulation, folder, goal)
     except UnstableError as error:
         _keep_unstable(simulation, folder, error)
+        if softer is not None and softer > 1.0:
+            note(
+                f"the springs are {softer:g} times softer than the case's: overlaps go with the root of --softer"
+            )
         raise
     summary, written = folder.conclude(simulation) if folder is not None else (simulation.summary(), [])
     if json:

@@ -13,9 +13,9 @@ if TYPE_CHECKING:
     from drumrs.verification import Trial, Verification
 
 _FAILED = 1
-# Characters that the table takes without its sources, and where it has room for them in full.
-_NUMBERS = 84
-_WIDE = 160
+# Width of the table without its sources, and one that holds them in full, in characters.
+_NUMBERS = 96
+_WIDE = 172
 
 
 def verify(
@@ -66,14 +66,14 @@ def _print(found: "Verification") -> None:
 
     from drumrs.progress import format_duration
 
-    # What goes to a file or a pipe has room for everything.
+    # A file or a pipe takes the full width.
     console = Console(highlight=False, width=None if sys.stdout.isatty() else _WIDE)
     shown = Table(box=None, highlight=False)
-    room = console.width - _NUMBERS
     shown.add_column("test", no_wrap=True)
-    shown.add_column("source", no_wrap=True, overflow="ellipsis", max_width=max(room, 8))
+    shown.add_column("source", no_wrap=True, overflow="ellipsis", max_width=max(console.width - _NUMBERS, 8))
     for name in ("expected", "measured", "tolerance"):
         shown.add_column(name, justify="right", no_wrap=True, min_width=len(name))
+    shown.add_column("unit", no_wrap=True, min_width=len("unit"))
     shown.add_column("verdict", no_wrap=True, min_width=len("verdict"))
     for trial in found.trials:
         verdict = "[green]passed[/]" if trial.passed else "[red]failed[/]"
@@ -86,12 +86,12 @@ def _print(found: "Verification") -> None:
     sys.stdout.write(f"{passed} of {count} cases passed, in {format_duration(found.wall_time)}\n")
 
 
-def _numbers(trial: "Trial") -> tuple[str, str, str]:
-    """Return expected, measured, tolerance of the check that is nearest to failing."""
+def _numbers(trial: "Trial") -> tuple[str, str, str, str]:
+    """Return expected, measured, tolerance and unit of the check that is nearest to failing."""
     if trial.evidence is None:
-        return ("–",) * 3
+        return ("–",) * 4
     worst = trial.evidence.worst
-    return f"{worst.expected:.6g}", f"{worst.measured:.6g}", f"{worst.tolerance:.2g}"
+    return f"{worst.expected:.6g}", f"{worst.measured:.6g}", f"{worst.tolerance:.2g}", worst.unit
 
 
 def _reason(trial: "Trial") -> str:

@@ -3,7 +3,6 @@
 import hashlib
 import json
 import math
-from codecs import BOM_UTF16_BE, BOM_UTF16_LE
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Self
@@ -14,8 +13,9 @@ from drumrs.config.derived import GREATEST_COUNT, Derived, Facts, compose, deriv
 from drumrs.config.drum_tables import Liner
 from drumrs.config.hints import hints
 from drumrs.config.laws import laws
+from drumrs.config.layer_file import read_layer
 from drumrs.config.layers import flat, merge, nest, read_json, read_toml
-from drumrs.config.liner import anchored, with_drawing
+from drumrs.config.liner import with_drawing
 from drumrs.config.load import SOLID_FRACTION
 from drumrs.config.messages import conflict
 from drumrs.config.scaling import Keep, scaling
@@ -29,7 +29,6 @@ from drumrs.notebook import table
 _CHANGES = "a dict of keys with their values, such as {'load.fill': 0.3}"
 # Less load than such a part of a bundle comes of lengths in another unit.
 _FAR_OFF = 10.0
-_WRITE_ONE = "drumrs config > case.toml writes one with every key"
 
 
 class Config(Tables):
@@ -403,37 +402,6 @@ def require_config(config: object) -> Config:
         return config
     hint = "drumrs.Config.read(path) reads a file, drumrs.baseline().replace({...}) changes some keys"
     raise ConfigError("config", config, "a Config", hint=hint)
-
-
-def read_layer(
-    path: str | Path, what: str = "a file of configuration keys", hint: str = _WRITE_ONE
-) -> dict[str, Any]:
-    """Read a file of configuration keys as a layer: TOML, or JSON where the name ends with ``.json``.
-
-    Parameters
-    ----------
-    path
-        The file.
-    what, hint
-        What it is to be, and where one learns how to write it, as the error says them.
-
-    Raises
-    ------
-    ConfigError
-        Where the file cannot be read, or is not what its name says.
-    """
-    try:
-        data = Path(path).read_bytes()
-        # Some editors of Windows begin a file with a mark of its encoding, and write UTF-16.
-        text = data.decode("utf-16" if data.startswith((BOM_UTF16_LE, BOM_UTF16_BE)) else "utf-8-sig")
-        if "\0" in text:
-            raise ValueError("UTF-16 without a mark")  # noqa: TRY301 - told as all else that is no UTF-8
-    except (OSError, ValueError) as error:
-        reason = error.strerror if isinstance(error, OSError) else "it is not text in UTF-8: save it as such"
-        problem = f"cannot be read as {what}: {reason}"
-        raise ConfigError(Path(path), problem=problem, hint=hint) from None
-    read = read_json if Path(path).suffix == ".json" else read_toml
-    return anchored(read(text, Path(path)), Path(path).parent)
 
 
 def baseline(fill: float = 0.25, *, baffles: bool = False) -> Config:

@@ -203,6 +203,12 @@ class Run(ConfigTable):
         """Interval of the averages [s]: `window`, or the last third of the duration."""
         return self.window or (self.duration * 2.0 / 3.0, self.duration)
 
+    @property
+    def told_until(self) -> float:
+        """Time until which fields and visits count [s]: infinite where the averages go on to the end of the run."""
+        end = self.averaging_window[1]
+        return end if end < self.duration else math.inf
+
 
 class Tables(ConfigTable):
     """All tables together, as the baseline has them."""

@@ -64,11 +64,11 @@ class Emulator:
         Lower end and width of the range of each parameter.
     center, scale
         Mean and scatter of the values.
-    strays
+    loo_residuals
         Each value less what the others predict, over the error of that difference: the check by leave-one-out, in
         closed form (Rasmussen & Williams 2006, eqs. 5.10–5.12).
     calibration
-        Factor of the stated errors, such as the root mean square of `strays`.
+        Factor of the stated errors, such as the root mean square of `loo_residuals`.
 
     Examples
     --------
@@ -86,7 +86,7 @@ class Emulator:
     span: Array
     center: float
     scale: float
-    strays: Array
+    loo_residuals: Array
     calibration: float = 1.0
 
     @classmethod
@@ -133,12 +133,12 @@ class Emulator:
             noise = np.maximum(np.where(np.isnan(noise), np.nanmax(noise), noise), least_noise)
             process = GaussianProcessRegressor(kernel, alpha=noise**2, **how).fit(x, y)
         inverse = np.linalg.inv(process.L_ @ process.L_.T)
-        strays = inverse @ process.y_train_ / np.sqrt(np.diag(inverse))
-        return cls(process, low, span, center, scale, strays)
+        loo_residuals = inverse @ process.y_train_ / np.sqrt(np.diag(inverse))
+        return cls(process, low, span, center, scale, loo_residuals)
 
     def calibrated(self) -> Self:
         """Return the emulator with errors as large as leaving one run out finds them."""
-        return replace(self, calibration=float(np.sqrt(np.mean(self.strays**2))))
+        return replace(self, calibration=float(np.sqrt(np.mean(self.loo_residuals**2))))
 
     def with_points(self, points: ArrayLike, values: ArrayLike) -> Self:
         """Return the emulator that also takes values without noise for known, lengths and variance as they are."""

@@ -7,7 +7,7 @@ from matplotlib.collections import LineCollection
 
 from drumrs.energies import energies_to_show, powers_to_show
 from drumrs.figures import labels
-from drumrs.figures.shared import Array, drumrs_style, label_lines, new_figure
+from drumrs.figures.shared import Array, drumrs_style, label_lines, log_scale, new_figure
 from drumrs.registry import quantity
 
 if TYPE_CHECKING:
@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 _REST = 1e-9
 # Beyond so many lines across a panel there is nothing else to be seen.
 _MOST_LINES = 60
+# Where titles are, over the height of the axes: to look for room above them takes as long as to draw all else.
+_TITLE = 1.0
 
 
 def time_series(
@@ -94,7 +96,7 @@ def draw_power(axes: "Axes", columns: dict[str, Array]) -> None:
     """Draw the powers of the drum and of the losses, means over an interval that the title names."""
     time = columns["time"]
     long = _averaging_time(time)
-    axes.set_title(labels.POWERS.format(long))
+    axes.set_title(labels.POWERS.format(long), y=_TITLE)
     steady = [0.0]
     for name, label in powers_to_show(columns).items():
         middle, power = _thinned(*mean_rate(time, columns[name], long))
@@ -107,8 +109,8 @@ def draw_power(axes: "Axes", columns: dict[str, Array]) -> None:
 
 
 def _energies(axes: "Axes", columns: dict[str, Array]) -> None:
-    axes.set_title(labels.ENERGY_STORED)
-    axes.set_yscale("log")
+    axes.set_title(labels.ENERGY_STORED, y=_TITLE)
+    log_scale(axes, "y")
     most = 0.0
     for label, values in energies_to_show(columns).items():
         time, smooth = _thinned(columns["time"], values)
@@ -120,8 +122,8 @@ def _energies(axes: "Axes", columns: dict[str, Array]) -> None:
 
 
 def _ledger(axes: "Axes", columns: dict[str, Array]) -> None:
-    axes.set_title(labels.ENERGY_RESIDUAL)
-    axes.set_yscale("log")
+    axes.set_title(labels.ENERGY_RESIDUAL, y=_TITLE)
+    log_scale(axes, "y")
     name = "energy_residual"
     residual = np.abs(columns[name])
     # A residual of exactly 0 has no place on a logarithmic axis; it is drawn at the last bit of 1.
@@ -130,7 +132,7 @@ def _ledger(axes: "Axes", columns: dict[str, Array]) -> None:
 
 
 def _center_of_mass(axes: "Axes", columns: dict[str, Array]) -> None:
-    axes.set_title(labels.CENTER_OF_MASS)
+    axes.set_title(labels.CENTER_OF_MASS, y=_TITLE)
     for name, label in (("center_of_mass_x", "x"), ("center_of_mass_y", "y")):
         time, smooth = _thinned(columns["time"], columns[name])
         axes.plot(time, 1e3 * smooth, label=label)

@@ -1,5 +1,6 @@
 """What all figures share: the style, writing, names at the ends of lines."""
 
+import re
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from io import BytesIO
@@ -10,12 +11,14 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib import style
 from matplotlib.figure import Figure
+from matplotlib.ticker import LogFormatterSciNotation
 from numpy.typing import NDArray
 
 from drumrs.files import write_whole
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.axis import Axis
 
 Array = NDArray[np.float64]
 
@@ -24,6 +27,9 @@ _GAP = 0.075
 STEEL = "0.55"
 INK = "0.15"
 
+# Powers of ten in the mathematical notation of matplotlib.
+_POWER = re.compile(r"\^\{(-?\d+)\}")
+_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _STYLE = Path(__file__).with_name("drumrs.mplstyle")
 
 
@@ -53,6 +59,34 @@ def line_colors() -> list[str]:
     """Return the colors that lines take in turn, to be asked for in drumrs's style."""
     colors: list[str] = mpl.rcParams["axes.prop_cycle"].by_key()["color"]
     return colors
+
+
+class _Powers(LogFormatterSciNotation):
+    """Writes powers of ten in plain letters: to set mathematical notation takes half of the time of a drawing."""
+
+    def __call__(self, x: float, pos: int | None = None) -> str:
+        text: str = super().__call__(x, pos).removeprefix(r"$\mathdefault{").removesuffix("}$")
+        return _POWER.sub(lambda power: power[1].translate(_RAISED), text).replace(r"\times", "×")
+
+
+def log_scale(axes: "Axes", *names: str) -> None:
+    """Let axes of a drawing, ``"x"`` or ``"y"``, be logarithmic, with powers of ten at their ticks.
+
+    Examples
+    --------
+    >>> from drumrs import figures
+    >>> from drumrs.figures.shared import log_scale
+    >>> axes = figures.new_figure(4.0, 3.0).subplots()
+    >>> _ = axes.plot([1.0, 2.0], [2e-3, 30.0])
+    >>> log_scale(axes, "y")
+    >>> axes.yaxis.get_major_formatter()(1e-2), axes.yaxis.get_minor_formatter()(2e-2)
+    ('10⁻²', '2×10⁻²')
+    """
+    for name in names:
+        axes.set(**{f"{name}scale": "log"})
+        axis: Axis = getattr(axes, f"{name}axis")
+        axis.set_major_formatter(_Powers())
+        axis.set_minor_formatter(_Powers())
 
 
 def write(figure: Figure, path: str | Path) -> None:

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from drumrs.figures.shared import drumrs_style, line_colors, new_figure
+from drumrs.figures.shared import drumrs_style, line_colors, log_scale, new_figure
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -53,8 +53,10 @@ def collision_spectrum(spectra: "Mapping[str, pl.DataFrame]", unit: str = "J/m")
                 np.sqrt(edges[:-1] * edges[1:]), rate, error, fmt="none", ecolor=color, elinewidth=0.7
             )
             shares.plot(edges[:-1], 100.0 * rows["share_above"].to_numpy(), color=color, label=name)
-        rates.set(xscale="log", yscale="log", ylabel="collisions in a bin [1/(kg s)]")
-        shares.set(xscale="log", ylabel="share of the power above [%]", ylim=(0.0, 103.0))
+        rates.set(ylabel="collisions in a bin [1/(kg s)]")
+        log_scale(rates, "x", "y")
+        log_scale(shares, "x")
+        shares.set(ylabel="share of the power above [%]", ylim=(0.0, 103.0))
         for axes in (rates, shares):
             axes.set_xlabel(f"energy of a collision [{unit}]")
         shares.legend(loc="lower left")

@@ -16,8 +16,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from drumrs.analysis.blocks import Array, Mean, mean_with_error, ratio_of_sums
+from drumrs.measures.clearance import distance_to_solids
 from drumrs.measures.frame_window import counter_clockwise, turn_back, with_errors, within
-from drumrs.measures.room import from_solids
 
 if TYPE_CHECKING:
     import polars as pl
@@ -125,14 +125,14 @@ def _undisturbed(frames: "Frames", gravity: float) -> NDArray[np.bool_]:
 def _at_the_drum(frames: "Frames", index: Indices, disc: Indices) -> NDArray[np.bool_]:
     """Tell which discs touch, or all but touch, the rim, a baffle or a wall, each in a frame of its own."""
     places = frames.positions.astype(np.float64)[index, disc]
-    room = np.full(len(places), np.inf)
+    clearances = np.full(len(places), np.inf)
     if frames.drum_radius is not None:
-        room = frames.drum_radius - np.hypot(*places.T)
+        clearances = frames.drum_radius - np.hypot(*places.T)
     angles = frames.drum_angles[index]
     if len(places):
         in_the_drum = np.einsum("nj,njk->nk", places, np.array([turn_back(angle) for angle in angles]))
-        room = np.minimum(room, from_solids(frames, in_the_drum))
-    near: NDArray[np.bool_] = room <= (1.0 + _NEAR) * frames.radii[disc]
+        clearances = np.minimum(clearances, distance_to_solids(frames, in_the_drum))
+    near: NDArray[np.bool_] = clearances <= (1.0 + _NEAR) * frames.radii[disc]
     return near
 
 

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from drumrs.analysis.blocks import Array, Mean, ratio_of_sums
+from drumrs.measures.clearance import distance_to_solids
 from drumrs.measures.frame_window import FrameWindow
-from drumrs.measures.room import from_solids
 
 if TYPE_CHECKING:
     from drumrs.frames import Frames
@@ -116,5 +116,5 @@ def _places(frames: "Frames", radius: float) -> Array:
     line = np.linspace(-radius, radius, 2 * _FINENESS + 1)
     points = np.stack(np.meshgrid(line, line), axis=-1).reshape(-1, 2)
     room = float(frames.radii.mean())
-    free: Array = points[(np.hypot(*points.T) < radius - room) & (from_solids(frames, points) > room)]
+    free: Array = points[(np.hypot(*points.T) < radius - room) & (distance_to_solids(frames, points) > room)]
     return free

@@ -19,9 +19,9 @@ if TYPE_CHECKING:
 
     from drumrs.frames import Frames
 
-# Directions in which a disc looks, and frames that are plenty for a mean.
-_DIRECTIONS, _PLENTY = 72, 50
-# Two that touch see each other in directions that are known to round-off.
+# Directions in which the surroundings of a disc are sampled, and frames that are plenty for a mean.
+_DIRECTIONS, _MAX_FRAMES = 72, 50
+# Directions between discs that touch are known to round-off.
 _ROUND_OFF = 1e-9
 _GRAVITY = 9.81
 
@@ -43,8 +43,9 @@ def washing(frames: "Frames", window: tuple[float, float], gravity: float = _GRA
     dict
         By name of the registry, with standard errors:
         ``center_turning`` [rad/s], by how much the polar angle of the center of mass changes, without its sign, per
-        second; ``disc_turning`` [rad/s], the same of each disc, on average; ``moving_speed`` [m/s], the mean way of a
-        disc between frames, over their interval, and ``moving_spread``, its standard deviation over discs, over itself;
+        second; ``disc_turning`` [rad/s], the same of each disc, on average; ``moving_speed`` [m/s], the mean
+        displacement of a disc between frames over their interval, and ``moving_spread``, its standard deviation over
+        discs, over itself;
         ``axis_distance_spread`` [m], standard deviation of the distances from the axis;
         ``shape_factor``, see `shape_factor`; ``openness``, see `openness`; ``curtain``, see `curtain`.
 
@@ -68,33 +69,38 @@ def washing(frames: "Frames", window: tuple[float, float], gravity: float = _GRA
     True
     """
     inside = counter_clockwise(within(frames, window))
-    places, interval = inside.positions.astype(np.float64), float(np.diff(inside.times).mean())
-    ways = np.hypot(*np.moveaxis(np.diff(places, axis=0), -1, 0)) / interval
+    positions, interval = inside.positions.astype(np.float64), float(np.diff(inside.times).mean())
+    speeds = np.hypot(*np.moveaxis(np.diff(positions, axis=0), -1, 0)) / interval
     weights = inside.radii**2 / (inside.radii**2).sum()
-    few = [*range(0, len(inside), max(1, len(inside) // _PLENTY))]
-    flies = in_flight(inside, gravity)
-    span = inside.reach or float(np.hypot(*np.moveaxis(places, -1, 0)).max())
-    rare = interval * (few[1] - few[0])
+    chosen = [*range(0, len(inside), max(1, len(inside) // _MAX_FRAMES))]
+    airborne = in_flight(inside, gravity)
+    span = inside.reach or float(np.hypot(*np.moveaxis(positions, -1, 0)).max())
+    frame_interval = interval * (chosen[1] - chosen[0])
     return {
         "center_turning": mean_with_error(
-            _turned(np.einsum("fnk,n->fk", places, weights)) / interval, interval
+            _turned(np.einsum("fnk,n->fk", positions, weights)) / interval, interval
         ),
-        "disc_turning": mean_with_error(_turned(places).mean(axis=1) / interval, interval),
-        "moving_speed": mean_with_error(ways.mean(axis=1), interval),
-        "moving_spread": mean_with_error(ways.std(axis=1) / ways.mean(axis=1), interval),
+        "disc_turning": mean_with_error(_turned(positions).mean(axis=1) / interval, interval),
+        "moving_speed": mean_with_error(speeds.mean(axis=1), interval),
+        "moving_spread": mean_with_error(speeds.std(axis=1) / speeds.mean(axis=1), interval),
         "axis_distance_spread": mean_with_error(
-            np.hypot(places[..., 0], places[..., 1]).std(axis=1), interval
+            np.hypot(positions[..., 0], positions[..., 1]).std(axis=1), interval
         ),
-        "shape_factor": mean_with_error([shape_factor(places[k], inside.radii) for k in few], rare),
-        "openness": mean_with_error([openness(places[k], inside.radii, 0.5 * span) for k in few], rare),
+        "shape_factor": mean_with_error(
+            [shape_factor(positions[k], inside.radii) for k in chosen], frame_interval
+        ),
+        "openness": mean_with_error(
+            [openness(positions[k], inside.radii, 0.5 * span) for k in chosen], frame_interval
+        ),
         "curtain": mean_with_error(
-            [curtain(places[k][flies[k]], inside.radii[flies[k]], span) for k in range(len(inside))], interval
+            [curtain(positions[k][airborne[k]], inside.radii[airborne[k]], span) for k in range(len(inside))],
+            interval,
         ),
     }
 
 
 def _turned(points: Array) -> Array:
-    """Return the angles about the axis by which places go from frame to frame, without their sign."""
+    """Return the angles about the axis by which positions turn from frame to frame, without their sign."""
     angles = np.arctan2(points[..., 1], points[..., 0])
     turned: Array = np.abs((np.diff(angles, axis=0) + math.pi) % (2.0 * math.pi) - math.pi)
     return turned
@@ -122,9 +128,9 @@ def shape_factor(points: ArrayLike, radii: ArrayLike) -> float:
 
 
 def openness(points: ArrayLike, radii: ArrayLike, reach: float) -> float:
-    """Return the share of the discs' perimeters that look into the open.
+    """Return the fraction of the discs' perimeters that faces open space.
 
-    A place of the perimeter does where a straight line from it, along the radius, meets no other disc within the reach.
+    A point of the perimeter does where a ray from it, along the radius, meets no other disc within the reach.
     Walls do not count.
 
     Parameters
@@ -132,7 +138,7 @@ def openness(points: ArrayLike, radii: ArrayLike, reach: float) -> float:
     points, radii
         Centers [m], shape (n, 2), and radii [m], shape (n,).
     reach
-        Length of the line [m], such as a quarter of the drum's diameter.
+        Length of the ray [m], such as a quarter of the drum's diameter.
 
     Returns
     -------
@@ -141,12 +147,12 @@ def openness(points: ArrayLike, radii: ArrayLike, reach: float) -> float:
     """
     from scipy.spatial import KDTree
 
-    places, sizes = np.asarray(points, dtype=np.float64), np.asarray(radii, dtype=np.float64)
-    pairs = KDTree(places).query_pairs(reach + 2.0 * float(sizes.max()), output_type="ndarray")
+    positions, sizes = np.asarray(points, dtype=np.float64), np.asarray(radii, dtype=np.float64)
+    pairs = KDTree(positions).query_pairs(reach + 2.0 * float(sizes.max()), output_type="ndarray")
     disc, other = np.concatenate([pairs, pairs[:, ::-1]]).T
-    x, y = (places[other] - places[disc]).T
+    x, y = (positions[other] - positions[disc]).T
     distance, size, length = np.hypot(x, y), sizes[other], sizes[disc] + reach
-    # A disc hides an angle: that of its tangents where they are within the line's length, else that at which the line
+    # A disc hides an angle: that of its tangents where they are within the ray's length, else that at which the ray
     # just ends on it.
     to_tangent = np.arcsin(np.minimum(size / distance, 1.0))
     to_end = np.arccos(np.clip((distance**2 + length**2 - size**2) / (2.0 * distance * length), -1.0, 1.0))
@@ -157,7 +163,7 @@ def openness(points: ArrayLike, radii: ArrayLike, reach: float) -> float:
     hides = (distance - size <= length) & (count > 0)
     disc, first, count = disc[hides], first[hides] % _DIRECTIONS, count[hides]
     # Up by one where what is hidden begins, down where it ends; an angle goes round at most once.
-    changes = np.zeros((len(places), 2 * _DIRECTIONS + 1), dtype=int)
+    changes = np.zeros((len(positions), 2 * _DIRECTIONS + 1), dtype=int)
     np.add.at(changes, (disc, first), 1)
     np.subtract.at(changes, (disc, first + count), 1)
     hidden = changes.cumsum(axis=1)[:, :-1].reshape(-1, 2, _DIRECTIONS).any(axis=1)
@@ -165,7 +171,7 @@ def openness(points: ArrayLike, radii: ArrayLike, reach: float) -> float:
 
 
 def curtain(points: ArrayLike, radii: ArrayLike, reach: float) -> float:
-    """Return the share of vertical lines through the drum that meet a disc: of air that rises through a curtain.
+    """Return the fraction of vertical lines through the drum that meet a disc: of rising air that meets a curtain.
 
     Parameters
     ----------
@@ -226,7 +232,7 @@ def knocking_and_rubbing(
 
 
 def received_spread(discs: "pl.DataFrame | None") -> float:
-    """Return how unlike discs fare: the standard deviation over discs of what they received per mass, over its mean.
+    """Return how unequally discs are loaded: standard deviation over mean of what discs received per mass.
 
     Parameters
     ----------
@@ -236,8 +242,8 @@ def received_spread(discs: "pl.DataFrame | None") -> float:
     Returns
     -------
     float
-        0 where all received the same per mass, 1 where as much scatters as there is; not a number where none received
-        anything.
+        0 where all received the same per mass, 1 where the standard deviation is as large as the mean; not a number
+        where none received anything.
 
     Raises
     ------
@@ -253,7 +259,7 @@ def received_spread(discs: "pl.DataFrame | None") -> float:
     """
     import polars as pl
 
-    table = required(discs, "discs", "how unlike discs fare")
+    table = required(discs, "discs", "how unequally discs are loaded")
     energies = table.select(pl.sum_horizontal(pl.col("^received_.*$"))).to_series()
     received = (energies / table["mass"]).to_numpy()
     return float(received.std() / received.mean()) if received.any() else math.nan

@@ -13,18 +13,18 @@ from numpy.typing import ArrayLike
 
 from drumrs.analysis.blocks import Array, Mean, mean_with_error, ratio_of_sums
 from drumrs.errors import ConfigError
+from drumrs.measures.clearance import distance_to_solids
 from drumrs.measures.frame_window import FrameWindow, counter_clockwise, turn_back, with_errors, within
-from drumrs.measures.room import from_solids
 from drumrs.measures.surface import FreeSurface, free_surface
 from drumrs.measures.toe import toe_and_shoulder
 
 if TYPE_CHECKING:
     from drumrs.frames import Frames
 
-# Places in a bin of the occupancy, along the shell and across a layer.
+# Sampling points in a bin of the occupancy, along the shell and across a layer.
 _ALONG, _ACROSS = 2, 8
-# The share of its way that a drum may turn back and still be said to turn one way.
-_BACK = 0.02
+# The fraction of its rotation that a drum may turn back and still be said to turn one way.
+_BACKWARD = 0.02
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,28 +88,28 @@ def occupancy(
     across = np.arange(_ACROSS * (len(edges) - 1)) + 0.5
     depths = np.interp(across / _ACROSS, np.arange(len(edges)), edges)
     angles = 2.0 * math.pi * (np.arange(_ALONG * bins) + 0.5) / (_ALONG * bins)
-    # Places, by depth and angle; each stands for an area that goes with its distance from the axis.
-    reach = (drum_radius - depths)[:, np.newaxis]
-    places = np.stack([reach * np.cos(angles), reach * np.sin(angles)], axis=-1).reshape(-1, 2)
-    areas = np.broadcast_to(reach, (len(depths), len(angles))).ravel()
-    tree = KDTree(places)
+    # Sampling points by depth and angle; each stands for an area in proportion to its distance from the axis.
+    distances = (drum_radius - depths)[:, np.newaxis]
+    points = np.stack([distances * np.cos(angles), distances * np.sin(angles)], axis=-1).reshape(-1, 2)
+    areas = np.broadcast_to(distances, (len(depths), len(angles))).ravel()
+    tree = KDTree(points)
     shape = (len(edges) - 1, _ACROSS, bins, _ALONG)
-    covered, left = [], []
+    covered, available = [], []
     for positions, angle in zip(selected.positions, selected.drum_angles, strict=True):
-        bare = (
-            from_solids(selected, places @ turn_back(angle)) > 0.0
+        uncovered = (
+            distance_to_solids(selected, points @ turn_back(angle)) > 0.0
             if selected.baffles
-            else np.ones(len(places))
+            else np.ones(len(points))
         )
-        hit = np.zeros(len(places))
-        hit[np.concatenate(tree.query_ball_point(positions, selected.radii)).astype(int)] = 1.0
-        covered.append((hit * bare * areas).reshape(shape).sum(axis=(1, 3)))
-        left.append((bare * areas).reshape(shape).sum(axis=(1, 3)))
+        within_disc = np.zeros(len(points))
+        within_disc[np.concatenate(tree.query_ball_point(positions, selected.radii)).astype(int)] = 1.0
+        covered.append((within_disc * uncovered * areas).reshape(shape).sum(axis=(1, 3)))
+        available.append((uncovered * areas).reshape(shape).sum(axis=(1, 3)))
     found = np.full((2, len(edges) - 1, bins), np.nan)
-    for place in np.ndindex(len(edges) - 1, bins):
-        mean = ratio_of_sums(*(np.array([each[place] for each in sums]) for sums in (covered, left)))
+    for cell in np.ndindex(len(edges) - 1, bins):
+        mean = ratio_of_sums(*(np.array([each[cell] for each in sums]) for sums in (covered, available)))
         if mean is not None:
-            found[:, *place] = mean.value, math.nan if mean.error is None else mean.error
+            found[:, *cell] = mean.value, math.nan if mean.error is None else mean.error
     return Occupancy(2.0 * math.pi * (np.arange(bins) + 0.5) / bins, edges, *found)
 
 
@@ -132,7 +132,7 @@ def charge(
     dict
         By name of the registry, with standard errors:
         ``toe_angle``, ``shoulder_angle`` [rad], where the filling of the layer within 1.5 diameters of the shell falls
-        to half of the bed's median, followed both ways from the middle of the charge;
+        to half of the bed's median, followed both increments from the middle of the charge;
         ``surface_slope``, ``s_shape``, ``filling`` of the free surface, see `FreeSurface.shape`;
         ``center_slope`` [rad], atan2(x̄, −ȳ) of the center of mass, equal to ``surface_slope`` for a flat bed;
         ``arm``, x̄/R, which is M g's share in the torque: the power is arm · M g R Ω.
@@ -159,8 +159,8 @@ def charge(
     selected = counter_clockwise(within(frames, window))
     drum_radius, diameter = _rim(frames), 2.0 * float(frames.radii.mean())
     every = FrameWindow.of(selected, window)
-    ways = np.diff(selected.drum_angles)
-    if -ways.clip(max=0.0).sum() > _BACK * abs(ways).sum():
+    increments = np.diff(selected.drum_angles)
+    if -increments.clip(max=0.0).sum() > _BACKWARD * abs(increments).sum():
         limit = (
             "one in which the drum turns one way: the charge lies on the other side after it has turned round"
         )

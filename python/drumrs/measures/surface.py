@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from drumrs.analysis.blocks import Array
 from drumrs.errors import ConfigError
+from drumrs.measures.clearance import clearance
 from drumrs.measures.frame_window import counter_clockwise, turn_back, within
-from drumrs.measures.room import around
 
 if TYPE_CHECKING:
     from drumrs.frames import Frames
@@ -165,15 +165,15 @@ def _heights(frames: "Frames", index: int, places: Array, along: Array, up: Arra
 
     radius, last = float(frames.radii.mean()), -up[0]
     inside = np.hypot(places[..., 0], places[..., 1]) <= last
-    room = np.full(inside.shape, -radius)
-    room[inside] = around(frames, index, places[inside]) - radius
-    parts, _ = ndimage.label(room >= 0.0)
+    clearances = np.full(inside.shape, -radius)
+    clearances[inside] = clearance(frames, index, places[inside]) - radius
+    parts, _ = ndimage.label(clearances >= 0.0)
     sizes = np.bincount(parts.ravel())
     sizes[0] = 0
     free = (parts == sizes.argmax()) & (parts > 0)
     column, first = np.arange(len(free)), free.argmax(axis=1)
     before = np.maximum(first - 1, 0)
-    above, below = room[column, first], room[column, before]
+    above, below = clearances[column, first], clearances[column, before]
     edge = up[first] - (up[1] - up[0]) * above / np.where(below < above, above - below, 1.0)
     rim = np.sqrt(last**2 - along**2)
     lowest: Array = np.where(inside[column, before], edge, -rim)

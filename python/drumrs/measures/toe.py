@@ -75,12 +75,17 @@ def toe_and_shoulder(frames: FrameWindow, diameter: float, drum_radius: float) -
 
 
 def _falls(places: Array, filled: Array, level: float) -> float:
-    """Return where the filling first falls below a level, linear between the middles of bins."""
-    below = np.flatnonzero(filled < level)
-    if not len(below) or not below[0]:
+    """Return where the filling falls below a level, linear between the middles of bins; not a number where it does not.
+
+    That is where the sum of all that is above the level is greatest. Where the filling falls steadily this is the one
+    crossing. The first of several would lie the farther inside the more the filling scatters: the fewer frames there
+    are, the smaller the charge.
+    """
+    above = np.cumsum(filled - level)
+    k = int(above.argmax())
+    if above[k] <= 0.0 or k == len(above) - 1:
         return float("nan")
-    k = below[0]
-    return float(np.interp(-level, -filled[[k - 1, k]], places[[k - 1, k]]))
+    return float(np.interp(-level, -filled[[k, k + 1]], places[[k, k + 1]]))
 
 
 def _upright(angle: float) -> float:

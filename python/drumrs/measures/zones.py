@@ -108,7 +108,7 @@ def recorded_visits(table: "pl.DataFrame | None", zone: str) -> Visits:
     Returns
     -------
     Visits
-        Of the visits from the start of the averages' window on that were followed by another.
+        Of the visits in the averages' window that were followed by another.
 
     Raises
     ------

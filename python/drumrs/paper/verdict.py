@@ -103,7 +103,7 @@ class Finding:
         Where it wants the curve.
     deciding
         Those of the numbers that decide first, where there are several kinds; else all.
-    strays
+    deviates
         Whether it fails by one reading at least, finer or coarser than that by which it is judged.
     """
 
@@ -115,7 +115,7 @@ class Finding:
     pieces: tuple[Piece, ...] = ()
     bands: tuple[Band, ...] = field(default=(), repr=False)
     deciding: tuple[Number, ...] = ()
-    strays: bool = False
+    deviates: bool = False
 
     def __post_init__(self) -> None:
         """Let all numbers decide unless some are named."""

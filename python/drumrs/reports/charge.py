@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from drumrs.reports.content import Block
-    from drumrs.reports.material import Material
+    from drumrs.reports.run_data import RunData
 
 # Frames no further apart than this share of the shortest flight see nearly all.
 _FINE = 0.4
@@ -26,12 +26,12 @@ _SPRAY = 0.25
 _MIRROR = "of a drum that turns counter-clockwise; one that turns the other way is shown in the mirror."
 
 
-def motion(_: "Material") -> "Iterator[Block]":
+def motion(_: "RunData") -> "Iterator[Block]":
     """Write the player."""
     yield Play()
 
 
-def shape(of: "Material") -> "Iterator[Block]":
+def shape(of: "RunData") -> "Iterator[Block]":
     """Write where the charge lies: toe, shoulder, slope, filling."""
     yield measured(of.charge, f"Angles are counter-clockwise from the horizontal, {_MIRROR}")
     if of.other_way is not None:
@@ -42,7 +42,7 @@ def shape(of: "Material") -> "Iterator[Block]":
         )
 
 
-def flow(of: "Material") -> "Iterator[Block]":
+def flow(of: "RunData") -> "Iterator[Block]":
     """Draw where the load is, and how it moves."""
     from drumrs import figures
 
@@ -54,7 +54,7 @@ def flow(of: "Material") -> "Iterator[Block]":
     yield Picture(
         "Where the load is, and how it moves",
         f"Mean solid fraction and velocity, coarse-grained over {found.width:.3g} m, {_MIRROR}"
-        + (" Summed up from the start of the window to the end of the run." if of.sums_fields else ""),
+        + (" Summed up over the window." if of.sums_fields else ""),
         draw,
     )
     if not of.sums_fields:
@@ -71,7 +71,7 @@ def flow(of: "Material") -> "Iterator[Block]":
     )
 
 
-def layer(of: "Material") -> "Iterator[Block]":
+def layer(of: "RunData") -> "Iterator[Block]":
     """Write how thick and fast the layer is that flows down the bed."""
     yield measured(
         measures.flowing_layer(of.frames, of.span),
@@ -79,7 +79,7 @@ def layer(of: "Material") -> "Iterator[Block]":
     )
 
 
-def regime(of: "Material") -> "Iterator[Block]":
+def regime(of: "RunData") -> "Iterator[Block]":
     """Write the regime, and the numbers that decide."""
     found = measures.regime(of.frames, of.span, gravity=of.gravity, surface=of.surface)
     yield f"The load is {found.name}, by the first of the limits in docs/measures/regimes.md that holds."
@@ -91,7 +91,7 @@ def regime(of: "Material") -> "Iterator[Block]":
     yield Table(("what decides", "value"), numbers)
 
 
-def flight(of: "Material") -> "Iterator[Block]":
+def flight(of: "RunData") -> "Iterator[Block]":
     """Write how much of the load flies and falls, and where it lands."""
     from drumrs import figures
 
@@ -111,7 +111,7 @@ def flight(of: "Material") -> "Iterator[Block]":
     )
 
 
-def _frames_for_flights(of: "Material") -> str:
+def _frames_for_flights(of: "RunData") -> str:
     """Say how fine frames should be, where flights are missed between them."""
     least = math.sqrt(float(of.frames.radii.mean()) / of.gravity) if of.gravity else math.inf
     apart = of.config.run.frame_every
@@ -124,7 +124,7 @@ def _frames_for_flights(of: "Material") -> str:
     )
 
 
-def circulation(of: "Material") -> "Iterator[Block]":
+def circulation(of: "RunData") -> "Iterator[Block]":
     """Write how often discs go round."""
     center = measures.center_of_circulation(of.fields)
     rounds = measures.circulation(of.frames, of.span, center)
@@ -135,12 +135,12 @@ def circulation(of: "Material") -> "Iterator[Block]":
     )
 
 
-def visits(of: "Material") -> "Iterator[Block]":
+def visits(of: "RunData") -> "Iterator[Block]":
     """Write how often and how alike discs come to the zones of the run, or else to the middle of the bed's surface."""
     table = of.result.zone_visits
     if table is not None:
         for zone in table["zone"].unique(maintain_order=True):
-            yield _recorded_visits(table.filter(zone=zone), zone, of.duration - of.window[0])
+            yield _recorded_visits(table.filter(zone=zone), zone, of.window[1] - of.window[0])
         return
     seen = counter_clockwise(of.frames)
     surface, diameter = of.surface, 2.0 * float(of.frames.radii.mean())
@@ -178,7 +178,7 @@ def _recorded_visits(table: "pl.DataFrame", zone: str, time: float) -> Table:
             ),
             (f"after {time:.3g} s, were all visits chance alike [%]", value(100.0 * found.spread(time))),
         ],
-        f"The zone is {zone!r} of run.zone; counted over the last {time:.3g} s. Spread: standard "
+        f"The zone is {zone!r} of run.zone; counted over {time:.3g} s. Spread: standard "
         "deviation over discs, over the mean, as the motion alone makes it. The last row is reckoned from the "
         f"{found.count} visits that another one followed: where it is below what was counted, discs that seldom come "
         "stay so, or the time is short for their cycles.",

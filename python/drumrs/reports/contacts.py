@@ -17,12 +17,12 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from drumrs.reports.content import Block
-    from drumrs.reports.material import Material
+    from drumrs.reports.run_data import RunData
 
 _WEAR = {"archard": "sliding wear (Archard)", "finnie": "impact wear (Finnie)"}
 
 
-def collisions(of: "Material") -> "Iterator[Block]":
+def collisions(of: "RunData") -> "Iterator[Block]":
     """Write how often collisions take which energy."""
     from drumrs import figures
 
@@ -81,7 +81,7 @@ def _half(spectrum: "pl.DataFrame") -> float | None:
     return None if above.is_empty() else float(above["energy_low"][-1])
 
 
-def wear(of: "Material") -> "Iterator[Block]":
+def wear(of: "RunData") -> "Iterator[Block]":
     """Write where the drum wears, as shares: amounts need a coefficient that somebody has measured."""
     import polars as pl
 
@@ -136,7 +136,7 @@ def wear(of: "Material") -> "Iterator[Block]":
         )
 
 
-def split(of: "Material") -> "Iterator[Block]":
+def split(of: "RunData") -> "Iterator[Block]":
     """Write which pairs of species and parts take the energy."""
     import polars as pl
 
@@ -156,7 +156,7 @@ def split(of: "Material") -> "Iterator[Block]":
     yield Table(("between", *(f"{head} [%]" for head in heads)), rows, "Shares of all that contacts took.")
 
 
-def discs(of: "Material") -> "Iterator[Block]":
+def discs(of: "RunData") -> "Iterator[Block]":
     """Write how much discs differ in what they receive and how they fall."""
     import polars as pl
 
@@ -189,7 +189,7 @@ def _with_spread(values: "NDArray[np.number]") -> str:
     return f"{value(mean)} ± {100.0 * float(values.std()) / mean:.0f} %" if mean else "0"
 
 
-def handling(of: "Material") -> "Iterator[Block]":
+def handling(of: "RunData") -> "Iterator[Block]":
     """Write how hard the load is knocked and rubbed, by itself and by the drum."""
     knocking, *rubbing = (
         rate_with_error(of.result.series, f"dissipated_{kind}", of.window)

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from drumrs.analysis import Mean
-    from drumrs.reports.material import Material
+    from drumrs.reports.run_data import RunData
 
 # Greatest and smallest magnitude that is written without a power of ten.
 _PLAIN = (1e-3, 1e5)
@@ -64,13 +64,13 @@ class Section:
 
     anchor: str
     title: str
-    write: "Callable[[Material], Iterable[Block]]"
+    write: "Callable[[RunData], Iterable[Block]]"
 
-    def blocks(self, material: "Material") -> tuple[list[Block], str]:
+    def blocks(self, data: "RunData") -> tuple[list[Block], str]:
         """Return the blocks of a run, and what the rest lacks, empty where nothing does."""
         made: list[Block] = []
         try:
-            for block in self.write(material):
+            for block in self.write(data):
                 made.append(block)  # noqa: PERF402 - what came before an error is kept
         except ConfigError as error:
             return made, str(error)

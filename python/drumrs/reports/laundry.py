@@ -19,13 +19,13 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from drumrs.reports.content import Block
-    from drumrs.reports.material import Material
+    from drumrs.reports.run_data import RunData
 
 # Frames that are plenty for a curve, and for a mean of what takes long.
 _POINTS, _SNAPSHOTS = 400, 16
 
 
-def going_along(of: "Material") -> "Iterator[Block]":
+def going_along(of: "RunData") -> "Iterator[Block]":
     """Write how the load goes with the drum: slip, riding along the rim, carried over the top."""
     yield measured(
         {
@@ -36,7 +36,7 @@ def going_along(of: "Material") -> "Iterator[Block]":
     )
 
 
-def opening(of: "Material") -> "Iterator[Block]":
+def opening(of: "RunData") -> "Iterator[Block]":
     """Write how far the load opens to the air."""
     seen = within(of.frames, of.span)
     radii, reach = seen.radii, seen.reach or of.config.drum.area_diameter / 2.0
@@ -61,7 +61,7 @@ def opening(of: "Material") -> "Iterator[Block]":
     )
 
 
-def balance(of: "Material") -> "Iterator[Block]":
+def balance(of: "RunData") -> "Iterator[Block]":
     """Write how far off balance the load is."""
     from drumrs import figures
 
@@ -90,7 +90,7 @@ def balance(of: "Material") -> "Iterator[Block]":
     yield Picture("Unbalance", "How often the load is how far off balance, frame by frame.", draw)
 
 
-def mixing(of: "Material") -> "Iterator[Block]":
+def mixing(of: "RunData") -> "Iterator[Block]":
     """Write how fast the load mixes."""
     from drumrs import figures
 

@@ -11,7 +11,7 @@ from drumrs.pages import environment, picture_address, provenance, style, text_o
 from drumrs.pictures import attempt
 from drumrs.reports.catalog import PAGES
 from drumrs.reports.content import Picture, Play, Table
-from drumrs.reports.material import Material
+from drumrs.reports.run_data import RunData
 from drumrs.viewer import Player, script
 
 if TYPE_CHECKING:
@@ -80,20 +80,20 @@ def require_page(page: str, option: str = "page") -> None:
 
 def render(result: "Result", page: str) -> str:
     """Return the page of a run as text."""
-    material, chosen = Material(result), PAGES[page]
+    data, chosen = RunData(result), PAGES[page]
     player = Player.of(result.config, result.frames, result.series, discs=result.discs)
-    made = [_make(section, material) for section in chosen.sections]
+    made = [_make(section, data) for section in chosen.sections]
     return _template().render(
         style=style(),
         page=chosen,
         name=page,
         run=player.title,
         facts=player.facts,
-        window=material.window,
-        span=material.span,
-        duration=material.duration,
+        window=data.window,
+        span=data.span,
+        duration=data.duration,
         sections=[one for one in made if one.blocks or one.missing],
-        player=player.element(start=material.window[0]),
+        player=player.element(start=data.window[0]),
         player_script=script(),
         config=result.config.to_toml(),
         versions=provenance.versions(),
@@ -111,8 +111,8 @@ class _Made:
     missing: str
 
 
-def _make(section: "Section", material: Material) -> _Made:
-    blocks, missing = section.blocks(material)
+def _make(section: "Section", data: RunData) -> _Made:
+    blocks, missing = section.blocks(data)
     return _Made(section, tuple((_KINDS[type(block)], _shown(block)) for block in blocks), missing)
 
 

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     from drumrs.frames import Frames
     from drumrs.reports.content import Block
-    from drumrs.reports.material import Material
+    from drumrs.reports.run_data import RunData
 
 # Phases of a program that a page lists.
 _MOST_PHASES = 24
@@ -33,7 +33,7 @@ _FEWEST = 2
 _SPLITS = {"contacts": "dissipated_", "ledger_split": "dissipated_", "discs": "received_"}
 
 
-def power(of: "Material") -> "Iterator[Block]":
+def power(of: "RunData") -> "Iterator[Block]":
     """Write what the drum gives, and what takes it."""
     summary, series, window = of.summary, of.result.series, of.window
     error = summary.drum_specific_power_error
@@ -54,14 +54,14 @@ def power(of: "Material") -> "Iterator[Block]":
         )
 
 
-def _torque_error(of: "Material") -> float | None:
+def _torque_error(of: "RunData") -> float | None:
     """Return the standard error of the mean torque, from the means between the samples of the window."""
     inside = of.result.series.filter(of.result.series["time"].is_between(*of.window))
     times, torques = (inside[name].to_numpy() for name in ("time", "drum_torque"))
     return mean_with_error(torques[1:], float(np.diff(times).mean())).error if len(times) > _FEWEST else None
 
 
-def _of_the_machine(of: "Material") -> str:
+def _of_the_machine(of: "RunData") -> str:
     """Say what numbers per meter of depth are for the machine."""
     depth, error = of.config.drum.depth, of.summary.drum_specific_power_error
     if depth is None:
@@ -70,14 +70,14 @@ def _of_the_machine(of: "Material") -> str:
     return f"Per meter of depth. With a depth of {depth:.3g} m the drum takes {own} W. W/kg needs no depth."
 
 
-def beside_models(of: "Material") -> "Iterator[Block]":
+def beside_models(of: "RunData") -> "Iterator[Block]":
     """Write power, toe and shoulder beside those of Morrell's C-model and of Hogg and Fuerstenau's flat charge."""
     speed, radius, load = of.require_speed(), of.config.drum.area_diameter / 2.0, of.config.load
     if not of.gravity:
         raise ConfigError("gravity", 0.0, "more than 0, to compare with models of mills")
     filling = load.bulk_fill or of.summary.fill / (load.solid_fraction or SOLID_FRACTION)
-    critical = speed * math.sqrt(radius / of.gravity)
-    model, ours = morrell.charge(filling, critical), of.charge
+    froude = speed * speed * radius / of.gravity
+    model, ours = morrell.charge(filling, math.sqrt(froude)), of.charge
     slope = of.charge["surface_slope"].value
     flat = hogg_fuerstenau.arm(filling, slope)
     scale = of.mass * of.gravity * radius * speed
@@ -97,8 +97,8 @@ def beside_models(of: "Material") -> "Iterator[Block]":
     yield Table(
         ("", "this run", "Morrell", "Hogg–Fuerstenau"),
         rows,
-        f"Filling J = {100.0 * filling:.3g} %, {100.0 * critical:.3g} % of the critical speed √(g/R). Angles are "
-        "counter-clockwise from the horizontal, of a mill that turns counter-clockwise.",
+        f"Filling J = {100.0 * filling:.3g} %, Froude number Ω²R/g = {froude:.3g}, whose root is Morrell’s φ. Angles "
+        "are counter-clockwise from the horizontal, of a mill that turns counter-clockwise.",
     )
     yield (
         "Morrell’s C-model (Trans. Inst. Min. Metall. C 105 (1996) 43 and 54) was fitted to wet industrial mills, "
@@ -125,7 +125,7 @@ def _degrees(mean: Mean) -> str:
     return value(math.degrees(mean.value), mean.error and math.degrees(mean.error))
 
 
-def by_phase(of: "Material") -> "Iterator[Block]":
+def by_phase(of: "RunData") -> "Iterator[Block]":
     """Write what the drum does in each phase of its program; nothing without one."""
     table = phases(of.result)
     if table.is_empty():
@@ -159,7 +159,7 @@ def by_phase(of: "Material") -> "Iterator[Block]":
     )
 
 
-def _in_phase(of: "Material", span: tuple[float, float]) -> tuple[str, ...]:
+def _in_phase(of: "RunData", span: tuple[float, float]) -> tuple[str, ...]:
     """Return share in flight, falls in a turn, slip and unbalance in a phase; dashes where it holds too few frames."""
     try:
         found = flight(of.frames, span, of.masses, of.gravity)
@@ -178,7 +178,7 @@ def _turns(frames: "Frames", span: tuple[float, float]) -> bool:
     return bool(np.diff(within(frames, span).drum_angles).all())
 
 
-def ledger(of: "Material") -> "Iterator[Block]":
+def ledger(of: "RunData") -> "Iterator[Block]":
     """Write where the energy went over the whole run, and how well it adds up."""
     from drumrs import figures
 
@@ -212,7 +212,7 @@ def ledger(of: "Material") -> "Iterator[Block]":
     yield Picture("History", "Power, energies, residual of the ledger and center of mass over time.", draw)
 
 
-def _sums(of: "Material") -> "Iterator[tuple[str, str]]":
+def _sums(of: "RunData") -> "Iterator[tuple[str, str]]":
     taken = sum((of.result.dissipated or {}).values())
     for record, start in _SPLITS.items():
         table = getattr(of.result, record)

@@ -179,21 +179,17 @@ class Server:
     async def _send_frames(self, socket: "WebSocket", wanted: "Wanted") -> None:
         """Send the newest picture whenever one is wanted, and what has changed beside it."""
         known: View | None = None
-
-        def next_picture() -> tuple[View, bytes]:
-            number = -1 if known is None else known.number
-            view = self.session.wait(number, _PATIENCE)
-            if view.number == number:
-                return view, b""
-            return view, picture(view, forces=wanted.forces)
-
         with contextlib.suppress(WebSocketDisconnect, RuntimeError):
             while True:
                 await wanted.frame.wait()
-                view, shown = await asyncio.to_thread(next_picture)
-                if not shown:
-                    continue
+                view = self.session.view
+                if known is not None and view.number == known.number:
+                    view = await asyncio.to_thread(self.session.wait, known.number, _PATIENCE)
+                    if view.number == known.number:
+                        continue
                 wanted.frame.clear()
+                # Forces of many contacts take milliseconds; a picture alone is packed before a thread would have begun.
+                shown = await asyncio.to_thread(picture, view, forces=True) if wanted.forces else view.frame
                 for told in self._responder.news(view, known):
                     await socket.send_text(json.dumps(told))
                 await socket.send_bytes(shown)

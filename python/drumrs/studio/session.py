@@ -37,7 +37,7 @@ RAMP = 0.1
 # there is always one that is new.
 _PICTURE = 1.0 / 120.0
 # Measures are made anew after this time [s], and after so many times as long as it took to make the last ones.
-_MEASURE_EVERY, _MEASURE_SHARE = 0.5, 3.0
+_MEASURE_EVERY, _MEASURE_SHARE = 0.5, 6.0
 # What the series of a session may grow to, in simulated time [s]; some tens of megabytes.
 LONGEST = 600.0
 # A simulation that is behind its time by more than this [s] does not try to catch up.
@@ -241,10 +241,11 @@ class Session:
         if steps < 1:
             time.sleep(min(_PICTURE / 4.0, simulation.time_step / self._rate))
             return
-        most = max(self._steps_per_second * _PICTURE, 1.0)
-        self._take(min(steps, math.ceil(most)))
+        most = math.ceil(max(self._steps_per_second * _PICTURE, 1.0))
+        self._take(min(steps, most))
         took = time.perf_counter() - now
-        if took < _PICTURE:
+        # Where more is due, there is no time to rest.
+        if steps <= most and took < _PICTURE:
             time.sleep(_PICTURE - took)
 
     def _take(self, steps: int) -> None:

@@ -9,11 +9,13 @@ from pathlib import Path
 from drumrs.config import Config
 from drumrs.sweep.case import is_id
 from drumrs.sweep.plan import read_plan
+from drumrs.sweep.runner import ENDING as RUNNER
+from drumrs.sweep.runner import is_at_work
 from drumrs.sweep.store import Store
 
 # So many finished cases tell how fast cases are.
 _SAMPLE = 200
-# A checkpoint is fresh while it is younger than two intervals between checkpoints and a minute [s].
+# One of another machine is fresh while it is younger than two intervals between checkpoints and a minute [s].
 _MINUTE = 60.0
 _HOUR = 3600.0
 
@@ -35,7 +37,8 @@ class Status:
     running
         Age of the checkpoint [s] of those that are under way, by id.
     stopped
-        The same for those whose checkpoint is so old that nobody works on them.
+        The same for those on which nobody works: they were stopped, or the process is no more. Of a process on
+        another machine the age of the checkpoint has to tell.
     left
         Cases neither finished nor failed, those under way included; `None` where nobody knows.
     others
@@ -83,7 +86,7 @@ def status(folder: str | Path) -> Status:
     store.require_sweep()
     plan = read_plan(store.folder)
     intervals = {} if plan is None else dict(zip(plan["case"], plan["checkpoint_every"], strict=True))
-    rows, errors, checkpoints = _files(store.folder)
+    rows, errors, checkpoints, marks = _files(store.folder)
     packed = store.packs.ids()
     finished = rows | packed
     planned = finished | errors | checkpoints.keys() if plan is None else set(plan["case"])
@@ -93,9 +96,12 @@ def status(folder: str | Path) -> Status:
     stopped: dict[str, float] = {}
     for case in sorted(checkpoints.keys() - finished):
         age = _age(checkpoints[case])
-        fresh = 2.0 * intervals.get(case, Config().run.checkpoint_every) + _MINUTE
-        if age is not None:
-            (running if age < fresh else stopped)[case] = age
+        if age is None:
+            continue
+        works = is_at_work(store.folder / f"{case}.{RUNNER}") if case in marks else False
+        if works is None:
+            works = age < 2.0 * intervals.get(case, Config().run.checkpoint_every) + _MINUTE
+        (running if works else stopped)[case] = age
     rest = (
         None if plan is None else float(plan.filter(plan["case"].is_in(list(left)))["particle_steps"].sum())
     )
@@ -112,9 +118,10 @@ def status(folder: str | Path) -> Status:
     )
 
 
-def _files(folder: Path) -> "tuple[set[str], set[str], dict[str, os.DirEntry[str]]]":
-    """Return which cases of a folder have a row and which an error, and their checkpoints."""
+def _files(folder: Path) -> "tuple[set[str], set[str], dict[str, os.DirEntry[str]], set[str]]":
+    """Return which cases of a folder have a row, which an error, their checkpoints, and which are someone's."""
     rows: set[str] = set()
+    marks: set[str] = set()
     errors: set[str] = set()
     checkpoints: dict[str, os.DirEntry[str]] = {}
     with os.scandir(folder) as entries:
@@ -128,7 +135,9 @@ def _files(folder: Path) -> "tuple[set[str], set[str], dict[str, os.DirEntry[str
                 errors.add(case)
             elif ending == "checkpoint.bin":
                 checkpoints[case] = entry
-    return rows, errors, checkpoints
+            elif ending == RUNNER:
+                marks.add(case)
+    return rows, errors, checkpoints, marks
 
 
 def _age(file: "os.DirEntry[str]") -> float | None:

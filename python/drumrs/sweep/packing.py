@@ -1,27 +1,30 @@
 """Packing: the files of finished cases become a few large ones, for file systems that count files.
 
 Nothing is lost wherever it is broken off: a file goes only after its packed copy was read back and found equal, and as
-long as it is there it comes before its copy. The same call goes on.
+long as it is there it comes before its copy. The same call goes on. Files go through piece by piece: packing a case
+takes less memory than running it.
 """
 
 import contextlib
 import os
 import secrets
+import shutil
 import time
 import zipfile
+import zlib
 from collections import defaultdict
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 from drumrs.errors import ConfigError
-from drumrs.files import read_plain, replacing, write_whole
+from drumrs.files import read_plain, replacing, require_plain, write_whole
 from drumrs.progress import Task
 from drumrs.sweep.case import is_id
 from drumrs.sweep.columns import metadata
 from drumrs.sweep.folder_status import status
 from drumrs.sweep.packs import ROWS, Pack
-from drumrs.sweep.sealed import check_sealed, write_sealed
+from drumrs.sweep.sealed import PIECE, check_sealed_stream, write_sealed
 from drumrs.sweep.store import RESULTS, Store
 
 # A pack is full with so many cases or bytes.
@@ -68,7 +71,7 @@ def pack(folder: str | Path, *, progress: bool = True) -> Packed:
     Raises
     ------
     ConfigError
-        Where it is not the folder of a sweep, or a case has a fresh checkpoint: another process is at work.
+        Where it is not the folder of a sweep, or another process is at work on a case that has a checkpoint.
     OSError
         Where packs cannot be written; no result is lost.
 
@@ -157,7 +160,8 @@ def _refuse_running(store: Store) -> None:
         limit = "a folder in which nobody computes"
         problem = f"has a checkpoint that was written {age:.0f} s ago, of case {case}, but must be {limit}"
         hint = (
-            "wait until the sweep has ended; where it was killed, until its checkpoints are some minutes old"
+            "wait until the sweep has ended; where it was killed on another machine, until its checkpoints are "
+            "some minutes old"
         )
         raise ConfigError(store.folder, limit=limit, problem=problem, hint=hint)
 
@@ -186,15 +190,17 @@ def _write_pack(
         for case in waiting:
             task.advance()
             try:
-                contents = {ending: _checked(store, case, ending) for ending in files[case]}
+                checked = {ending: _checked(store, case, ending) for ending in files[case]}
             except (ConfigError, OSError) as error:
                 left[case] = str(error)
                 continue
-            for ending, data in contents.items():
-                entry = zipfile.ZipInfo(f"{case}.{ending}", _TIME)
-                entry.external_attr = 0o644 << 16
-                archive.writestr(entry, data)
-                size += len(data)
+            copies = {ending: _copy(archive, store.folder / f"{case}.{ending}") for ending in checked}
+            size += sum(copy.file_size for copy in copies.values())
+            changed = [ending for ending, copy in copies.items() if checked[ending] != copy.CRC]
+            if changed:
+                # What was copied of it belongs to no case.
+                left[case] = f"{case}.{changed[0]} has changed meanwhile"
+                continue
             cases.append(case)
             if len(cases) == _MOST_CASES or size >= _MOST_BYTES:
                 break
@@ -208,15 +214,26 @@ def _write_pack(
     return made, cases
 
 
-def _checked(store: Store, case: str, ending: str) -> bytes:
-    """Return what a file of results holds, once it is known to be whole."""
+def _copy(archive: zipfile.ZipFile, path: Path) -> zipfile.ZipInfo:
+    """Copy a file into a zip file, piece by piece."""
+    entry = zipfile.ZipInfo(path.name, _TIME)
+    entry.external_attr = 0o644 << 16
+    entry.file_size = path.stat().st_size
+    with path.open("rb") as file, archive.open(entry, "w") as copy:
+        shutil.copyfileobj(file, copy, PIECE)
+    return entry
+
+
+def _checked(store: Store, case: str, ending: str) -> int:
+    """Return the CRC-32 of a file of results, once it is known to be whole."""
     path = store.folder / f"{case}.{ending}"
-    data = read_plain(path)
     if ending == "parquet":
         store.row_path(case)
     elif ending.endswith(".parquet"):
-        check_sealed(path, data, case, ending.removesuffix(".parquet"))
-    return data
+        require_plain(path)
+        with path.open("rb") as file:
+            return check_sealed_stream(path, file, case, ending.removesuffix(".parquet"))
+    return zlib.crc32(read_plain(path))
 
 
 def _remove_packed(
@@ -228,7 +245,7 @@ def _remove_packed(
         for ending in files[case]:
             path = store.folder / f"{case}.{ending}"
             try:
-                is_equal = made.read(path.name) == read_plain(path)
+                is_equal = made.has_copy_of(path)
             except FileNotFoundError:
                 continue
             except (ConfigError, OSError) as error:

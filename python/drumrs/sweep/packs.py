@@ -15,12 +15,13 @@ import zlib
 from collections.abc import Iterable, Iterator
 from functools import cached_property, lru_cache
 from pathlib import Path
-from typing import NamedTuple
+from typing import BinaryIO, NamedTuple
 
 from drumrs.errors import ConfigError
+from drumrs.files import require_plain
 from drumrs.folders import PACKS
 from drumrs.sweep.columns import schema
-from drumrs.sweep.sealed import read_sealed
+from drumrs.sweep.sealed import PIECE, read_sealed
 
 ROWS = "pack"
 # What stands in a zip file before each of its files; at the end are the lengths of its name and of further words.
@@ -76,15 +77,40 @@ class Pack:
         # Opened anew each time: thousands of packs are more than a process may hold open.
         try:
             with self.files.open("rb") as file:
-                file.seek(member.header)
-                head = file.read(_LOCAL_HEADER.size)
-                file.seek(sum(_LOCAL_HEADER.unpack(head)), io.SEEK_CUR)
+                _seek(file, member)
                 data = file.read(member.size)
         except (OSError, struct.error) as error:
             raise ConfigError(self.files, problem=f"cannot be read: {error}") from None
         if zlib.crc32(data) != member.crc:
             raise ConfigError(self.files, problem=f"is damaged at {name}")
         return data
+
+    def has_copy_of(self, path: Path) -> bool:
+        """Tell whether what is packed under the name of a file is that file, byte for byte.
+
+        They are read piece by piece, as they may be large.
+
+        Raises
+        ------
+        ConfigError
+            Where the pack cannot be read.
+        OSError
+            Where the file cannot be read.
+        """
+        member = self._members.get(path.name)
+        require_plain(path)
+        with path.open("rb") as own:
+            if member is None or path.stat().st_size != member.size:
+                return False
+            try:
+                with self.files.open("rb") as file:
+                    _seek(file, member)
+                    left = member.size
+                    while (piece := file.read(min(left, PIECE))) and piece == own.read(len(piece)):
+                        left -= len(piece)
+            except (OSError, struct.error) as error:
+                raise ConfigError(self.files, problem=f"cannot be read: {error}") from None
+        return left == 0
 
     def check_rows(self) -> Path:
         """Return the file of the rows once it has been found whole.
@@ -122,6 +148,13 @@ class Pack:
                 }
         except (OSError, zipfile.BadZipFile) as error:
             raise ConfigError(self.files, problem=f"cannot be read: {error}") from None
+
+
+def _seek(file: BinaryIO, member: _Member) -> None:
+    """Go to where the content of a file begins in a zip file."""
+    file.seek(member.header)
+    head = file.read(_LOCAL_HEADER.size)
+    file.seek(sum(_LOCAL_HEADER.unpack(head)), io.SEEK_CUR)
 
 
 class Packs:

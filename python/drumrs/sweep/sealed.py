@@ -8,6 +8,8 @@ import contextlib
 import hashlib
 import io
 import json
+import zlib
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO
 
@@ -32,6 +34,10 @@ _MAGIC = b"PAR1"
 # What stands before the digest in the file.
 _DIGEST = b'"sha256": "'
 _BLANK = "0" * hashlib.sha256().digest_size * 2
+# What comes after the footer: its length and the magic number.
+_LENGTH = 8
+# How much of a large file is in memory at a time [bytes].
+PIECE = 2**20
 
 
 def write_sealed(
@@ -102,11 +108,34 @@ def check_sealed(path: Path, data: bytes, owner: str, content: str) -> io.BytesI
     ConfigError
         Where they are damaged, or hold something else; the sentence names the file.
     """
-    head, digest, tail = _cut(data)
+    check_sealed_stream(path, io.BytesIO(data), owner, content)
+    return io.BytesIO(data)
+
+
+def check_sealed_stream(path: Path, file: BinaryIO, owner: str, content: str) -> int:
+    """Check a file that is open, as `check_sealed` does, but piece by piece: it may be as large as it likes.
+
+    Returns
+    -------
+    int
+        Its CRC-32.
+    """
+    end = file.seek(0, io.SEEK_END)
+    footer = _footer(file, end)
+    _, mark, tail = footer.rpartition(_DIGEST)
+    digest = tail[: len(_BLANK)] if mark else b""
+    hashed, crc = hashlib.sha256(), 0
+    file.seek(0)
+    for piece in _pieces(file, end - len(tail)):
+        hashed.update(piece)
+        crc = zlib.crc32(piece, crc)
+    # Where the digest stands, there was nothing yet when it was made.
+    hashed.update(_BLANK.encode() + tail[len(digest) :])
+    crc = zlib.crc32(tail, crc)
     # Before the parser sees it: some damage makes it give up in a way of its own.
-    if digest and hashlib.sha256(head + _BLANK.encode() + tail).hexdigest().encode() != digest:
+    if digest and hashed.hexdigest().encode() != digest:
         raise ConfigError(path, problem="is damaged: its digest does not match")
-    seal = _seal(path, data)
+    seal = _seal(path, _MAGIC + footer)
     if not isinstance(seal, dict):
         raise ConfigError(path, problem="was not written by drumrs")
     for name, wanted in _claims(owner, content).items():
@@ -116,14 +145,21 @@ def check_sealed(path: Path, data: bytes, owner: str, content: str) -> io.BytesI
             raise ConfigError(path, seal.get(name), repr(wanted), problem=problem)
     if not digest or seal.get("sha256") != digest.decode(errors="replace"):
         raise ConfigError(path, problem="is damaged: its digest does not match")
-    return io.BytesIO(data)
+    return crc
 
 
-def _cut(data: bytes) -> tuple[bytes, bytes, bytes]:
-    """Cut a file at its digest: what is before, the digest (empty where there is none), what is after."""
-    before, mark, after = data.rpartition(_DIGEST)
-    size = len(_BLANK)
-    return (before + mark, after[:size], after[size:]) if mark else (data, b"", b"")
+def _footer(file: BinaryIO, end: int) -> bytes:
+    """Return the last words of a file, in which the seal stands; all of it where they do not tell how long they are."""
+    file.seek(max(end - _LENGTH, 0))
+    length = int.from_bytes(file.read(4), "little") + _LENGTH
+    file.seek(end - length if _LENGTH < length <= end else 0)
+    return file.read()
+
+
+def _pieces(file: BinaryIO, size: int) -> Iterator[bytes]:
+    while size > 0 and (piece := file.read(min(size, PIECE))):
+        size -= len(piece)
+        yield piece
 
 
 def _read(path: Path) -> bytes:
@@ -143,7 +179,7 @@ def _ending(file: BinaryIO) -> bytes:
 
 
 def _seal(path: Path, data: bytes) -> Any:
-    """Return what the file says of itself."""
+    """Return what the file says of itself; its last words suffice."""
     import polars as pl
     from polars.exceptions import PanicException
 

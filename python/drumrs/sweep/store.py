@@ -10,6 +10,7 @@
 | `<id>.parquet` | one row of parameters and summary, written last: its being there means that the case is finished |
 | `<id>.error.json` | why the case failed |
 | `<id>.checkpoint.bin` | how far a case is that takes long; gone when it is finished |
+| `<id>.runner.json` | which process works on it meanwhile; gone when that has ended: `runner` |
 | `plan.parquet` | the cases of the last sweep here, finished or not: `plan` |
 | `drumrs-sweep.json` | the version of this format |
 | `packs` | finished cases that were packed: `packs` |
@@ -33,6 +34,7 @@ from drumrs.sweep.case import Case, is_id
 from drumrs.sweep.columns import TIMINGS, row, schema
 from drumrs.sweep.packs import Packs
 from drumrs.sweep.plan import PLAN
+from drumrs.sweep.runner import ENDING as RUNNER
 from drumrs.sweep.sealed import FORMAT, check_sealed, read_sealed, write_sealed, write_sealed_frames
 
 if TYPE_CHECKING:
@@ -49,7 +51,7 @@ RESULTS = (
     *(f"{kind}.parquet" for kind in COLUMNS),
     *("facts.json", "parquet"),
 )
-_ENDINGS = (*RESULTS, "error.json", "checkpoint.bin")
+_ENDINGS = (*RESULTS, "error.json", "checkpoint.bin", RUNNER)
 _HOUR = 3600.0
 
 
@@ -200,7 +202,7 @@ class Store:
         timings = {name: getattr(result.summary, name) for name in TIMINGS}
         self._write_json(case, "facts", {"case": case.id, **timings, **facts})
         self._write_row(case, result.summary, result.series)
-        for ending in ("error.json", "checkpoint.bin"):
+        for ending in ("error.json", "checkpoint.bin", RUNNER):
             self._path(case, ending).unlink(missing_ok=True)
 
     def write_config(self, case: Case) -> None:
@@ -212,6 +214,10 @@ class Store:
     def checkpoint(self, case: Case) -> Path:
         """Return where a case keeps its checkpoint."""
         return self._path(case, "checkpoint.bin")
+
+    def runner(self, case: Case) -> Path:
+        """Return where it says who works on a case."""
+        return self._path(case, RUNNER)
 
     def renew(self, case: Case) -> bool:
         """Make the row of a finished case again where an older version wrote it with other columns.

@@ -18,6 +18,7 @@ from drumrs.errors import CheckpointError
 from drumrs.runs import advance_to_end
 from drumrs.simulation import Simulation, info
 from drumrs.sweep.case import Case
+from drumrs.sweep.runner import Runner
 from drumrs.sweep.store import Store
 
 # A case that has taken less is sooner simulated again [s].
@@ -149,18 +150,20 @@ def run_case(config_json: str, folder: str, running: Running | None = None) -> C
 
 
 def _simulate(case: Case, store: Store, running: Running) -> bool:
-    simulation = _begin(case, store)
+    runner = Runner(store.runner(case))
+    simulation = _begin(case, store, runner)
     on_progress = running.begin(simulation)
     try:
-        if not advance_to_end(simulation, on_progress, _Checkpoint(store.checkpoint(case))):
+        if not advance_to_end(simulation, on_progress, _Checkpoint(store.checkpoint(case), runner)):
             return False
         store.write(case, simulation.result(keep=False), _facts())
     finally:
         running.end(simulation)
+        runner.clear()
     return True
 
 
-def _begin(case: Case, store: Store) -> Simulation:
+def _begin(case: Case, store: Store, runner: Runner) -> Simulation:
     """Go on from the checkpoint of a case that was stopped, or begin."""
     path = store.checkpoint(case)
     if path.exists():
@@ -168,6 +171,7 @@ def _begin(case: Case, store: Store) -> Simulation:
         with suppress(CheckpointError):
             simulation = Simulation.load(path)
             if simulation.config.digest == case.config.digest:
+                runner.mark()
                 return simulation
     return Simulation(case.config)
 
@@ -175,8 +179,8 @@ def _begin(case: Case, store: Store) -> Simulation:
 class _Checkpoint:
     """Where a case keeps how far it is, once it has taken long enough for that to be worth a file."""
 
-    def __init__(self, path: Path) -> None:
-        self._path = path
+    def __init__(self, path: Path, runner: Runner) -> None:
+        self._path, self._runner = path, runner
         self._began = time.monotonic()
 
     def flush(self, simulation: Simulation) -> None:
@@ -185,6 +189,7 @@ class _Checkpoint:
     def save(self, simulation: Simulation) -> None:
         """Write a checkpoint."""
         if time.monotonic() - self._began >= _WORTH and simulation.step < simulation.last_step:
+            self._runner.mark()
             simulation.save(self._path)
 
 

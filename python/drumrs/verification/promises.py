@@ -24,7 +24,7 @@ _CROWD_STEPS = 1200
 
 
 def _numbers(run: Simulation) -> Array:
-    """Return everything that a simulation shows: motion of every bundle, every sample."""
+    """Return everything that a simulation returns: motion of every bundle, every sample."""
     state = run.state
     parts = (state.positions, state.velocities, state.angles, state.angular_velocities)
     return np.concatenate(
@@ -62,7 +62,7 @@ def _ran(config: Config, steps: int, threads: int = 1, state: State | None = Non
 def _scaled(config: Config, mass: float) -> Config:
     """Return lengths × 4, times × 2, masses × `mass`, gravity as it is."""
     large = config.scaled(4.0)
-    contact, heavier = large.contact, mass / 16.0  # what masses × 16 are multiplied with
+    contact, heavier = large.contact, mass / 16.0  # factor beyond the 16 of the areas
     return large.replace(
         {
             "load.density": large.load.density * heavier,
@@ -147,22 +147,27 @@ def relabelling() -> Evidence:
     and that must be below 10⁻⁴ r for the comparison to mean anything.
     """
     config, bed = _bed()
-    places, speeds, turning = (np.asarray(a) for a in (bed.positions, bed.velocities, bed.angular_velocities))
+    positions, velocities, spins = (
+        np.asarray(a) for a in (bed.positions, bed.velocities, bed.angular_velocities)
+    )
 
     def end_positions(at: Array, order: Any = slice(None)) -> Array:
-        start = State(at[order], speeds[order], angular_velocities=turning[order])
+        start = State(at[order], velocities[order], angular_velocities=spins[order])
         return np.asarray(_ran(config, _BED_STEPS, state=start).positions)
 
-    order = (np.arange(len(places)) * 37 + 11) % len(places)
-    plain, back = end_positions(places), np.empty_like(places)
-    back[order] = end_positions(places, order)
+    order = (np.arange(len(positions)) * 37 + 11) % len(positions)
+    plain, back = end_positions(positions), np.empty_like(positions)
+    back[order] = end_positions(positions, order)
     draws = np.random.default_rng(1)
-    ways = [draws.choice([-np.inf, np.inf], places.shape) for _ in range(4)]
-    grown = max(float(np.abs(end_positions(np.nextafter(places, way)) - plain).max()) for way in ways)
+    directions = [draws.choice([-np.inf, np.inf], positions.shape) for _ in range(4)]
+    growth = max(
+        float(np.abs(end_positions(np.nextafter(positions, direction)) - plain).max())
+        for direction in directions
+    )
     apart = float(np.abs(back - plain).max())
     found = (
-        Check("greatest distance", "m", 0.0, apart, 10.0 * grown),
-        Check("growth of a last place, over r", "1", 0.0, grown / RADIUS, 1e-4),
+        Check("greatest distance", "m", 0.0, apart, 10.0 * growth),
+        Check("growth of a last place, over r", "1", 0.0, growth / RADIUS, 1e-4),
     )
     return Evidence(found, _diagonal({"": back}, plain, "relabelled"))
 
@@ -239,14 +244,16 @@ def _crowd() -> tuple[Config, State]:
     changes = {"drum.diameter": 2.95, "load.count": 10_200, "load.start_speed": 5.0}
     config = _small(baffles=False, changes=changes)
     packed = Simulation(config, seed=7).state
-    places, speeds = np.asarray(packed.positions), np.asarray(packed.velocities)
+    positions, velocities = np.asarray(packed.positions), np.asarray(packed.velocities)
     angles, large = np.linspace(0.0, math.tau, 5, endpoint=False), 0.2
     centers = 0.8 * np.column_stack([np.cos(angles), np.sin(angles)])
-    distances = np.linalg.norm(places[:, None] - centers, axis=2).min(axis=1)
+    distances = np.linalg.norm(positions[:, None] - centers, axis=2).min(axis=1)
     kept = distances > large + RADIUS
     radii = np.where(np.arange(kept.sum() + len(centers)) < len(centers), large, RADIUS)
     still = np.zeros_like(centers)
-    return config, State(np.vstack([centers, places[kept]]), np.vstack([still, speeds[kept]]), radii=radii)
+    return config, State(
+        np.vstack([centers, positions[kept]]), np.vstack([still, velocities[kept]]), radii=radii
+    )
 
 
 CASES = (scaling, mirror, relabelling, restart, threads, skins)

@@ -6,7 +6,8 @@ In the browser, player.js is a player in any element of a page. Of its parts, st
 of occupancy.js, discs.js many bundles at once, plot.js curves, panel.js has their legend, film.js records, controls.js
 buttons and keys, color.js what colors stand for, legend.js says it; recording.js holds the frames and takes more of
 them while a run goes on. element.js is the element of the pages written here; studio.js is the page of a simulation
-that runs. `module` joins files into one module for other pages and widgets. Nothing here sees a simulation.
+that runs, with its sliders.js, tiles.js and curves.js. `module` joins files into one module for other pages and
+widgets. Nothing here sees a simulation.
 """
 
 from drumrs.viewer.bundle import module

@@ -27,7 +27,7 @@ const PALETTE = Array.from({ length: LEVELS }, (_, level) => {
 // The scale as a CSS background.
 export const GRADIENT = `linear-gradient(to right, ${Array.from({ length: 17 }, (_, k) => PALETTE[Math.round((k * 255) / 16)].fill)})`;
 
-function shade(value, [lowest, highest]) {
+function shade(value, lowest, highest) {
   const share = highest > lowest ? (value - lowest) / (highest - lowest) : 0.5;
   return PALETTE[Math.round(Math.min(Math.max(share, 0), 1) * (LEVELS - 1))];
 }
@@ -42,7 +42,7 @@ export const MODES = {
     unit: "m/s",
     factor: 1,
     range: (recording) => [0, recording.speedScale],
-    value: (recording, k, scene) => scene.bundles[k].speed,
+    value: (recording, k, scene) => scene.speeds[k],
   },
   height: {
     label: "Height at marked time",
@@ -101,6 +101,7 @@ export class Coloring {
     this.recording = recording;
     this.name = "speed";
     this.mark = 0;
+    this.found = new Array(recording.count);
   }
 
   get mode() {
@@ -115,7 +116,7 @@ export class Coloring {
   range(scene) {
     if (this.mode.range) return this.mode.range(this.recording);
     let [lowest, highest] = [Infinity, -Infinity];
-    for (let k = 0; k < scene.bundles.length; k++) {
+    for (let k = 0; k < this.recording.count; k++) {
       const value = this.value(k, scene);
       lowest = Math.min(lowest, value);
       highest = Math.max(highest, value);
@@ -123,9 +124,11 @@ export class Coloring {
     return [lowest, highest];
   }
 
-  // What each bundle is filled with, and whether it is light: { fill, red, green, blue, light }.
+  // What each bundle is filled with, and whether it is light: { fill, red, green, blue, light }. The next call fills the array
+  // again.
   shades(scene) {
-    const range = this.range(scene);
-    return scene.bundles.map((_, k) => shade(this.value(k, scene), range));
+    const [lowest, highest] = this.range(scene);
+    for (let k = 0; k < this.recording.count; k++) this.found[k] = shade(this.value(k, scene), lowest, highest);
+    return this.found;
   }
 }

@@ -4,7 +4,7 @@
 
 import { GRADIENT, MODES } from "./color.js";
 import { canRecord, Film } from "./film.js";
-import { formatNumber } from "./format.js";
+import { counted, formatNumber } from "./format.js";
 import { layersOf, legendOf } from "./legend.js";
 
 const KEYS = {
@@ -80,7 +80,7 @@ export class Controls {
     this.part("title").textContent = title;
     this.part("facts").textContent = recording.facts;
     this.part("player").setAttribute("aria-label", `Player: ${title}`);
-    this.part("stage").setAttribute("aria-label", `${recording.count} bundles in the drum: ${title}`);
+    this.part("stage").setAttribute("aria-label", `${counted(recording.count, "bundle")} in the drum: ${title}`);
     this.part("scrub").max = recording.frames.length - 1;
   }
 
@@ -123,10 +123,10 @@ export class Controls {
     const { selected, scene, recording } = this.player;
     let words = "Click a bundle to follow its path; more of them with shift.";
     if (selected !== null) {
-      const { x, y, speed } = scene.bundles[selected];
-      const distance = formatNumber(1000 * Math.hypot(x, y));
+      const { positions, speeds } = scene;
+      const distance = formatNumber(1000 * Math.hypot(positions[2 * selected], positions[2 * selected + 1]));
       const kind = recording.species ? `, ${MODES.species.name(recording, recording.species.of[selected])}` : "";
-      words = `Bundle ${selected}${kind}: ${formatNumber(speed)} m/s, ${distance} mm from the axis`;
+      words = `Bundle ${selected}${kind}: ${formatNumber(speeds[selected])} m/s, ${distance} mm from the axis`;
     }
     this.part("bundle").textContent = words;
   }

@@ -13,6 +13,11 @@ export function formatNumber(value) {
   return value.toFixed(digits).replace("-", "−");
 }
 
+// So many of a thing.
+export function counted(count, thing) {
+  return `${count} ${thing}${count === 1 ? "" : "s"}`;
+}
+
 // A power of ten with its exponent raised.
 export function powerOfTen(value) {
   const exponent = Math.round(Math.log10(value));

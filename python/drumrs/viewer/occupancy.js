@@ -55,10 +55,10 @@ export function occupancy(recording, corotating) {
   return Object.assign(map, { to: chosen.at(-1).time });
 }
 
-// A canvas of a map's size: the color, the denser the more often a place is covered. Its first row is the lowest.
-export function picture(map, color) {
+// Paint a map onto a canvas of its size: the color, the denser the more often a place is covered. Its first row is the lowest.
+export function picture(map, color, canvas = document.createElement("canvas")) {
   const { size } = map;
-  const canvas = Object.assign(document.createElement("canvas"), { width: size, height: size });
+  Object.assign(canvas, { width: size, height: size });
   const context = canvas.getContext("2d");
   const image = context.createImageData(size, size);
   for (let k = 0; k < size * size; k++) image.data[4 * k + 3] = 230 * Math.min(map.share(k), 1);

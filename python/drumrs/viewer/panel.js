@@ -21,9 +21,9 @@ export class Panel {
       legend.append(item);
       return item.lastChild;
     });
-    const box = create("div", "panel");
-    box.append(heading, legend, canvas);
-    container.append(box);
+    this.box = create("div", "panel");
+    this.box.append(heading, legend, canvas);
+    container.append(this.box);
     this.plot = new Plot(canvas, panel, recording, theme);
     const seek = (event) => onSeek(this.plot.timeAt(event.offsetX));
     const begin = (event) => {
@@ -39,7 +39,10 @@ export class Panel {
     plot.draw(time);
     // It says over how long means are, which grows with a run that goes on.
     if (this.title.textContent !== plot.panel.title) this.title.textContent = plot.panel.title;
-    plot.panel.lines.forEach((line, k) => (readings[k].textContent = formatNumber(plot.valueAt(line, time))));
+    plot.panel.lines.forEach((line, k) => {
+      const text = formatNumber(plot.valueAt(line, time));
+      if (readings[k].textContent !== text) readings[k].textContent = text;
+    });
   }
 }
 

@@ -16,19 +16,13 @@ export class Recording extends EventTarget {
   constructor({ title = "", facts = "", radii, drumRadius, shell = null, reach, baffles = [], walls = [], window = null, speedScale = 1, panels = [], species = null, forceScale = null, discs = null, frames }) {
     super();
     Object.assign(this, { title, facts, radii, drumRadius, shell, reach, baffles, walls, window, speedScale, panels, species, forceScale, discs, frames });
+    // Radius of the rim, or of the farthest corner of a shell [m]; null without either.
+    this.outerRadius = shell ? Math.max(...shell.map(([x, y]) => Math.hypot(x, y))) : drumRadius;
+    this.greatestRadius = radii.reduce((greatest, radius) => Math.max(greatest, radius), 0);
   }
 
   get count() {
     return this.radii.length;
-  }
-
-  // Radius of the rim, or of the farthest corner of a shell [m]; null without either.
-  get outerRadius() {
-    return this.shell ? Math.max(...this.shell.map(([x, y]) => Math.hypot(x, y))) : this.drumRadius;
-  }
-
-  get greatestRadius() {
-    return this.radii.reduce((greatest, radius) => Math.max(greatest, radius));
   }
 
   get begin() {
@@ -71,7 +65,8 @@ export class Recording extends EventTarget {
     return [positions[2 * bundle], positions[2 * bundle + 1]];
   }
 
-  // The scene at a time: { time, drumAngle, spin, bundles: [{ x, y, angle, speed }] }, spin being that of the drum.
+  // The scene at a time: { time, drumAngle, spin, positions, angles, speeds }, spin being that of the drum and the rest as in
+  // a frame. The arrays are those of a frame, or those that the next call fills again.
   //
   // Between two frames a bundle is on the straight line from one recorded place to the next, and turns the shorter way
   // round. On a frame the picture is what was computed; between two it is off by at most a (Δt)²/8 for an acceleration
@@ -82,13 +77,20 @@ export class Recording extends EventTarget {
     const to = this.frames[Math.min(index + 1, this.frames.length - 1)];
     const span = to.time - from.time;
     const share = span > 0 ? Math.min(Math.max((time - from.time) / span, 0), 1) : 0;
-    const bundles = Array.from(this.radii, (_, k) => ({
-      x: mix(from.positions[2 * k], to.positions[2 * k], share),
-      y: mix(from.positions[2 * k + 1], to.positions[2 * k + 1], share),
-      angle: from.angles[k] + share * shorterWay(to.angles[k] - from.angles[k]),
-      speed: mix(from.speeds[k], to.speeds[k], share),
-    }));
-    return { time, bundles, drumAngle: mix(from.drumAngle, to.drumAngle, share), spin: this.spin(index) };
+    const { positions, angles, speeds } = share > 0 ? this.between(from, to, share) : from;
+    return { time, positions, angles, speeds, drumAngle: mix(from.drumAngle, to.drumAngle, share), spin: this.spin(index) };
+  }
+
+  between(from, to, share) {
+    const { count } = this;
+    this.mixed ??= { positions: new Float32Array(2 * count), angles: new Float32Array(count), speeds: new Float32Array(count) };
+    const { positions, angles, speeds } = this.mixed;
+    for (let k = 0; k < 2 * count; k++) positions[k] = mix(from.positions[k], to.positions[k], share);
+    for (let k = 0; k < count; k++) {
+      angles[k] = from.angles[k] + share * shorterWay(to.angles[k] - from.angles[k]);
+      speeds[k] = mix(from.speeds[k], to.speeds[k], share);
+    }
+    return this.mixed;
   }
 
   // Angular velocity of the drum [rad/s] after a frame, or before the last one.
@@ -103,7 +105,6 @@ export class Recording extends EventTarget {
 export const DIRECTIONS = 256;
 
 const FULL = 65535;
-const TURN = 65536;
 // Numbers at the head of a picture of the studio, 8 bytes each.
 const HEAD_NUMBERS = 6;
 
@@ -112,7 +113,8 @@ export function unpack(data) {
   const radii = decode(data.radii, Float32Array);
   const count = radii.length;
   const drumAngles = decode(data.drum_angles, Float64Array);
-  const [places, turns, shares] = [data.positions, data.angles, data.speeds].map((packed) => decode(packed, Uint16Array));
+  const places = decode(data.positions, Uint16Array);
+  const [turns, shares] = [data.angles, data.speeds].map((packed) => decode(packed, Uint8Array));
   const { positions, angles, speeds } = inUnits(places, turns, shares, data);
   const frames = Array.from(decode(data.times, Float64Array), (time, k) => ({
     time,
@@ -130,12 +132,14 @@ export function unpack(data) {
   return new Recording({ title, facts, radii, drumRadius, shell, reach, baffles, walls, window, speedScale, panels, species, forceScale, discs, frames });
 }
 
-// Meters, radians and meters in a second of the whole numbers of 16 bits that recording.py makes of them.
+// Meters, radians and meters in a second of the whole numbers that recording.py makes of them: 16 bits for places, for the
+// others 8 in a page, 16 in a picture of the studio.
 function inUnits(places, turns, shares, { reach, fastest }) {
+  const [turn, full] = [2 ** (8 * turns.BYTES_PER_ELEMENT), 2 ** (8 * shares.BYTES_PER_ELEMENT) - 1];
   return {
     positions: scaled(places, (2 * reach) / FULL, -reach),
-    angles: scaled(turns, (2 * Math.PI) / TURN, 0),
-    speeds: scaled(shares, fastest / FULL, 0),
+    angles: scaled(turns, (2 * Math.PI) / turn, 0),
+    speeds: scaled(shares, fastest / full, 0),
   };
 }
 
@@ -168,7 +172,7 @@ export function unpackFrame({ count, reach }, buffer) {
 
 // What holds the numbers of bundles and of directions to the drum.
 function numbersFor(count) {
-  return count + DIRECTIONS <= TURN ? Uint16Array : Uint32Array;
+  return count + DIRECTIONS <= FULL + 1 ? Uint16Array : Uint32Array;
 }
 
 // Return the panel that recording.py has packed.
@@ -191,7 +195,10 @@ function giveForces(frames, bundles, forces) {
 
 // Typed arrays follow the machine's byte order, which is little-endian wherever a browser runs.
 function decode(base64, Kind) {
-  return new Kind(Uint8Array.from(atob(base64), (character) => character.charCodeAt(0)).buffer);
+  const letters = atob(base64);
+  const bytes = new Uint8Array(letters.length);
+  for (let k = 0; k < bytes.length; k++) bytes[k] = letters.charCodeAt(k);
+  return new Kind(bytes.buffer);
 }
 
 export function mix(from, to, share) {

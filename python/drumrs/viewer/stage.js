@@ -26,8 +26,12 @@ const LEAST_MARKED = 3;
 const FADED = 0.35;
 // Bundles from which on a canvas takes longer for their arcs than we for their pixels.
 const MANY = 1000;
-// Widths that lines of forces are drawn in: as many as a screen tells apart.
+// Widths that lines of forces are drawn in, at most.
 const WIDTHS = 12;
+// Width of the widest line [pixels] from which on lines of forces have a rim, so that they are seen over bundles.
+const LEAST_RIMMED = 2;
+// How often a map that goes on growing is painted anew, at most [ms].
+const MAP_EVERY = 100;
 // Line round a bundle, and by how much it lies within the bundle's radius [pixels].
 const LINE = 0.75;
 const INSET = 0.4;
@@ -137,12 +141,13 @@ export class Stage {
 
   // The map and its picture, made anew when the recording or the map has grown, or it is seen or colored in another way.
   get occupancy() {
-    const { recording, corotating } = this;
-    const [length, color] = [this.map ? this.map.to : recording.frames.length, this.theme.lines[0]];
-    const known = this.known;
-    if (known?.length !== length || known.corotating !== corotating || known.color !== color) {
+    const { recording, corotating, known } = this;
+    const [length, color, now] = [this.map ? this.map.to : recording.frames.length, this.theme.lines[0], performance.now()];
+    const isOther = known?.corotating !== corotating || known.color !== color || (this.map && known.map !== this.map);
+    // A map that grows with each picture changes little from one to the next.
+    if (isOther || (known.length !== length && !(this.map && now - known.made < MAP_EVERY))) {
       const map = this.map ?? occupancy(recording, corotating);
-      this.known = { length, corotating, color, map, image: picture(map, color) };
+      this.known = { length, corotating, color, map, made: now, image: picture(map, color, known?.image) };
     }
     return this.known;
   }
@@ -161,7 +166,7 @@ export class Stage {
     const { context } = this;
     context.save();
     if (this.faded) context.globalAlpha = FADED;
-    if (scene.bundles.length >= MANY) this.paintBundles(scene, shades);
+    if (this.recording.count >= MANY) this.paintBundles(scene, shades);
     else this.traceBundles(scene, shades);
     context.restore();
   }
@@ -174,11 +179,11 @@ export class Stage {
     const view = { width, height, unit: unit * dots, x: x * dots, y: y * dots, turn };
     const style = { outline: theme.outline, line: LINE * dots, inset: INSET * dots, least: dots };
     context.setTransform(1, 0, 0, 1, 0, 0);
-    context.drawImage(this.pixels.paint(view, scene.bundles, recording.radii, shades, style), 0, 0);
+    context.drawImage(this.pixels.paint(view, scene.positions, recording.radii, shades, style), 0, 0);
   }
 
   // Those of one color at once: it takes half the time.
-  traceBundles({ bundles }, shades) {
+  traceBundles({ positions }, shades) {
     const { context, recording, pixel, theme } = this;
     context.lineWidth = LINE * pixel;
     context.strokeStyle = theme.outline;
@@ -187,7 +192,7 @@ export class Stage {
     for (const [fill, members] of byFill) {
       context.beginPath();
       for (const k of members) {
-        const { x, y } = bundles[k];
+        const [x, y] = [positions[2 * k], positions[2 * k + 1]];
         const radius = Math.max(recording.radii[k] - INSET * pixel, pixel);
         context.moveTo(x + radius, y);
         context.arc(x, y, radius, 0, 2 * Math.PI);
@@ -199,45 +204,55 @@ export class Stage {
   }
 
   // Forces of the nearest frame: from center to center, or to the drum, as wide as they are strong.
-  drawForces({ time, bundles }) {
+  drawForces(scene) {
     const { context, recording, pixel, theme } = this;
-    const { forces } = recording.frames[recording.nearest(time)];
+    const { forces } = recording.frames[recording.nearest(scene.time)];
     if (!forces) return;
     const widest = THICKEST * recording.greatestRadius;
-    // Those of one width at once, of which there are none thinner than half a pixel.
-    const paths = Array.from({ length: WIDTHS }, () => new Path2D());
-    forces.one.forEach((one, k) => {
-      const { x, y } = bundles[one];
-      const path = paths[Math.max(Math.ceil(WIDTHS * forces.shares[k]) - 1, 0)];
-      path.moveTo(x, y);
-      const other = forces.other[k];
-      const toDrum = (2 * Math.PI * (other - recording.count)) / DIRECTIONS;
-      if (other < recording.count) path.lineTo(bundles[other].x, bundles[other].y);
-      else path.lineTo(x + recording.radii[one] * Math.cos(toDrum), y + recording.radii[one] * Math.sin(toDrum));
-    });
-    context.lineCap = "round";
-    for (const [color, more] of [[theme.inside, Math.min(1.5 * pixel, widest)], [theme.ink, 0]]) {
+    // Widths that a screen tells apart, of which there are none thinner than half a pixel: those of one width at once.
+    const widths = Math.min(Math.max(Math.ceil((2 * widest) / pixel), 1), WIDTHS);
+    const paths = Array.from({ length: widths }, () => new Path2D());
+    for (let k = 0; k < forces.one.length; k++) {
+      this.traceForce(paths[Math.max(Math.ceil(widths * forces.shares[k]) - 1, 0)], scene.positions, forces.one[k], forces.other[k]);
+    }
+    // Lines about as thin as a pixel are told apart without a rim and without caps, which would take most of the time.
+    const isThin = widest < LEAST_RIMMED * pixel;
+    context.lineCap = isThin ? "butt" : "round";
+    for (const [color, more] of isThin ? [[theme.ink, 0]] : [[theme.inside, Math.min(1.5 * pixel, widest)], [theme.ink, 0]]) {
       context.strokeStyle = color;
       paths.forEach((path, k) => {
-        context.lineWidth = Math.max((widest * (k + 1)) / WIDTHS, 0.5 * pixel) + more;
+        context.lineWidth = Math.max((widest * (k + 1)) / widths, 0.5 * pixel) + more;
         context.stroke(path);
       });
     }
     context.lineCap = "butt";
   }
 
+  traceForce(path, positions, one, other) {
+    const { count, radii } = this.recording;
+    const [x, y] = [positions[2 * one], positions[2 * one + 1]];
+    path.moveTo(x, y);
+    if (other < count) {
+      path.lineTo(positions[2 * other], positions[2 * other + 1]);
+      return;
+    }
+    const toDrum = (2 * Math.PI * (other - count)) / DIRECTIONS;
+    path.lineTo(x + radii[one] * Math.cos(toDrum), y + radii[one] * Math.sin(toDrum));
+  }
+
   // A radius on each bundle shows how it spins: black on light colors, white on dark ones.
-  drawMarks({ bundles }, shades) {
+  drawMarks({ positions, angles }, shades) {
     const { context, recording, pixel } = this;
     context.lineWidth = Math.min(1.5 * pixel, 0.25 * recording.greatestRadius);
     for (const light of [true, false]) {
       context.beginPath();
-      bundles.forEach(({ x, y, angle }, k) => {
-        if (shades[k].light !== light) return;
+      for (let k = 0; k < angles.length; k++) {
+        if (shades[k].light !== light) continue;
+        const [x, y] = [positions[2 * k], positions[2 * k + 1]];
         const length = 0.85 * recording.radii[k];
         context.moveTo(x, y);
-        context.lineTo(x + length * Math.cos(angle), y + length * Math.sin(angle));
-      });
+        context.lineTo(x + length * Math.cos(angles[k]), y + length * Math.sin(angles[k]));
+      }
       context.strokeStyle = light ? "#000" : "#fff";
       context.stroke();
     }
@@ -246,9 +261,9 @@ export class Stage {
   // A chosen bundle's ring, and its path up to now, as it is seen.
   drawChosen(scene, bundle, color) {
     const { context, recording, pixel, theme } = this;
-    const here = scene.bundles[bundle];
+    const [x, y] = [scene.positions[2 * bundle], scene.positions[2 * bundle + 1]];
     context.beginPath();
-    context.moveTo(here.x, here.y);
+    context.moveTo(x, y);
     for (let frame = recording.frameAt(scene.time); frame >= 0; frame--) {
       const { time, drumAngle } = recording.frames[frame];
       if (time < scene.time - this.path) break;
@@ -264,7 +279,7 @@ export class Stage {
       context.stroke();
     }
     context.beginPath();
-    context.arc(here.x, here.y, recording.radii[bundle] + pixel, 0, 2 * Math.PI);
+    context.arc(x, y, recording.radii[bundle] + pixel, 0, 2 * Math.PI);
     context.lineWidth = 3 * pixel;
     context.stroke();
   }
@@ -315,7 +330,8 @@ export class Stage {
     const [across, up] = [(left - x) / unit, (y - top) / unit];
     const [sine, cosine] = [Math.sin(-turn), Math.cos(-turn)];
     const [px, py] = [cosine * across - sine * up, sine * across + cosine * up];
-    const hit = scene.bundles.findIndex((bundle, k) => Math.hypot(bundle.x - px, bundle.y - py) <= this.recording.radii[k]);
+    const { positions } = scene;
+    const hit = this.recording.radii.findIndex((radius, k) => Math.hypot(positions[2 * k] - px, positions[2 * k + 1] - py) <= radius);
     return hit < 0 ? null : hit;
   }
 }

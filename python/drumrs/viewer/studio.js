@@ -3,45 +3,52 @@
 //
 //   const studio = new Studio(element, live);
 //   studio.destroy();
+//
+// `lacks` names the parts of studio.html that this one is to do without: there the simulation cannot do what they ask for.
 
 import { STYLE } from "./assets.js";
 import { readTheme } from "./canvas.js";
 import { Coloring, GRADIENT, MODES, modesOf } from "./color.js";
+import { Curves } from "./curves.js";
 import { canRecord, Film } from "./film.js";
-import { formatNumber } from "./format.js";
+import { counted, formatNumber } from "./format.js";
 import { layersOf, legendOf } from "./legend.js";
 import { Occupancy } from "./occupancy.js";
-import { Panel } from "./panel.js";
 import { unpack, unpackFrame, unpackPanel } from "./recording.js";
 import { Sliders } from "./sliders.js";
 import { Stage } from "./stage.js";
 import { STUDIO_MARKUP, STUDIO_STYLE } from "./studio_assets.js";
+import { Tiles } from "./tiles.js";
 
 // Bundles times pictures that are kept for paths.
 const MOST_KEPT = 500000;
+// How often texts that follow the pictures are written, at most [ms]: each has the page laid out anew.
+const WRITE_EVERY = 200;
 // Weight of a lone picture in the map of occupancy [s]: what comes after it soon outweighs it.
 const MOMENT = 1e-6;
 
 // What of a stage has a box, and stays as it is where another drum comes.
 const LAYERS = ["forces", "occupied", "corotating"];
 
+// What keys do: `name` is how they are written, `words` what they do, of several in a row the last one's; `part` what does the
+// same, without which there is no such key.
 const STUDIO_KEYS = {
-  " ": (studio) => studio.toggle(),
-  ArrowRight: (studio) => studio.ask("step"),
-  ArrowUp: (studio) => studio.sliders.turn(1),
-  ArrowDown: (studio) => studio.sliders.turn(-1),
-  r: (studio) => studio.ask("reset"),
-  c: (studio) => studio.nextMode(),
-  m: (studio) => studio.mark(),
-  f: (studio) => studio.show({ forces: !studio.stage.forces }),
-  o: (studio) => studio.show({ occupied: !studio.stage.occupied }),
-  n: (studio) => studio.choose([((studio.stage?.chosen.at(-1) ?? -1) + 1) % studio.recording.count]),
-  s: (studio) => studio.saveScreenshot(),
-  Escape: (studio) => studio.choose([]),
+  " ": { name: "space", words: "play or pause", act: (studio) => studio.toggle() },
+  ArrowRight: { name: "→", words: "one step", act: (studio) => studio.ask("step") },
+  r: { words: "reset", act: (studio) => studio.ask("reset") },
+  ArrowUp: { name: "↑", act: (studio) => studio.sliders.turn(1) },
+  ArrowDown: { name: "↓", words: "speed of the drum", act: (studio) => studio.sliders.turn(-1) },
+  c: { words: "color", act: (studio) => studio.nextMode() },
+  m: { words: "mark this time", act: (studio) => studio.mark() },
+  f: { words: "forces", part: "forces", act: (studio) => studio.show({ forces: !studio.stage.forces }) },
+  o: { words: "occupancy", act: (studio) => studio.show({ occupied: !studio.stage.occupied }) },
+  n: { words: "next bundle and its path", act: (studio) => studio.choose([((studio.stage?.chosen.at(-1) ?? -1) + 1) % studio.recording.count]) },
+  Escape: { name: "Esc", words: "no bundle", act: (studio) => studio.choose([]) },
+  s: { words: "screenshot", act: (studio) => studio.saveScreenshot() },
 };
 
 export class Studio {
-  constructor(element, live) {
+  constructor(element, live, lacks = []) {
     this.live = live;
     this.host = document.createElement("div");
     const root = this.host.attachShadow({ mode: "open" });
@@ -50,8 +57,11 @@ export class Studio {
     this.root = root;
     this.part = (name) => root.querySelector(`.${name}`);
     this.theme = {};
-    this.keys = STUDIO_KEYS;
+    for (const name of lacks) (this.part(name).closest("label") ?? this.part(name)).hidden = true;
+    this.keys = Object.fromEntries(Object.entries(STUDIO_KEYS).filter(([, { part }]) => !lacks.includes(part)));
+    this.listKeys();
     this.pictures = { count: 0, since: performance.now(), rate: 0 };
+    this.written = 0;
     // As the system asks for: with less motion the drum stands until the reader lets it turn.
     this.still = matchMedia("(prefers-reduced-motion: reduce)").matches;
     this.ended = new AbortController();
@@ -77,6 +87,8 @@ export class Studio {
     this.part("film").hidden = !canRecord();
     this.part("bar").style.background = GRADIENT;
     this.sliders = new Sliders(this.part("sliders"), live, signal);
+    this.tiles = new Tiles(this.part("tiles"));
+    this.curves = new Curves(this.part("panels"), this.theme, signal);
     root.addEventListener("keydown", (event) => this.press(event), { signal });
     live.addEventListener("open", () => this.connected(true), { signal });
     live.addEventListener("lost", () => this.connected(false), { signal });
@@ -85,6 +97,15 @@ export class Studio {
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.refresh(), { signal });
     this.sizes = new ResizeObserver(() => this.refresh());
     this.sizes.observe(this.part("stage"));
+  }
+
+  listKeys() {
+    const list = this.part("keys").lastElementChild;
+    const all = Object.entries(this.keys);
+    all.forEach(([key, { name = key, words }], k) => {
+      list.append(Object.assign(document.createElement("kbd"), { textContent: name }), words ? ` ${words}` : " ");
+      if (words) list.append(k < all.length - 1 ? ", " : ".");
+    });
   }
 
   destroy() {
@@ -146,10 +167,8 @@ export class Studio {
     this.part("preset").value = preset;
     this.part("trade").replaceChildren(...trades.map((trade) => new Option(trade, trade)));
     this.sliders.show(controls);
-    this.part("tiles").replaceChildren();
-    this.part("panels").replaceChildren();
-    this.panels = [];
-    this.axes = { begin: 0, end: 0, window: null, panels: [] };
+    this.measure({ window: [0, 0], tiles: [], panels: [], speedScale: this.recording.speedScale });
+    this.curves.blank();
     this.refresh();
   }
 
@@ -165,6 +184,8 @@ export class Studio {
     this.part("player").classList.toggle("playing", playing);
     this.part("play").setAttribute("aria-label", playing ? "Pause" : "Play");
     this.part("rate").value = rate ?? "";
+    if (trade !== this.trade) this.tiles.clear();
+    this.trade = trade;
     this.part("trade").value = trade;
     this.sliders.setSpeed(speed);
     if (speed !== this.speed) {
@@ -176,39 +197,21 @@ export class Studio {
   }
 
   measure({ window, tiles, panels, speedScale }) {
-    this.part("tiles").replaceChildren(...tiles.map(tileOf));
+    this.tiles.write(tiles);
     const [from, to] = window.map((time) => time.toFixed(2));
     this.part("since").textContent = tiles.length ? `Means over ${from} to ${to}\u00a0s, since the last change, ± standard error.` : "";
     this.recording.speedScale = speedScale;
-    Object.assign(this.axes, { end: window[1], window });
-    panels.map(unpackPanel).forEach((panel, k) => {
-      if (this.panels[k]) Object.assign(this.axes.panels[k], panel);
-      else this.addPanel(panel);
-      this.panels[k].plot.stale = true;
-      this.panels[k].draw(this.axes.end);
-    });
+    this.curves.take(panels.map(unpackPanel), window);
   }
 
-  addPanel(panel) {
-    this.axes.panels.push(panel);
-    const options = { onSeek: () => {}, signal: this.ended.signal, level: 2 };
-    this.panels.push(new Panel(this.part("panels"), panel, this.axes, this.theme, options));
-  }
-
-  // Keep a picture, and draw the newest with the screen's next one. Another one is made and comes meanwhile; it is not asked
-  // for while two wait to be drawn.
+  // Keep a picture, and draw it with the screen's next one. The one after it is asked for before that, so that it is made and
+  // comes meanwhile.
   receive(buffer) {
     this.keep(buffer);
-    if (this.next) {
-      this.held = true;
-      return;
-    }
-    this.live.ask({ do: "frame" });
-    this.next = requestAnimationFrame(() => {
+    this.next ??= requestAnimationFrame(() => {
       this.next = null;
-      if (this.held) this.live.ask({ do: "frame" });
-      this.held = false;
-      this.draw();
+      this.live.ask({ do: "frame" });
+      this.goOn();
     });
   }
 
@@ -250,22 +253,32 @@ export class Studio {
   // Read colors and font anew, and draw everything.
   refresh() {
     Object.assign(this.theme, readTheme(this.host));
-    for (const panel of this.panels ?? []) {
-      panel.plot.stale = true;
-      panel.draw(this.axes.end);
-    }
+    this.curves.spoil();
+    this.curves.draw();
     this.draw();
   }
 
   draw() {
+    if (!this.recording) return;
+    this.drawScene();
+    this.write();
+  }
+
+  // Draw a picture of many, and what else is due.
+  goOn() {
+    this.drawScene();
+    this.count();
+    if (!this.playing || performance.now() - this.written > WRITE_EVERY) this.write();
+    // While it plays, one of the curves with a picture, so that none comes late.
+    this.curves.draw(this.playing ? 1 : Infinity);
+  }
+
+  drawScene() {
     const { recording, stage, coloring } = this;
-    if (!recording) return;
     const scene = recording.scene(recording.end);
     scene.spin = this.spin ?? 0;
     stage.draw(scene, coloring.shades(scene));
     this.scene = scene;
-    this.count();
-    this.write();
   }
 
   count() {
@@ -278,13 +291,17 @@ export class Studio {
 
   write() {
     const { scene, stage, coloring, pictures, playing, factor } = this;
+    this.written = performance.now();
     const rpm = (scene.spin * 30) / Math.PI;
-    this.part("time").textContent = `${scene.time.toFixed(2)} s`;
-    this.part("turning").textContent = `${rpm.toFixed(1).replace("-", "−")} rpm, ${Math.abs(scene.drumAngle / 2 / Math.PI).toFixed(2)} turns`;
-    this.part("pace").textContent = playing ? `${formatNumber(factor)} simulated seconds in a second, ${pictures.rate.toFixed(0)} pictures.` : "Paused.";
-    const words = { ...legendOf(coloring, scene), layers: layersOf(stage) };
+    const texts = {
+      time: `${scene.time.toFixed(2)} s`,
+      turning: `${rpm.toFixed(1).replace("-", "−")} rpm, ${Math.abs(scene.drumAngle / 2 / Math.PI).toFixed(2)} turns`,
+      pace: playing ? `${formatNumber(factor)} simulated seconds in a second, ${counted(Math.round(pictures.rate), "picture")}.` : "Paused.",
+      ...legendOf(coloring, scene),
+      layers: layersOf(stage),
+    };
     // What stays is not written again: that alone would have the page laid out anew.
-    for (const [name, text] of Object.entries(words)) if (this.part(name).textContent !== text) this.part(name).textContent = text;
+    for (const [name, text] of Object.entries(texts)) if (this.part(name).textContent !== text) this.part(name).textContent = text;
     for (const name of LAYERS) this.part(name).checked = stage[name];
     if (this.part("mode").value !== coloring.name) this.part("mode").value = coloring.name;
   }
@@ -364,21 +381,11 @@ export class Studio {
 
   // Do what a key stands for, unless the control that has the focus needs the key itself.
   press(event) {
-    const act = this.keys[event.key];
+    const key = this.keys[event.key];
     const inside = this.root.activeElement;
     const own = inside?.matches("select, input[type=range], textarea") || (inside?.matches("button, input, summary") && event.key === " ");
-    if (!act || own || event.ctrlKey || event.metaKey || event.altKey) return;
+    if (!key || own || event.ctrlKey || event.metaKey || event.altKey) return;
     event.preventDefault();
-    act(this);
+    key.act(this);
   }
-}
-
-function tileOf({ name, text, unit, meaning }) {
-  const tile = Object.assign(document.createElement("div"), { className: "tile", title: meaning });
-  const words = name.replaceAll("_", " ");
-  const value = Object.assign(document.createElement("dd"), { textContent: `${text.replace("-", "−")} ` });
-  value.append(Object.assign(document.createElement("small"), { textContent: unit }));
-  tile.append(Object.assign(document.createElement("dt"), { textContent: words[0].toUpperCase() + words.slice(1) }), value);
-  tile.dataset.name = name;
-  return tile;
 }

@@ -18,7 +18,7 @@ pub struct Ids {
     pub other: [u32; LANES],
 }
 
-/// What four contacts keep: three lines of the cache for the linear law.
+/// What four contacts keep: three cache lines for the linear law.
 #[derive(Debug, Clone, Copy)]
 #[repr(C, align(64))]
 pub struct Block<L: ContactLaw> {
@@ -39,6 +39,42 @@ pub enum ListParameters<L: ContactLaw> {
     Same(Of<PairParameters<L>, f64>),
     /// By block.
     Each(Vec<Of<PairParameters<L>, [f64; LANES]>>),
+}
+
+/// The parameters of the blocks of a list, read in the same way whether all have the same or not.
+#[derive(Debug, Clone, Copy)]
+pub struct ByBlock<'a, L: ContactLaw> {
+    each: &'a [Of<PairParameters<L>, [f64; LANES]>],
+    /// From one block to the next: 0 where all have the same.
+    stride: usize,
+}
+
+impl<L: ContactLaw> ListParameters<L> {
+    /// The same for four lanes, where all contacts have the same.
+    #[inline(always)]
+    pub fn shared(&self) -> Option<Of<PairParameters<L>, [f64; LANES]>> {
+        match self {
+            Self::Same(same) => Some(PairParameters::<L>::map(same, |value| [value; LANES])),
+            Self::Each(_) => None,
+        }
+    }
+
+    /// By block; `shared` is what the method of that name returns.
+    #[inline(always)]
+    pub fn by_block<'a>(&'a self, shared: &'a Option<Of<PairParameters<L>, [f64; LANES]>>) -> ByBlock<'a, L> {
+        match self {
+            Self::Same(_) => ByBlock { each: shared.as_slice(), stride: 0 },
+            Self::Each(each) => ByBlock { each, stride: 1 },
+        }
+    }
+}
+
+impl<L: ContactLaw> ByBlock<'_, L> {
+    /// The laws of a block's contacts, and the radii of their bodies.
+    #[inline(always)]
+    pub fn of(&self, block: usize) -> Of<PairParameters<L>, F64x4> {
+        PairParameters::<L>::map(&self.each[block * self.stride], F64x4::new)
+    }
 }
 
 /// What a list has contacts with.
@@ -169,15 +205,6 @@ impl<L: ContactLaw> ContactList<L> {
             ListParameters::Each(blocks) => {
                 PairParameters::<L>::map(&blocks[index / LANES], |column: [f64; LANES]| column[index % LANES])
             }
-        }
-    }
-
-    /// The laws of a block's contacts, and the radii of their bodies.
-    #[inline(always)]
-    pub fn block_parameters(&self, block: usize) -> Of<PairParameters<L>, F64x4> {
-        match &self.parameters {
-            ListParameters::Same(same) => PairParameters::<L>::map(same, F64x4::splat),
-            ListParameters::Each(each) => PairParameters::<L>::map(&each[block], F64x4::new),
         }
     }
 

@@ -11,7 +11,7 @@ mod list;
 mod record;
 
 pub use event::{ContactEvent, ContactTally, EventKind, NO_BIN, Opening};
-pub use list::{Block, BlockTally, ContactList, Ids, ListKind, ListParameters};
+pub use list::{Block, BlockTally, ByBlock, ContactList, Ids, ListKind, ListParameters};
 pub use record::{ContactRecord, Geometry, PairParameters};
 
 /// What stands for a contact's place in the list of neighbors where that list does not hold it.

@@ -52,8 +52,10 @@ pub fn evaluate<L: ContactLaw, V: MotionView>(
         spots.push(Spot::of(particle, feature, motion, inputs).unwrap_or_default());
     }
     let speed = F64x4::splat(inputs.angular_velocity);
+    let shared = list.parameters.shared();
+    let by_block = list.parameters.by_block(&shared);
     for (index, spots) in spots.chunks(LANES).enumerate() {
-        let parameters = list.block_parameters(index);
+        let parameters = by_block.of(index);
         let (block, ids) = (&mut list.blocks[index], &list.ids[index]);
         let records = wall_records::<L>(list.tallies.get_mut(index), kept, inputs);
         let position = vectors(|lane| motion.position(ids.own[lane]));
@@ -64,11 +66,12 @@ pub fn evaluate<L: ContactLaw, V: MotionView>(
         let point = position.plus(normal.scaled(arm));
         let surface_rates = [speed * point.cross(normal), speed * point.dot(normal)];
         let geometry = ContactGeometry { normal, overlap, arm, surface_rates };
-        let forces = advance::<L, V, true>(
+        let forces = advance::<L, V>(
             block,
             ids,
             &geometry,
-            &parameters,
+            &parameters.0,
+            parameters.1.radius,
             motion,
             inputs,
             sums,

@@ -52,10 +52,11 @@ pub fn evaluate<L: ContactLaw, V: MotionView>(
                 let own = PairParameters::<L>::map(same, F64x4::splat);
                 move |_| own
             };
-            if lists.other_moments.is_empty() {
-                run::<L, V, _, false, false>(lists, parameters, unit, step);
-            } else {
+            // Equal bodies have one moment unless the law rolls: code for the other case would never run.
+            if L::ROLLS {
                 run::<L, V, _, true, false>(lists, parameters, unit, step);
+            } else {
+                run::<L, V, _, false, false>(lists, parameters, unit, step);
             }
         }
         ListParameters::Each(each) => {
@@ -250,9 +251,12 @@ pub fn evaluate_block<L: ContactLaw>(
     let history = L::History::map(&block.history, F64x4::new);
     let contact = Kinematics::new(motion, &last, time.map(F64x4::splat));
     let (response, history) = L::respond(law, &contact, &history);
-    let (push, pull) = (response.normal_force, response.tangential_force);
-    let force = Vec2x4 { x: normal.x * push + normal.y * pull, y: normal.y * push - normal.x * pull };
-    let moment = if L::ROLLS { arm * pull + response.rolling_moment } else { arm * pull };
+    let (along_normal, tangential) = (response.normal_force, response.tangential_force);
+    let force = Vec2x4 {
+        x: normal.x * along_normal + normal.y * tangential,
+        y: normal.y * along_normal - normal.x * tangential,
+    };
+    let moment = if L::ROLLS { arm * tangential + response.rolling_moment } else { arm * tangential };
     totals.add_flows(L::FLOWS, &response.flows);
     if L::IS_RECORDED
         && let Some(tally) = records.tally
@@ -265,7 +269,7 @@ pub fn evaluate_block<L: ContactLaw>(
         // The last force as the normal and the tangent of now see it.
         let (x, y) = (last.force_x, last.force_y);
         let last_force = [x * normal.x + y * normal.y, x * normal.y - y * normal.x];
-        tallies::add_gross_work(sums, &GrossWork::of_step(&contact, last_force, [push, pull]));
+        tallies::add_gross_work(sums, &GrossWork::of_step(&contact, last_force, [along_normal, tangential]));
     }
     block.state = ContactState {
         overlap: contact.overlap.to_array(),
@@ -277,7 +281,7 @@ pub fn evaluate_block<L: ContactLaw>(
     block.history = L::History::map(&history, F64x4::to_array);
     BlockForces {
         force,
-        tangential: pull,
+        tangential,
         rolling_moment: response.rolling_moment,
         moment,
         overlap: contact.overlap,

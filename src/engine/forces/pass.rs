@@ -132,8 +132,9 @@ impl<L: ContactLaw> Pass<L> {
     }
 
     /// Whether there is code of its own for a load of one chunk, whose contacts need not ask whether a particle is another chunk's.
-    /// Asking costs 1 to 5 %. Laws with terms do without: there are many, and each takes its share of the program's size.
-    const KNOWS_ONE_CHUNK: bool = !L::HAS_TERMS;
+    /// Asking costs 1 to 5 %. Laws with terms do without, and clipped ones of which more is recorded: there are many, and each takes
+    /// its share of the program's size.
+    const KNOWS_ONE_CHUNK: bool = !L::HAS_TERMS && !(L::CLIPS && L::IS_RECORDED);
 
     /// Chunk after chunk, and each is moved on while it is in the cache.
     fn evaluate_in_turn<const N: usize, const M: usize, const H: usize, const ONE_CHUNK: bool>(

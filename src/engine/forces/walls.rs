@@ -6,7 +6,9 @@ use super::pairs::{BlockForces, evaluate_block};
 use super::pass::{ChunkStep, ChunkSums, Scratch};
 use super::tallies::BlockRecords;
 use super::{StepInputs, SurfaceLoad, Totals};
-use crate::engine::contacts::{Block, BlockTally, ContactList, Ids, ListParameters, PairParameters};
+use crate::engine::contacts::{
+    Block, BlockTally, ContactList, Geometry, Ids, ListParameters, PairParameters,
+};
 use crate::engine::motion::{MotionView, at_offset};
 use crate::engine::pair_list::Neighbors;
 use crate::engine::simd::{F64x4, LANES, Vec2x4, lanes, sum, vectors};
@@ -40,19 +42,27 @@ pub fn evaluate_rim<L: ContactLaw, V: MotionView>(
     if !step.open(list, neighbors) {
         return SurfaceLoad::default();
     }
-    let mut totals = step.totals.open();
     let ContactList { ids, blocks, tallies, parameters, .. } = list;
-    let (load, unit) = match parameters {
-        ListParameters::Same(same) => {
-            let own = PairParameters::<L>::map(same, F64x4::splat);
-            (rim_pass::<L, V, false>(ids, blocks, tallies, |_| own, step, &mut totals), same.1.radius)
+    let load = match parameters {
+        // The plain law has code of its own for equal bodies: 1 % fewer instructions of a step. Others do without: there are many,
+        // and each takes its share of the program's size.
+        ListParameters::Same(same) if !L::HAS_TERMS && !L::IS_RECORDED => {
+            let (law, radii) = PairParameters::<L>::map(same, F64x4::splat);
+            rim_pass::<L, V>(ids, blocks, tallies, |_| (law, radii, F64x4::ONE), same.1.radius, step)
         }
-        ListParameters::Each(each) => {
-            let of = |block: usize| PairParameters::<L>::map(&each[block], F64x4::new);
-            (rim_pass::<L, V, true>(ids, blocks, tallies, of, step, &mut totals), 1.0)
+        parameters => {
+            let shared = parameters.shared();
+            let by_block = parameters.by_block(&shared);
+            // Depths of equal bodies become ratios at the end.
+            let are_equal = F64x4::splat(f64::from(u8::from(shared.is_some()))).exceeds(F64x4::ZERO);
+            let parameters = |block| {
+                let (law, radii) = by_block.of(block);
+                (law, radii, F64x4::select(are_equal, F64x4::ONE, radii.radius))
+            };
+            let unit = shared.map_or(1.0, |(_, radii)| radii.radius[0]);
+            rim_pass::<L, V>(ids, blocks, tallies, parameters, unit, step)
         }
     };
-    step.totals.close(&totals, unit);
     step.close(list, neighbors);
     load
 }
@@ -72,16 +82,18 @@ fn find_touching_rim<V: MotionView>(neighbors: &mut Neighbors, step: &mut ChunkS
     });
 }
 
-/// One pass over the contacts with the rim.
+/// One pass over the contacts with the rim. By block, `parameters` tells law, radii, and the unit of depths, which are multiplied
+/// by `1 / unit` at the end.
 #[inline(always)]
-fn rim_pass<L: ContactLaw, V: MotionView, const MIXED: bool>(
+fn rim_pass<L: ContactLaw, V: MotionView>(
     ids: &[Ids],
     blocks: &mut [Block<L>],
     tallies: &mut [BlockTally],
-    parameters: impl Fn(usize) -> Of<PairParameters<L>, F64x4>,
+    parameters: impl Fn(usize) -> (Of<L::Parameters, F64x4>, Geometry<F64x4>, F64x4),
+    unit: f64,
     step: &mut ChunkStep<V>,
-    totals: &mut Totals<F64x4>,
 ) -> SurfaceLoad {
+    let mut totals = step.totals.open();
     let ChunkStep { motion, inputs, sums, totals: kept, scratch: Scratch { ended, .. }, .. } = step;
     let motion = *motion;
     let Some(rim) = inputs.drum.radius() else { return SurfaceLoad::default() };
@@ -89,11 +101,11 @@ fn rim_pass<L: ContactLaw, V: MotionView, const MIXED: bool>(
     let (mut moment, mut force) = (zero, Vec2x4::default());
     let (rim, speed) = (F64x4::splat(rim), F64x4::splat(inputs.angular_velocity));
     for (index, (block, ids)) in blocks.iter_mut().zip(ids).enumerate() {
-        let parameters = parameters(index);
+        let (law, radii, depth_unit) = parameters(index);
         let position = vectors(|lane| motion.position(ids.own[lane]));
         let distance = position.dot(position).sqrt();
-        let overlap = distance - (rim - parameters.1.radius);
-        let arm = parameters.1.radius - overlap.larger(zero);
+        let overlap = distance - (rim - radii.radius);
+        let arm = radii.radius - overlap.larger(zero);
         let geometry = ContactGeometry {
             normal: position.scaled(F64x4::ONE / distance),
             overlap,
@@ -102,12 +114,23 @@ fn rim_pass<L: ContactLaw, V: MotionView, const MIXED: bool>(
             surface_rates: [zero, speed * (distance + arm)],
         };
         let records = wall_records::<L>(tallies.get_mut(index), kept, inputs);
-        let step =
-            advance::<L, V, MIXED>(block, ids, &geometry, &parameters, motion, inputs, sums, totals, records);
+        let step = advance::<L, V>(
+            block,
+            ids,
+            &geometry,
+            &law,
+            depth_unit,
+            motion,
+            inputs,
+            sums,
+            &mut totals,
+            records,
+        );
         moment += step.moment - position.cross(step.force);
         force = force.plus(step.force);
         ended.note(index, step.touching);
     }
+    kept.close(&totals, unit);
     let total = |lanes: F64x4| sum(lanes.to_array());
     SurfaceLoad { force: Vec2::new(-total(force.x), -total(force.y)), moment: total(moment) }
 }
@@ -127,15 +150,16 @@ pub fn wall_records<'a, L: ContactLaw>(
     }
 }
 
-/// One step of a block: relative motion, law, work on the particles, forces. With `MIXED`, radii differ, and depths are
-/// ratios. Returns what it does to the drum.
+/// One step of a block: relative motion, law, work on the particles, forces. Depths are in units of `unit`. Returns what it does to
+/// the drum.
 #[allow(clippy::too_many_arguments)]
 #[inline(always)]
-pub fn advance<L: ContactLaw, V: MotionView, const MIXED: bool>(
+pub fn advance<L: ContactLaw, V: MotionView>(
     block: &mut Block<L>,
     ids: &Ids,
     geometry: &ContactGeometry,
-    (law, radii): &Of<PairParameters<L>, F64x4>,
+    law: &Of<L::Parameters, F64x4>,
+    unit: F64x4,
     view: V,
     inputs: &StepInputs,
     sums: &mut ChunkSums<V>,
@@ -155,8 +179,7 @@ pub fn advance<L: ContactLaw, V: MotionView, const MIXED: bool>(
     let both = Vec2x4 { x: step.force.x + step.last.force_x, y: step.force.y + step.last.force_y };
     // What the drum does is charged to its surfaces: this is the work on the particles alone.
     totals.power -= (step.moment + step.last.moment) * spin - both.dot(velocity);
-    let depth = if MIXED { step.overlap / radii.radius } else { step.overlap };
-    totals.deepest = depth.larger(totals.deepest);
+    totals.deepest = (step.overlap / unit).larger(totals.deepest);
     let moments = step.moment.to_array();
     let forces: [f64x2; LANES] = step.force.to_array();
     for lane in 0..LANES {

@@ -72,20 +72,20 @@ impl<'a> MotionArrays<'a> {
 /// it. The textbook compares every one; here some 30 instructions of 290 for a block of contacts are saved.
 ///
 /// `N` is a power of two: the mask of offsets is N − 1. Arrays of vectors are `M` numbers long and arrays of scalars `H`, eleven
-/// lines of the cache more than the masks reach. Without these a particle would be at the same place of a memory page in every
+/// cache lines more than the masks reach. Without these a particle would be at the same place of a memory page in every
 /// array, and a CPU that sees a load follow a store to such an address waits for the store. The arrays are longer than most
 /// loads: memory that is not used is not touched.
 #[derive(Debug, Clone)]
 pub struct FlatArrays<const N: usize, const M: usize, const H: usize> {
     /// Positions, velocities, forces; angles, angular velocities, torques.
     numbers: Box<[f64]>,
-    /// Where they begin: at a line of the cache, so that four numbers are never on two of them.
+    /// Where they begin: at a cache line, so that four numbers are never on two of them.
     start: usize,
 }
 
-/// Numbers of an array that no mask reaches: eleven lines of the cache.
+/// Numbers of an array that no mask reaches: eleven cache lines.
 const SKEW: usize = 11 * LINE;
-/// Numbers in a line of the cache.
+/// Numbers in a cache line.
 const LINE: usize = 8;
 
 /// Arrays that offsets of 16 bits reach: the cheapest masks there are.

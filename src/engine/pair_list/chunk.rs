@@ -95,8 +95,8 @@ impl ChunkNeighbors {
             let (particle, feature) = self.features.pairs()[place];
             let ([x, y], [u, v]) = (motion.position(offset(particle)), motion.velocity(offset(particle)));
             let (position, velocity) = (Vec2::new(x, y), Vec2::new(u, v));
-            let seen = velocity - perpendicular(position) * inputs.angular_velocity;
-            let displacement = seen.norm() * time + 0.5 * self.horizon.budget();
+            let relative = velocity - perpendicular(position) * inputs.angular_velocity;
+            let displacement = relative.norm() * time + 0.5 * self.horizon.budget();
             let distance = inputs.drum.distance_to(feature, inputs.rotation.apply_inverse(position));
             if distance * ROUND_OFF <= inputs.bodies.radius_of(particle) + displacement {
                 self.features.near.push((particle, feature), place as u32);

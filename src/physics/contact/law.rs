@@ -55,6 +55,8 @@ pub trait ContactLaw: Copy + Debug + Default + PartialEq + Send + Sync + 'static
     const ROLLS: bool;
     /// Whether terms act beside the base law.
     const HAS_TERMS: bool = false;
+    /// Whether it looks at a least normal force; asked of laws without terms only.
+    const CLIPS: bool = false;
     /// Whether more is recorded of its contacts than the ledger needs.
     const IS_RECORDED: bool = false;
 

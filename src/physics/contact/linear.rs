@@ -47,6 +47,7 @@ impl<const CLIPS: bool> ContactLaw for Linear<CLIPS> {
     type History = SpringHistory;
     const FLOWS: Flows<bool> = Flows { dissipated_normal: true, dissipated_sliding: true, ..Flows::NONE };
     const ROLLS: bool = false;
+    const CLIPS: bool = CLIPS;
 
     fn between(parameters: &ContactParameters, bodies: BodyPair) -> LinearLaw<f64> {
         let tangential_stiffness = parameters.stiffness_ratio * parameters.normal_stiffness;

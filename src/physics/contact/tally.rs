@@ -32,7 +32,7 @@ impl<S: Scalar> Exertion<S> {
     #[inline(always)]
     pub fn of_wall_step(contact: &Kinematics<S>, response: &Response<S>) -> Self {
         let zero = S::zero();
-        let (push, pull) = (response.normal_force, response.tangential_force);
+        let (normal_force, tangential_force) = (response.normal_force, response.tangential_force);
         let pressing = response.pressing_force.abs();
         let slides_freely = !response.friction_limit.exceeds(zero);
         let limit = S::select(slides_freely, S::splat(1.0), response.friction_limit);
@@ -51,10 +51,10 @@ impl<S: Scalar> Exertion<S> {
         // |v| f(γ): zero with the speed.
         let approaching = contact.touching & into.exceeds(zero);
         let cut = (cut / S::select(approaching, speed, S::splat(1.0))).within(approaching);
-        let force = (push * push + pull * pull).sqrt();
+        let force = (normal_force * normal_force + tangential_force * tangential_force).sqrt();
         Self {
-            greatest_force: push,
-            normal_impulse: push * time_step,
+            greatest_force: normal_force,
+            normal_impulse: normal_force * time_step,
             normal_force_slip: S::select(slides_freely, free_slip, slip_work),
             finnie: force * cut * time_step * S::splat(2.0),
         }

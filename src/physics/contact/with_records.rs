@@ -16,6 +16,7 @@ impl<L: ContactLaw> ContactLaw for WithRecords<L> {
     const FLOWS: Flows<bool> = L::FLOWS;
     const ROLLS: bool = L::ROLLS;
     const HAS_TERMS: bool = L::HAS_TERMS;
+    const CLIPS: bool = L::CLIPS;
     const IS_RECORDED: bool = true;
 
     fn between(parameters: &ContactParameters, bodies: BodyPair) -> Of<Self::Parameters, f64> {

@@ -10,6 +10,7 @@ use super::graph::{Graph, GraphEdge, UnionFind};
 use super::polygon::length;
 use super::segment::{Segment, SegmentRegion};
 use crate::error::Error;
+use crate::physics::sorting::sort;
 use crate::physics::vector::{Vec2, bounds, cross};
 
 /// Points coincide within this fraction of the extent of all walls …
@@ -112,7 +113,7 @@ impl Drawing {
             (start.inf(&end), start.sup(&end).add_scalar(2.0 * tolerance))
         };
         let mut boxes: Vec<_> = self.pieces.iter().map(extent).enumerate().collect();
-        boxes.sort_by(|(_, (a, _)), (_, (b, _))| a[axis].total_cmp(&b[axis]));
+        sort(&mut boxes, &|(_, (a, _)), (_, (b, _))| a[axis].total_cmp(&b[axis]));
         let across = 1 - axis;
         for (rank, (i, (low, high))) in boxes.iter().enumerate() {
             for (j, (other_low, other_high)) in &boxes[rank + 1..] {
@@ -188,7 +189,7 @@ impl Drawing {
     fn merge_cuts(&mut self, piece: usize, tolerance: f64) {
         let Self { pieces, same, .. } = self;
         let Piece { cuts, ends, length, .. } = &mut pieces[piece];
-        cuts.sort_by(|a, b| a.fraction.total_cmp(&b.fraction));
+        sort(cuts, &|a, b| a.fraction.total_cmp(&b.fraction));
         let close = (tolerance / *length).min(OF_SEGMENT);
         let mut previous = Cut { fraction: 0.0, point: ends[0] };
         for &cut in cuts.iter().chain([&Cut { fraction: 1.0, point: ends[1] }]) {

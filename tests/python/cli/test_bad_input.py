@@ -214,6 +214,30 @@ def test_folder_that_cannot_be_written(drum, tmp_path):
         assert complaint.count("\n") == 1
 
 
+@pytest.mark.parametrize(
+    ("words", "names"),
+    [
+        (["run", "--set", "run.duration=0.02", "--out", "{}"], "--out is '{}', but must be"),
+        (["run", "{}.toml", "--out", "out"], "'{}.toml' cannot be read"),
+        (["sweep", "{}.toml", "--out", "out"], "'{}.toml' cannot be read"),
+        (["sweep", "sweep.toml", "--out", "{}"], "--out is '{}', but must be"),
+        (["run", "--resume", "{}"], "cannot use the checkpoint '{}"),
+        (["status", "{}"], "'{}'"),
+        (["view", "{}"], "'{}' cannot be the name of a file: File name too long"),
+        (["export", "{}", "--to", "csv"], "'{}"),
+    ],
+)
+def test_a_name_that_is_too_long_is_named_in_a_sentence(drum, tmp_path, monkeypatch, words, names):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "sweep.toml").write_text("[axes]\nload.fill = [0.05]\n")
+    name = 260 * "a"
+    status, printed, complaint = drum(*(word.format(name) for word in words))
+    assert (status, printed, complaint.count("\n")) == (2, "", 1)
+    assert names.format(name) in complaint
+    assert "Errno" not in complaint
+    assert [path.name for path in tmp_path.iterdir()] == ["sweep.toml"]
+
+
 @pytest.mark.parametrize("words", [["--out", ""], ["--out="], ["--resume", ""]])
 def test_an_empty_path_is_not_the_current_folder(drum, tmp_path, monkeypatch, words):
     monkeypatch.chdir(tmp_path)

@@ -27,12 +27,38 @@ def run(*words: str, **environment: str) -> subprocess.CompletedProcess[bytes]:
     )
 
 
+@pytest.fixture(scope="module")
+def in_utf8():
+    """Return what goes to a file where the encoding is UTF-8."""
+    return run("quantities", "ratio", PYTHONIOENCODING="utf-8").stdout
+
+
 @pytest.mark.parametrize("encoding", ["ascii", "cp1252", "cp437"])
-def test_what_goes_to_a_file_is_utf8(encoding):
+def test_what_goes_to_a_file_is_utf8(encoding, in_utf8):
     told = run("quantities", "ratio", PYTHONIOENCODING=encoding)
     assert (told.returncode, told.stderr) == (0, b"")
-    assert told.stdout == run("quantities", "ratio", PYTHONIOENCODING="utf-8").stdout
+    assert told.stdout == in_utf8
     assert "Δ" in told.stdout.decode("utf-8")
+
+
+@pytest.mark.parametrize("encoding", ["ascii", "cp1252", "cp437"])
+def test_a_case_file_written_in_any_locale_is_the_case(encoding, tmp_path):
+    """The whole file or none: what is cut at a letter that the locale lacks would run as another case."""
+    told = run("config", PYTHONIOENCODING=encoding, LC_ALL="C", PYTHONUTF8="0")
+    assert (told.returncode, told.stderr) == (0, b"")
+    (tmp_path / "case.toml").write_bytes(told.stdout)
+    assert drumrs.Config.read(tmp_path / "case.toml") == drumrs.Config()
+    assert "π" in told.stdout.decode("utf-8")
+
+
+@pytest.mark.parametrize(
+    "words", [["--help"], ["verify", "--help"], ["reproduce", "--help"], ["verify", "bouncing"]]
+)
+def test_help_and_tables_are_shown_in_any_locale(words):
+    told = run(*words, PYTHONIOENCODING="ascii", LC_ALL="C", PYTHONUTF8="0")
+    assert b"Traceback" not in told.stderr
+    assert b"codec" not in told.stderr
+    assert told.returncode == run(*words).returncode
 
 
 def test_a_terminal_gets_what_it_can_show():
@@ -57,6 +83,16 @@ def test_whoever_reads_the_beginning_hears_no_complaint():
     assert done.stderr == b""
     assert done.returncode in {0, 1}
     assert done.stdout.count(b"\n") == 1
+
+
+def test_whoever_reads_nothing_hears_no_complaint():
+    reading, writing = os.pipe()
+    os.close(reading)
+    environment = {**ENVIRONMENT, "PYTHONUNBUFFERED": "1"}
+    words = [*DRUMRS, "info"]
+    done = subprocess.run(words, stdout=writing, stderr=subprocess.PIPE, env=environment, check=False)
+    os.close(writing)
+    assert (done.returncode, done.stderr) == (1, b"")
 
 
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "utf-16-le", "latin-1"])
@@ -173,6 +209,47 @@ def test_jobs_are_the_cores_that_the_process_may_use():
         [sys.executable, "-c", code], capture_output=True, text=True, env=ENVIRONMENT, check=True
     )
     assert told.stdout == "1\n"
+
+
+def cpu_group() -> Path | None:
+    """A control group of one core, where this process may make one; the caller removes it."""
+    for root, limits in (
+        (Path("/sys/fs/cgroup"), {"cpu.max": "100000 100000"}),
+        (Path("/sys/fs/cgroup/cpu"), {"cpu.cfs_period_us": "100000", "cpu.cfs_quota_us": "100000"}),
+    ):
+        own = root / f"drumrs-{os.getpid()}"
+        if not (root / "cgroup.procs").exists():
+            continue
+        try:
+            own.mkdir()
+        except OSError:
+            continue
+        try:
+            for name, limit in limits.items():
+                (own / name).write_text(limit)
+        except OSError:
+            own.rmdir()
+            continue
+        return own
+    return None
+
+
+def test_jobs_are_what_the_quota_of_a_container_leaves():
+    group = cpu_group()
+    if group is None:
+        pytest.skip("this process may not make control groups")
+    try:
+        first = f"import os, drumrs; open('{group}/cgroup.procs', 'w').write(str(os.getpid()))"
+        code = f"{first}; print(drumrs.effective_jobs(), len(os.sched_getaffinity(0)))"
+        told = subprocess.run(
+            [sys.executable, "-c", code], capture_output=True, text=True, env=ENVIRONMENT, check=True
+        )
+        jobs, cores = map(int, told.stdout.split())
+        assert jobs == 1
+        if cores == 1:
+            pytest.skip("one core is all that there is")
+    finally:
+        group.rmdir()
 
 
 def test_a_file_that_another_program_holds_is_tried_again(tmp_path, monkeypatch):

@@ -44,7 +44,7 @@ def test_leaving_one_out_is_what_the_others_say():
     own.fit(x[kept], whole.process.y_train_[kept])
     mean, error = own.predict(x[[7]], return_std=True)
     stray = (whole.process.y_train_[7] - mean[0]) / np.hypot(error[0], np.sqrt(whole.process.alpha[7]))
-    assert whole.strays[7] == pytest.approx(stray, rel=1e-6)
+    assert whole.loo_residuals[7] == pytest.approx(stray, rel=1e-6)
 
 
 def test_a_point_taken_for_known_is_met_and_leaves_the_others_alone():

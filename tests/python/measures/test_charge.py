@@ -7,7 +7,9 @@ import pytest
 
 from drumrs import measures
 from drumrs.errors import ConfigError
-from drumrs.measures.room import around
+from drumrs.measures.clearance import clearance
+from drumrs.measures.frame_window import FrameWindow
+from drumrs.measures.toe import toe_and_shoulder
 from drumrs.verification import made_up
 
 WINDOW = (0.0, 1.0)
@@ -37,6 +39,25 @@ def test_the_surface_is_a_radius_above_the_bed_at_its_slope():
     assert (surface.points() @ up)[inner] == pytest.approx(-np.cos(1.4) + 0.03, abs=0.015)
 
 
+def test_few_frames_do_not_draw_the_ends_of_the_charge_in():
+    """Discs at random at a shell that thins out over 40°: half of the filling is in the middle, seen often or not."""
+    rng = np.random.default_rng(1)
+
+    def seen(count):
+        angles = rng.uniform(-120.0, 60.0, (count, 1000))
+        kept = rng.uniform(0.0, 40.0, angles.shape) > angles - 20.0
+        # As many discs in each frame; those that are not at the shell lie deeper, about the same middle.
+        reach, angle = np.where(kept, 0.97, 0.4), np.radians(np.where(kept, angles, -40.0))
+        positions = np.stack([reach * np.cos(angle), reach * np.sin(angle)], axis=-1)[:, :30]
+        found = toe_and_shoulder(FrameWindow(positions, np.arange(count), np.arange(count)), 0.1, 1.0)
+        return np.degrees([found.toe, found.shoulder])
+
+    often = seen(3000)
+    assert often == pytest.approx([240.0, 40.0], abs=2.0)
+    few = np.array([seen(30) for _ in range(40)])
+    assert few.mean(axis=0) == pytest.approx(often, abs=2.5)
+
+
 def test_area_of_baffles_is_taken_out():
     # A baffle covers the shell about the bottom, and turns with the drum.
     baffle = np.array([[-0.2, -1.0], [0.2, -1.0], [0.2, -0.8], [-0.2, -0.8]])
@@ -62,10 +83,10 @@ def test_occupancy_knows_its_error():
 def test_room_counts_the_size_of_each_disc_and_baffles():
     frames = made_up.frames([[[0.0, 0.0], [0.5, 0.0]]] * 2, [0.2, 0.05], drum_angles=[0.0, np.pi / 2.0])
     points = np.array([[0.35, 0.0], [0.0, 0.9]])
-    assert around(frames, 0, points) == pytest.approx([0.1, 0.7])
+    assert clearance(frames, 0, points) == pytest.approx([0.1, 0.7])
     baffled = replace(frames, baffles=(np.array([[0.8, 0.1], [1.0, 0.1], [1.0, 0.2], [0.8, 0.2]]),))
     # A quarter of a turn later the baffle is at the top, 0.1 to the left.
-    assert around(baffled, 1, points) == pytest.approx([0.1, 0.1])
+    assert clearance(baffled, 1, points) == pytest.approx([0.1, 0.1])
 
 
 def test_a_drum_without_a_rim_is_refused():

@@ -11,8 +11,8 @@ import drumrs
 from drumrs.analysis import rate_with_error
 from drumrs.measures import flights, hogg_fuerstenau, morrell
 from drumrs.reports import PAGES, catalog, content, power
-from drumrs.reports.material import Material
 from drumrs.reports.page import render
+from drumrs.reports.run_data import RunData
 
 RECORDS = ("contacts", "wall_profile", "ledger_split", "discs")
 SHORT = {"run.duration": 1.2, "run.window": (0.4, 1.2), "run.frame_every": 0.02}
@@ -47,7 +47,18 @@ def program() -> drumrs.Result:
 @pytest.fixture(scope="module")
 def pages(recorded) -> dict[str, str]:
     """Return each page of the run of which all is recorded."""
-    return {name: render(recorded, name) for name in PAGES}
+    return {name: rendered(recorded, name) for name in PAGES}
+
+
+_RENDERED: dict[tuple[int, str], str] = {}
+
+
+def rendered(result: drumrs.Result, page: str) -> str:
+    """Return a page of one of the runs above, made once."""
+    key = (id(result), page)
+    if key not in _RENDERED:
+        _RENDERED[key] = render(result, page)
+    return _RENDERED[key]
 
 
 def words(html: str) -> str:
@@ -80,7 +91,7 @@ def test_a_page_lacks_nothing_where_all_is_recorded(name, pages):
 
 
 def test_a_page_says_which_record_to_add_and_is_whole_without(plain):
-    html = render(plain, "research")
+    html = rendered(plain, "research")
     lacking = re.findall(r"not shown: (.*?)\.</p>", unescape(html), re.DOTALL)
     for record in RECORDS:
         assert any(f"add '{record}' to it and run again" in one for one in lacking)
@@ -112,20 +123,20 @@ def test_power_is_that_of_the_summary(recorded, pages):
     summary = recorded.summary
     shown = content.value(summary.drum_specific_power, summary.drum_specific_power_error)
     assert f"drum specific power [W/kg] {shown} power of the drum" in section(pages["washer"], "power")
-    material = Material(recorded)
-    knocking = rate_with_error(recorded.series, "dissipated_normal", material.window)
+    data = RunData(recorded)
+    knocking = rate_with_error(recorded.series, "dissipated_normal", data.window)
     assert knocking.value == pytest.approx(summary.dissipated_normal_power)
-    told = content.value(knocking.value / material.mass, knocking.error and knocking.error / material.mass)
+    told = content.value(knocking.value / data.mass, knocking.error and knocking.error / data.mass)
     assert f"all {told} " in section(pages["washer"], "handling")
 
 
 def test_models_are_asked_for_this_mill(recorded, pages):
-    config, material = recorded.config, Material(recorded)
+    config, data = recorded.config, RunData(recorded)
     radius, speed = config.drum.diameter / 2.0, config.derived.angular_velocity
     filling = config.fill / 0.82
     model = morrell.charge(filling, speed * math.sqrt(radius / 9.81))
-    flat = hogg_fuerstenau.arm(filling, material.charge["surface_slope"].value)
-    scale = material.mass * 9.81 * radius * speed
+    flat = hogg_fuerstenau.arm(filling, data.charge["surface_slope"].value)
+    scale = data.mass * 9.81 * radius * speed
     told = section(pages["mill"], "models")
     powers = " ".join(content.value(arm * scale / 1e3) for arm in (model.arm, flat))
     assert f" {powers} arm" in told
@@ -137,7 +148,7 @@ def test_models_are_asked_for_this_mill(recorded, pages):
 
 
 def test_models_of_mills_need_one_speed(program):
-    told = section(render(program, "mill"), "models")
+    told = section(rendered(program, "mill"), "models")
     assert (
         "not shown: rotation lets the drum rest or change its speed, but models of mills are of one speed."
         in told
@@ -145,7 +156,7 @@ def test_models_of_mills_need_one_speed(program):
 
 
 def test_the_charge_is_told_for_either_way(program):
-    told = section(render(program, "mill"), "shape")
+    told = section(rendered(program, "mill"), "shape")
     assert told.count("toe angle") == 2
     assert "The same while the drum turns the other way, t = " in told
 
@@ -167,16 +178,16 @@ def test_energy_is_split_by_kind_of_part(pages):
 
 
 def test_motion_is_measured_at_one_speed(program, plain):
-    assert Material(plain).span == (0.4, 1.2)
-    assert Material(program).span == pytest.approx((0.45, 0.85))
-    html = render(program, "washer")
+    assert RunData(plain).span == (0.4, 1.2)
+    assert RunData(program).span == pytest.approx((0.45, 0.85))
+    html = rendered(program, "washer")
     assert "motion is measured over its longest stretch at one speed, t = 0.45–0.85 s" in words(html)
     falls = flights(program.frames, (0.45, 0.85)).filter("is_fall").height
     assert f"energy of {falls} falls, by the angle" in html
 
 
 def test_phases_have_a_row_each(program):
-    rows = re.search(r'<section id="phases">(.*?)</section>', render(program, "washer"), re.DOTALL)[1]
+    rows = re.search(r'<section id="phases">(.*?)</section>', rendered(program, "washer"), re.DOTALL)[1]
     names = re.findall(r'<th scope="row">(\w+ \d)</th>', rows)
     assert names == ["start 1", "tumble 1", "rest 1", "back 1"]
     back = drumrs.phases(program).row(3, named=True)
@@ -185,10 +196,10 @@ def test_phases_have_a_row_each(program):
 
 
 def test_nothing_slips_in_a_drum_that_rests(program):
-    material = Material(program)
-    assert power._in_phase(material, (0.45, 0.85))[2] != "–"
+    data = RunData(program)
+    assert power._in_phase(data, (0.45, 0.85))[2] != "–"
     # It turns at the beginning, then rests.
-    assert power._in_phase(material, (0.7, 1.0))[2] == "–"
+    assert power._in_phase(data, (0.7, 1.0))[2] == "–"
 
 
 def test_a_drum_without_a_rim_still_has_a_page():
@@ -203,7 +214,7 @@ def test_visits_are_told_as_they_were_counted():
     zone = {"name": "right", "corners": [[0.0, -0.3], [0.3, -0.3], [0.3, 0.3], [0.0, 0.3]]}
     result = run(**{"run.zone": [zone], "run.duration": 3.0, "run.window": (1.0, 3.0)})
     told, table = section(render(result, "coater"), "visits"), result.zone_visits
-    rate = 60.0 * table["entries"].mean() / (Material(result).duration - 1.0)
+    rate = 60.0 * table["entries"].mean() / (RunData(result).duration - 1.0)
     assert f"visits of a disc in a minute {content.value(rate)} " in told
     inside = table["time_inside"].to_numpy()
     spread = 100.0 * inside.std(ddof=1) / inside.mean()
@@ -232,7 +243,8 @@ def test_numbers_are_written_as_people_write_them(number, error, shown):
     assert content.value(number, error) == shown
 
 
-def test_report_writes_a_file_of_drumrs(plain, tmp_path):
+def test_report_writes_a_file_of_drumrs(plain, tmp_path, monkeypatch):
+    monkeypatch.setattr("drumrs.reports.page.render", rendered)
     path = drumrs.report(plain, page="dryer", folder=tmp_path)
     assert path == tmp_path / "report.html"
     assert drumrs.report(plain, folder=tmp_path) == path

@@ -15,7 +15,7 @@ from drumrs.config.toml_writer import toml_item
 from drumrs.errors import ConfigError, DrumrsWarning, UnstableError
 
 KEYS = sorted(dotted_keys(Config))
-# More bundles are a large simulation, not a hostile one.
+# More bundles are a large simulation, not a strange one.
 MOST_BUNDLES = 2000
 
 VALID: dict[str, Any] = {

@@ -107,10 +107,30 @@ def test_every_key_does_what_it_says(show):
 def test_keys_of_the_page_are_those_that_it_lists(show):
     studio = show()
     studio.part("keys").locator("summary").click()
+    assert studio.part("keys").inner_text().endswith("Esc no bundle, s screenshot.")
     listed = studio.part("keys").locator("kbd").all_inner_texts()
     names = {"ArrowRight": "→", "ArrowUp": "↑", "ArrowDown": "↓", " ": "space", "Escape": "Esc"}
     known = studio.page.evaluate("Object.keys(studio.keys)")
     assert sorted(listed) == sorted(names.get(key, key) for key in known)
+
+
+def test_a_page_that_lacks_a_part_has_no_key_for_it(show):
+    studio = show()
+    studio.page.evaluate("""() => {
+      const live = Object.assign(new EventTarget(), { asked: [], ask: ({ do: what }) => live.asked.push(what), close: () => {} });
+      const place = document.querySelector("main").appendChild(document.createElement("div"));
+      window.other = new studio.constructor(place, live, ["forces", "toml"]);
+    }""")
+    listed = studio.page.evaluate("[...other.root.querySelectorAll('kbd')].map((key) => key.textContent)")
+    assert "f" not in listed
+    assert "o" in listed
+    studio.page.evaluate("other.press(new KeyboardEvent('keydown', { key: 'f' }))")
+    studio.page.evaluate("other.press(new KeyboardEvent('keydown', { key: 'r' }))")
+    assert studio.page.evaluate("other.live.asked") == ["reset"]
+    for name, is_seen in (("forces", False), ("toml", False), ("occupied", True), ("python", True)):
+        script = "name => other.part(name).getClientRects().length > 0"
+        assert studio.page.evaluate(script, name) is is_seen
+    studio.page.evaluate("other.destroy()")
 
 
 def test_a_finger_does_what_a_mouse_does(show):

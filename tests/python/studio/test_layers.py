@@ -59,7 +59,7 @@ def test_forces_come_and_go_with_their_box(show):
     studio.part("play").click()
     studio.wait("!studio.playing")
     # With the measures of this moment comes the last picture.
-    studio.wait("studio.axes.window?.[1] > studio.recording.end - 1e-9")
+    studio.wait("studio.curves.axes.window?.[1] > studio.recording.end - 1e-9")
     plain = studio.pixels()
     # It stands still, and yet forces come with the picture that stands.
     studio.part("forces").check()

@@ -1,6 +1,7 @@
 """The studio as people meet it: in a browser, from its start to the case that leaves it."""
 
 import io
+import re
 
 import numpy as np
 import pytest
@@ -22,16 +23,18 @@ def test_it_runs_the_moment_it_opens(show):
     studio.part("tile").first.wait_for()
     assert "±" in studio.part("tiles").inner_text()
     assert studio.page.locator(".panel canvas").count() == 2
-    assert "simulated seconds in a second" in studio.part("pace").inner_text()
+    assert re.search(r" simulated seconds in a second, \d+ pictures?\.$", studio.part("pace").inner_text())
+    studio.page.evaluate("Object.assign(studio.pictures, { rate: 1, count: 0, since: performance.now() + 1e6 })")
+    studio.wait("studio.part('pace').textContent.endsWith(', 1 picture.')")
     # What is on the page is where it was in the simulation.
     studio.part("play").click()
     studio.wait("!studio.playing")
     simulation = studio.session._simulation
     studio.wait(f"Math.abs(studio.recording.end - {simulation.time}) < 1e-9")
-    studio.wait("studio.axes.window?.[1] > studio.recording.end - 1e-9")
+    studio.wait("studio.curves.axes.window?.[1] > studio.recording.end - 1e-9")
     # A heading follows its panel, whose means become longer.
-    studio.page.evaluate("studio.axes.panels[0].title = 'Power, means over 77 s'")
-    studio.page.evaluate("studio.panels[0].draw(studio.axes.end)")
+    studio.page.evaluate("studio.curves.axes.panels[0].title = 'Power, means over 77 s'")
+    studio.page.evaluate("studio.curves.panels[0].draw(studio.curves.axes.end)")
     heading = studio.page.locator(".panel .heading").first
     assert heading.inner_text() == "Power, means over 77 s [W/m]"
     places = studio.page.evaluate("[...studio.recording.frames.at(-1).positions]")
@@ -99,6 +102,46 @@ def test_other_sliders_start_anew_and_what_is_refused_is_said(show):
     studio.part("preset").select_option("coater")
     studio.wait("studio.recording.count === 500")
     assert studio.page.locator("input[data-key='drum.liner.rail.height']").count() == 1
+
+
+def test_what_is_beside_the_drum_keeps_its_place(show):
+    studio = show()
+    studio.wait("studio.part('tiles').querySelector('[data-name=falls_per_turn]')")
+    names = "[...studio.part('tiles').children].map((tile) => tile.dataset.name)"
+    before = studio.page.evaluate(names)
+    assert before[:3] == ["drum_power", "drum_specific_power", "energy_residual"]
+    height = "studio.part('player').offsetHeight"
+    high = studio.page.evaluate(height)
+    # Until there are means of the time since the change, dashes stand for them.
+    studio.part("rate").select_option("0.01")
+    for key, value in (("rotation.rpm", 70), ("load.fill", 0.2)):
+        studio.slide(key, value)
+        studio.wait("studio.part('tiles').querySelector('[data-name=falls_per_turn] span').textContent === '–'")
+        assert studio.page.evaluate(names) == before
+        assert studio.page.locator(".panel canvas").count() == 2
+        # Lines of texts may come and go; tiles and curves are higher.
+        assert abs(studio.page.evaluate(height) - high) < 50
+    studio.part("rate").select_option("")
+    studio.wait("studio.part('tiles').querySelector('[data-name=falls_per_turn] span').textContent !== '–'")
+    assert studio.page.evaluate(names) == before
+
+
+def test_a_line_that_comes_to_a_panel_has_its_reading(show):
+    studio = show()
+    studio.part("panels").locator("canvas").first.wait_for()
+    studio.part("play").click()
+    studio.wait("!studio.playing")
+    studio.page.evaluate("""() => {
+      const { curves } = studio;
+      const [panel, other] = curves.axes.panels;
+      const more = { ...panel.lines[0], name: "another" };
+      curves.take([{ ...panel, lines: [...panel.lines, more] }, other], curves.axes.window);
+      curves.draw();
+    }""")
+    first = studio.page.locator(".panel").first
+    assert "another" in first.locator("canvas").get_attribute("aria-label")
+    assert "another" in first.locator(".readings").inner_text()
+    assert studio.page.locator(".panel").count() == 2
 
 
 def test_a_picture_is_saved(show, tmp_path):

@@ -3,6 +3,8 @@
 import os
 import re
 import shutil
+import subprocess
+import sys
 import time
 import zipfile
 from itertools import count
@@ -100,7 +102,7 @@ def dying_at(step: int, monkeypatch) -> None:
         (Path, "replace"),
         (Path, "unlink"),
         (os, "fsync"),
-        (zipfile.ZipFile, "writestr"),
+        (zipfile.ZipFile, "open"),
     ):
         monkeypatch.setattr(where, name, dies(getattr(where, name)))
 
@@ -137,6 +139,7 @@ def test_a_fresh_checkpoint_refuses_and_an_old_one_does_not(copy, drum):
     _, folder = copy
     path = folder / f"{'0' * 20}.checkpoint.bin"
     path.write_bytes(b"")
+    path.with_name(f"{'0' * 20}.runner.json").write_text('{"machine": "another"}')
     status_, _, complaint = drum("pack", folder)
     assert status_ == 2
     assert (
@@ -147,7 +150,7 @@ def test_a_fresh_checkpoint_refuses_and_an_old_one_does_not(copy, drum):
     status_, printed, complaint = drum("pack", folder)
     assert (status_, complaint) == (0, "")
     assert printed.startswith("packed 3 cases: 2 files in place of ")
-    assert loose(folder).keys() == {path.name}
+    assert loose(folder).keys() == {path.name, f"{'0' * 20}.runner.json"}
 
 
 def test_what_is_damaged_stays_and_is_named(copy, drum):
@@ -167,15 +170,73 @@ def test_a_copy_that_reads_back_otherwise_keeps_the_file(copy, monkeypatch):
     sweep, folder = copy
     case = sweep.cases[1]
     name = f"{case.id}.toml"
-    write = zipfile.ZipFile.writestr
+    copy_of = packing._copy
 
-    def other(archive, entry, data):
-        write(archive, entry, data + b"#" if entry.filename == name else data)
+    def other(archive, path):
+        copied = copy_of(archive, path)
+        if path.name == name:
+            path.write_bytes(path.read_bytes().replace(b"0", b"1"))
+        return copied
 
-    monkeypatch.setattr(zipfile.ZipFile, "writestr", other)
+    monkeypatch.setattr(packing, "_copy", other)
     done = pack(folder, progress=False)
     assert done.left == {case.id: f"{name} is not what is packed under this name, and comes before it"}
     assert loose(folder).keys() == {name}
+
+
+def test_a_file_that_changes_while_it_is_packed_is_left(copy, monkeypatch):
+    sweep, folder = copy
+    case = sweep.cases[1]
+    name = f"{case.id}.toml"
+    checked = packing._checked
+
+    def then_changed(store, case, ending):
+        crc = checked(store, case, ending)
+        path = folder / f"{case}.{ending}"
+        if path.name == name:
+            path.write_bytes(path.read_bytes() + b"#")
+        return crc
+
+    monkeypatch.setattr(packing, "_checked", then_changed)
+    done = pack(folder, progress=False)
+    assert (done.cases, done.left) == (2, {case.id: f"{name} has changed meanwhile"})
+    assert {name.partition(".")[0] for name in loose(folder)} == {case.id}
+
+
+TAKEN = """
+import pathlib, sys, drumrs
+from drumrs.sweep import pack
+
+def told(word):
+    return 1024 * int(pathlib.Path("/proc/self/status").read_text().partition(word + ":")[2].split()[0])
+
+def taken(action):
+    pathlib.Path("/proc/self/clear_refs").write_text("5")
+    before = told("VmRSS")
+    action()
+    return told("VmHWM") - before
+
+few = drumrs.baseline(0.5).softer(100.0).replace({"run.duration": 0.2, "run.frame_every": 0.1})
+many = few.replace({"run.duration": 1.0, "run.frame_every": 3.7e-5, "run.sample_every": 0.01})
+sizes = drumrs.Simulation(many).records.sizes
+for number, config in enumerate((few, many)):
+    sweep, folder = drumrs.Sweep.from_configs([config]), f"{sys.argv[1]}/{number}"
+    done = taken(lambda: sweep.run(folder, progress=False)), taken(lambda: pack(folder, progress=False))
+print(*done, 2 * len(sweep.frames(sweep.cases[0]).times) * sizes["run.frame_every"])
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(
+    not Path("/proc/self/clear_refs").exists(), reason="Linux tells how much memory was in use"
+)
+def test_keeping_and_packing_a_case_take_no_more_memory_than_was_checked(tmp_path):
+    """27 000 frames, twice in memory as the rule counts; their file is as large as both."""
+    done = subprocess.run([sys.executable, "-c", TAKEN, tmp_path], capture_output=True, text=True, check=True)
+    run, packed, checked = map(int, done.stdout.split())
+    assert checked > 200e6
+    assert run < 1.1 * checked
+    assert packed < 50e6
 
 
 def test_damage_to_a_pack_costs_one_case(finished, copy):

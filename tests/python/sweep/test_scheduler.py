@@ -150,6 +150,8 @@ def test_a_long_case_that_was_stopped_goes_on_to_the_same_bytes(harm, tmp_path, 
     assert told.status == "stopped"
     checkpoint = tmp_path / f"{told.case}.checkpoint.bin"
     assert drumrs.Simulation.load(checkpoint).step > 0
+    # Stopped in order, it is nobody's: that is seen from any machine.
+    assert not checkpoint.with_name(f"{told.case}.runner.json").exists()
     if harm == "torn":
         checkpoint.write_bytes(checkpoint.read_bytes()[:1000])
     running._stopped = False

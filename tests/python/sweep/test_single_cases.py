@@ -5,12 +5,15 @@ import os
 import subprocess
 import sys
 import time
+from pathlib import Path
 
 import pytest
 
 import drumrs
 from drumrs.errors import ConfigError
 from drumrs.sweep import read_sweep, status
+from drumrs.sweep.runner import Runner, is_at_work
+from drumrs.sweep.store import Store
 
 SWEEP = """
 seeds = 2
@@ -136,6 +139,8 @@ def test_the_status_of_a_folder(drum, sweep_file, tmp_path):
         path = out / f"{case}.checkpoint.bin"
         path.write_bytes(b"")
         os.utime(path, (time.time() - age, time.time() - age))
+        # Of a machine of which nothing is known here, the age of the checkpoint tells.
+        (out / f"{case}.runner.json").write_text('{"machine": "another", "process": 1, "began": 1}')
     sweep_file.unlink()
     status_, printed, _ = drum("status", out)
     assert status_ == 4
@@ -157,6 +162,64 @@ def test_the_status_of_a_folder(drum, sweep_file, tmp_path):
     particle_steps = sum(cases[number].cost for number in (1, 2, 3, 5))
     expected = particle_steps / facts["particle_steps_per_second"] / 3600.0
     assert told["core_hours_left"] == pytest.approx(expected, rel=1e-6)
+
+
+WORKING = """
+import sys
+from drumrs.sweep import read_sweep, worker
+from drumrs.sweep.worker import run_case
+worker._WORTH = 0.0
+case = read_sweep(sys.argv[1]).cases[0]
+run_case(case.config.model_dump_json(), sys.argv[2])
+"""
+
+
+@pytest.mark.skipif(
+    not Path("/proc/self/ns/pid").exists(), reason="the system does not tell of its processes"
+)
+def test_a_case_that_was_killed_is_not_taken_for_one_under_way(sweep_file, tmp_path):
+    out = tmp_path / "out"
+    sweep_file.write_text(
+        SWEEP.replace("run.duration = 0.06", "run.duration = 4000.0\nrun.checkpoint_every = 0.1").replace(
+            "run.frame_every = 0.03", "run.frame_every = 4000.0"
+        )
+    )
+    [case, *_] = read_sweep(sweep_file).cases
+    Store(out).open()
+    with subprocess.Popen([sys.executable, "-c", WORKING, sweep_file, out]) as working:
+        while not (out / f"{case.id}.checkpoint.bin").exists():
+            assert working.poll() is None
+            time.sleep(0.02)
+        found = status(out)
+        assert (found.running.keys(), found.stopped.keys()) == ({case.id}, set())
+        working.kill()
+        # Nobody has asked how it has ended, and its checkpoint is new; nobody works on it all the same.
+        waited_from = time.monotonic()
+        while (found := status(out)).running and time.monotonic() < waited_from + 30.0:
+            time.sleep(0.02)
+        assert found.stopped[case.id] < 60.0
+    found = status(out)
+    assert (found.running.keys(), found.stopped.keys()) == (set(), {case.id})
+    # Another process with the same number, as it may be some time later.
+    mark = out / f"{case.id}.runner.json"
+    mark.write_text(json.dumps({**json.loads(mark.read_text()), "process": os.getpid()}))
+    assert status(out).stopped.keys() == {case.id}
+
+
+def test_a_mark_is_its_owners(tmp_path):
+    path = tmp_path / "mark"
+    runner = Runner(path)
+    assert is_at_work(path) is False
+    runner.mark()
+    assert is_at_work(path) is not False
+    runner.clear()
+    assert not path.exists()
+    path.write_text('{"machine": "another"}')
+    runner.clear()
+    assert path.exists()
+    for text in ("", "[1]", '{"machine": "another"}'):
+        path.write_text(text)
+        assert is_at_work(path) is None
 
 
 def test_the_status_says_when_all_is_done(drum, sweep_file, tmp_path):

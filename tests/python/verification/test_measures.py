@@ -15,7 +15,8 @@ WRONG = [
     ("charge", "surface", "- self.bundle_radius\n", "+ self.bundle_radius\n"),
     ("charge", "shape", "centers[:, 0] / drum_radius", "-centers[:, 0] / drum_radius"),
     ("charge", "shape", "math.atan2(x, -y)", "math.atan2(x, y)"),
-    ("charge", "toe", "_HALF = 0.5", "_HALF = 0.0"),
+    ("charge", "toe", "_HALF = 0.5", "_HALF = 1.5"),
+    ("charge", "toe", "_upright(middle - behind)", "_upright(behind - middle)"),
     (
         "occupancy",
         "shape",

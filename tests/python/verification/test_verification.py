@@ -155,6 +155,7 @@ def test_command_passes(drum):
     status, out, _ = drum("verify", "--only", "stack", "--only", "conservation")
     assert status == 0
     assert re.search(r"stack +statics .* passed", out)
+    assert re.search(r"tolerance +unit +verdict", out)
     assert "2 of 2 cases passed" in out
 
 
@@ -162,6 +163,7 @@ def test_command_fails_with_status_1(drum, monkeypatch):
     failing(monkeypatch, "stack")
     status, out, _ = drum("verify", "--only", "stack")
     assert status == 1
+    assert re.search(r"0\.1 +m/s +failed", out)
     assert "stack failed: 1 of 1 numbers, worst the speed: 2 m/s, expected 1 ± 0.1" in out
 
 

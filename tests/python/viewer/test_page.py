@@ -42,6 +42,7 @@ def test_it_plays_and_pauses(show):
     shown.wait(f"player.time > {LATER}")
     shown.part("play").click()
     assert shown.part("play").get_attribute("aria-label") == "Play"
+    assert shown.part("stage").get_attribute("aria-label") == "3 bundles in the drum: Three bundles"
     paused = shown.time
     shown.page.wait_for_timeout(100)
     assert shown.time == paused > LATER

@@ -44,10 +44,10 @@ def test_a_page_holds_what_was_recorded():
     data = pack(frames, None, "title", (0.0, 0.1))
     places = read_back(data["positions"], "<u2").reshape(4, 5, 2) / 65535 * 2.0 - 1.0
     assert np.abs(places * data["reach"] - frames.positions).max() < 5e-6
-    turned = read_back(data["angles"], "<u2").reshape(4, 5) / 65536 * math.tau
-    assert np.abs(np.angle(np.exp(1j * (turned - frames.angles)))).max() < 1e-4
-    speeds = read_back(data["speeds"], "<u2").reshape(4, 5) / 65535 * data["fastest"]
-    assert np.abs(speeds - frames.speeds).max() < 3e-5
+    turned = read_back(data["angles"], "<u1").reshape(4, 5) / 256 * math.tau
+    assert np.abs(np.angle(np.exp(1j * (turned - frames.angles)))).max() < 0.0125
+    speeds = read_back(data["speeds"], "<u1").reshape(4, 5) / 255 * data["fastest"]
+    assert np.abs(speeds - frames.speeds).max() < 2.1e-3 * data["fastest"]
     assert np.array_equal(read_back(data["times"], "<f8"), frames.times)
     assert np.array_equal(read_back(data["drum_angles"], "<f8"), frames.drum_angles)
     assert data["window"] == [0.0, 0.1]

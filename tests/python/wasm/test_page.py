@@ -123,6 +123,7 @@ def test_other_machines_steps_and_a_reset(drum):
     drum.wait("studio.recording.end === 0 && Math.abs(studio.spin * 30 / Math.PI - 30) < 1e-9")
     for name in ("toml", "python", "trade", "forces"):
         assert not drum.page.locator(f".{name}").is_visible(), name
+    assert "f" not in drum.read("[...studio.root.querySelectorAll('kbd')].map((key) => key.textContent)")
     drum.page.locator(".stage").press("f")
     assert not drum.read("studio.stage.forces")
     drum.page.locator(".occupied").check()

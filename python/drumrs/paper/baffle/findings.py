@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from drumrs.decide.emulator import Emulator
 from drumrs.paper.baffle.design import Plan
 from drumrs.paper.baffle.evidence import Means, Observable
-from drumrs.paper.baffle.posterior import Array, Corrections, Posterior, foretell
+from drumrs.paper.baffle.posterior import Array, Corrections, Posterior, predict
 from drumrs.paper.shape import Shape
 from drumrs.sweep import Failure
 
@@ -34,7 +34,7 @@ class Inference:
     posteriors
         Posterior by factor of the tolerances.
     known
-        What is foretold at the posterior's shapes.
+        What is predicted at the posterior's shapes.
     confirmed
         What is known at full stiffness of each shape that was run so, the likeliest first.
     failures
@@ -64,6 +64,6 @@ class Inference:
             Shape(*row) for row in rows.select("height", "base", "tip").unique(maintain_order=True).rows()
         ]
 
-    def foretold_at(self, shapes: Array) -> Means:
-        """Return what the emulators foretell at full stiffness, for rows of height, base and tip [m]."""
-        return foretell(self.emulators, shapes, self.bare, self.corrections)
+    def predicted_at(self, shapes: Array) -> Means:
+        """Return what the emulators predict at full stiffness, for rows of height, base and tip [m]."""
+        return predict(self.emulators, shapes, self.bare, self.corrections)

@@ -18,9 +18,9 @@ from drumrs.paper.baffle.evidence import Means
 from drumrs.paper.baffle.findings import Inference
 from drumrs.paper.baffle.observations import Key, known_by_shape, observe
 from drumrs.paper.baffle.posterior import (
-    foretell,
     measured_corrections,
     posterior,
+    predict,
     provisional_corrections,
     round_shapes,
     spread_over,
@@ -46,7 +46,7 @@ def infer_baffle(
 ) -> Inference:
     """Infer the shape of the paper's baffle, whose drawing is lost, from what the paper says of it.
 
-    Shapes spread over a region are run with softer springs; a Gaussian process foretells the others; every sentence
+    Shapes spread over a region are run with softer springs; a Gaussian process predicts the others; every sentence
     that speaks of baffles weighs them. The likeliest, spread over what the sentences leave, are run at full stiffness,
     which also tells what softer springs change; then all is weighed again. The best of the confirmed is the inferred.
 
@@ -88,7 +88,7 @@ def infer_baffle(
     bare = first[None, 1.0]
     emulators = emulate(_with_springs(first, plan.softer))
     candidates = round_shapes()
-    guess = foretell(emulators, _rows(candidates), bare, provisional_corrections())
+    guess = predict(emulators, _rows(candidates), bare, provisional_corrections())
     chosen = spread_over(candidates, log_likelihood(guess), plan.confirmed)
     chosen = list(dict.fromkeys([TRIANGLE, *chosen]))
 
@@ -117,9 +117,9 @@ def _conclude(plan: Plan, runner: "_Runner", bare: Means) -> Inference:
         )
         for one in stiff[both[0]]
     }
-    corrections = measured_corrections(foretell(emulators, rows, {}, {}), measured)
+    corrections = measured_corrections(predict(emulators, rows, {}, {}), measured)
     dense = shapes_in_region(_DENSE)
-    foretold = foretell(emulators, dense, bare, corrections)
+    predicted = predict(emulators, dense, bare, corrections)
     confirmed = {shape: {**soft[shape], **bare, **stiff[shape]} for shape in both}
     ranked = sorted(both, key=lambda shape: -float(log_likelihood(confirmed[shape])))
     return Inference(
@@ -128,8 +128,8 @@ def _conclude(plan: Plan, runner: "_Runner", bare: Means) -> Inference:
         emulators,
         bare,
         corrections,
-        {factor: posterior(dense, foretold, factor) for factor in FACTORS},
-        foretold,
+        {factor: posterior(dense, predicted, factor) for factor in FACTORS},
+        predicted,
         {shape: confirmed[shape] for shape in ranked},
         tuple(runner.failures),
     )

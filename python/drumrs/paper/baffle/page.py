@@ -160,8 +160,8 @@ def _degeneracy(one: Posterior) -> str:
     return (
         f"Several shapes fit. What {known} best is {best} (narrowed to {100.0 * narrowed[best]:.0f} % of the scatter "
         f"before); {least} {unknown} ({100.0 * narrowed[least]:.0f} %). Lengths trade: {trade} (correlation "
-        f"{rho:+.2f}). Altogether the sentences tell {one.bits:.1f} bits, as if one in {2.0**one.bits:.0f} of the "
-        "shapes searched were left."
+        f"{rho:+.2f}). Altogether the sentences give {one.bits:.1f} bits of information, as if one in "
+        f"{2.0**one.bits:.0f} of the shapes searched were left."
     )
 
 
@@ -220,11 +220,11 @@ def _sentences(inference: "Inference") -> Iterator[str]:
         for sentence in sentences:
             yield f"**{sentence.name}.** “{sentence.quote}”"
             yield ""
-            yield from (f"- {_told(part, known, triangle)}" for part in sentence.parts)
+            yield from (f"- {_described(part, known, triangle)}" for part in sentence.parts)
             yield ""
 
 
-def _told(part: Part, known: Means, other: Means | None) -> str:
+def _described(part: Part, known: Means, other: Means | None) -> str:
     value, error = part.estimate(known)
     expected = f"{'at least ' if part.at_least else ''}{part.expected:.3g} ± {part.tolerance:.2g} expected"
     beside = f" [{part.estimate(other)[0]:.3g}]" if other else ""
@@ -232,22 +232,23 @@ def _told(part: Part, known: Means, other: Means | None) -> str:
 
 
 def _sensitivity(inference: "Inference") -> Iterator[str]:
-    yield "## How much each sentence tells"
+    yield "## Information in each sentence"
     yield ""
     yield (
-        "*Alone* is what a sentence tells by itself and *without it* what the others tell, in bits, of the shapes "
-        "searched; one that tells nothing fits all shapes alike, or none. The rest is how its worst part's residual at "
-        "the inferred shape changes with each length, in "
-        "tolerances per cm, as emulated."
+        "*Alone* is the information of a sentence by itself, *without it* that of the others, in bits about the shapes "
+        "searched; a sentence without information fits all shapes alike, or none. The rest is how its worst "
+        "part's residual at the inferred shape changes with each length, in tolerances per cm, as emulated."
     )
     yield ""
     one = inference.posteriors[1.0]
     best = inference.best
     rows = []
-    told = {s.name: np.broadcast_to(s.log_likelihood(inference.known), one.weights.shape) for s in SENTENCES}
-    together = np.sum(list(told.values()), axis=0)
+    likelihoods = {
+        s.name: np.broadcast_to(s.log_likelihood(inference.known), one.weights.shape) for s in SENTENCES
+    }
+    together = np.sum(list(likelihoods.values()), axis=0)
     for sentence in SENTENCES:
-        own = told[sentence.name]
+        own = likelihoods[sentence.name]
         alone, others = weigh(one.shapes, own).bits, weigh(one.shapes, together - own).bits
         slopes = _slopes(inference, sentence, best)
         rows.append([sentence.name, f"{alone:.2f}", f"{others:.2f}", *(f"{x:+.2f}" for x in slopes)])
@@ -259,10 +260,10 @@ def _slopes(inference: "Inference", sentence: Sentence, shape: Shape) -> list[fl
     """Return the slope of the worst part's residual with each length [1/cm]; forwards, or backwards for the tip."""
     part, _ = sentence.worst(inference.confirmed[shape])
     here = np.array(shape.lengths)
-    ways = np.diag([_STEP, _STEP, -_STEP if shape.tip >= _STEP else _STEP])
-    known = inference.foretold_at(np.vstack([here, here + ways]))
+    steps = np.diag([_STEP, _STEP, -_STEP if shape.tip >= _STEP else _STEP])
+    known = inference.predicted_at(np.vstack([here, here + steps]))
     residuals = part.residual(known)[0]
-    return [float(x) for x in (residuals[1:] - residuals[0]) / (_CM * ways.sum(axis=1))]
+    return [float(x) for x in (residuals[1:] - residuals[0]) / (_CM * steps.sum(axis=1))]
 
 
 def _method(inference: "Inference") -> Iterator[str]:
@@ -315,11 +316,11 @@ def _seeds(seeds: tuple[int, ...]) -> str:
 def _checks(inference: "Inference") -> Iterator[str]:
     yield "## Checks"
     yield ""
-    strays = np.concatenate([emulator.strays for emulator in inference.emulators.values()])
-    within = [100.0 * float(np.mean(np.abs(strays) < k)) for k in (1.0, 2.0)]
+    loo_residuals = np.concatenate([emulator.loo_residuals for emulator in inference.emulators.values()])
+    within = [100.0 * float(np.mean(np.abs(loo_residuals) < k)) for k in (1.0, 2.0)]
     yield (
-        "**Emulator, leaving one shape out.** What the others foretell differs from what was run by "
-        f"{np.sqrt(np.mean(strays**2)):.2f} stated errors (root mean square over all observables; 1 is right): "
+        "**Emulator, leaving one shape out.** What the others predict differs from what was run by "
+        f"{np.sqrt(np.mean(loo_residuals**2)):.2f} stated errors (root mean square over all observables; 1 is right): "
         f"{within[0]:.0f} % of the differences are within one error (68 % expected), {within[1]:.0f} % within two (95 "
         "%). The errors of an observable are multiplied by its own."
     )
@@ -329,7 +330,7 @@ def _checks(inference: "Inference") -> Iterator[str]:
             one.quantity.replace("_", " "),
             f"{100.0 * one.fill:g} %",
             f"{one.size:g}",
-            f"{np.sqrt(np.mean(emulator.strays**2)):.2f}",
+            f"{np.sqrt(np.mean(emulator.loo_residuals**2)):.2f}",
             f"{emulator.scale:.3g}",
             f"{emulator.typical_error:.2g}",
         ]

@@ -1,4 +1,4 @@
-"""Which shapes the paper's sentences leave: weights over shapes, from what an emulator foretells of each."""
+"""Which shapes the paper's sentences leave: weights over shapes, from what an emulator predicts of each."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -113,7 +113,7 @@ def weigh(shapes: Array, logarithms: Array) -> Posterior:
     return Posterior(shapes, weights / weights.sum())
 
 
-def foretell(
+def predict(
     emulators: Mapping[Observable, Emulator], shapes: Array, bare: Means, corrections: Corrections
 ) -> Means:
     """Return means and errors of all observables at full stiffness, those of the bare drum included.

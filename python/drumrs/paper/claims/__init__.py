@@ -57,7 +57,7 @@ def judge(table: "pl.DataFrame", drum: Drum = BAFFLED) -> list[Verdict]:
 def _with_context(verdict: Verdict, claim: Claim, results: Results) -> Verdict:
     """Add what stands beside a verdict: other readings, why it fails where it does, whether it is evidence."""
     why = ""
-    if claim.why and any(part.strays for part in verdict.parts):
+    if claim.why and any(part.deviates for part in verdict.parts):
         with suppress(MissingError, ZeroDivisionError):
             why = claim.why(results)
     evidence = claim.number in EVIDENCE and _is_inferred(results)

@@ -110,7 +110,7 @@ def within(
     number = Number.of(name, estimate, unit)
     read = _read([(0.0, 0.0, estimate)], low, high, largest)
     told = f"{name}: {number.text} ({claimed(low, high, unit, largest)}: {read.told})."
-    return Finding(read.outcome, told, (number,), strays=read.strays)
+    return Finding(read.outcome, told, (number,), deviates=read.deviates)
 
 
 def each_within(
@@ -125,7 +125,7 @@ def each_within(
     """Ask whether all means lie between limits.
 
     It holds where every 95 % interval lies within; it does not where one lies outside even when widened so that
-    among all of them one in twenty strays by chance (Bonferroni).
+    among all of them one in twenty deviates by chance (Bonferroni).
 
     Parameters
     ----------
@@ -156,7 +156,7 @@ def each_within(
         f"{name}: {'from ' if len(ends) > 1 else ''}{values} "
         f"(each {claimed(low, high, '', largest)}: {read.told}).{where}"
     )
-    return Finding(read.outcome, sentence, numbers, "", axis, read.pieces, strays=read.strays)
+    return Finding(read.outcome, sentence, numbers, "", axis, read.pieces, deviates=read.deviates)
 
 
 @dataclass(frozen=True)
@@ -166,7 +166,7 @@ class _Read:
     outcome: str
     pieces: tuple[Piece, ...]
     told: str
-    strays: bool
+    deviates: bool
 
 
 def _read(points: Sequence[At], low: float, high: float, largest: float) -> _Read:
@@ -191,8 +191,8 @@ def _judge(points: Sequence[At], low: float, high: float) -> tuple[str, list[str
     level = 1.0 - (1.0 - LEVEL) / len(points)
     each = []
     for _, _, one in points:
-        held, strays = _place(one, low, high, LEVEL) == HOLDS, _place(one, low, high, level) == FAILS
-        each.append(HOLDS if held else FAILS if strays else UNDECIDED)
+        held, deviates = _place(one, low, high, LEVEL) == HOLDS, _place(one, low, high, level) == FAILS
+        each.append(HOLDS if held else FAILS if deviates else UNDECIDED)
     return joined(each), each
 
 
@@ -230,7 +230,7 @@ def all_of(
         pieces,
         (*bands, *(one for finding in findings for one in finding.bands)),
         next(one.numbers for one in findings if one.outcome == outcome),
-        any(one.strays for one in findings),
+        any(one.deviates for one in findings),
     )
 
 

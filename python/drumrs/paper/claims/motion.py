@@ -88,7 +88,7 @@ def _sets_in(results: Results, fill: float) -> Finding:
         (STILL * usual,) * 2,
         (CIRCULATING * usual,) * 2,
     )
-    return Finding(outcome, told, numbers, bands=(passed,), strays=outcome == FAILS)
+    return Finding(outcome, told, numbers, bands=(passed,), deviates=outcome == FAILS)
 
 
 def _passes(shares: Sequence[tuple[float, Interval]], level: float) -> tuple[float, float] | None:

@@ -16,6 +16,7 @@ use super::grid::Grid;
 use super::{GAP, Room, bound_of, pack, pattern, tries};
 use crate::error::{Error, require_positive};
 use crate::physics::drum::Drum;
+use crate::physics::sorting::sort;
 use crate::physics::vector::{Vec2, dot};
 
 /// What the size of discs that are too large for random insertion is multiplied by.
@@ -98,7 +99,7 @@ impl<'a> Bed<'a> {
         let indexed = radii.iter().enumerate();
         let mut discs: Vec<Disc> =
             indexed.map(|(index, &radius)| Disc { center: Vec2::zeros(), radius, index }).collect();
-        discs.sort_by(|one, other| other.radius.total_cmp(&one.radius));
+        sort(&mut discs, &|one, other| other.radius.total_cmp(&one.radius));
         let area = radii.iter().map(|radius| radius * radius).sum();
         let mut bed = Self { drum, bound, discs, scale: 1.0, area };
         while !bed.insert(random) {
@@ -142,7 +143,7 @@ impl<'a> Bed<'a> {
     fn swell(&mut self, random: &mut impl Rng) {
         // Neighbors in rows of the drum are then neighbors in memory.
         let row_height = self.diameter();
-        self.discs.sort_by(|one, other| {
+        sort(&mut self.discs, &|one, other| {
             let row = |disc: &Disc| (disc.center.y / row_height).floor();
             row(one).total_cmp(&row(other)).then(one.center.x.total_cmp(&other.center.x))
         });

@@ -7,7 +7,7 @@ use drumrs::physics::rotation::RotationSchedule;
 use drumrs::physics::vector::Vec2;
 use drumrs::simulation::Simulation;
 
-/// More bundles are a large simulation, not a hostile one.
+/// More bundles are a large simulation, not a strange one.
 const MOST_BUNDLES: usize = 300;
 const STEPS: u64 = 20;
 

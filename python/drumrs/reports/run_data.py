@@ -1,4 +1,4 @@
-"""`Material`: a finished run with what several sections of a page need of it, each measured once."""
+"""`RunData`: a finished run, with measurements that several sections of a page share, each made once."""
 
 import math
 from dataclasses import dataclass
@@ -23,11 +23,11 @@ if TYPE_CHECKING:
     from drumrs.result import Result, Summary
 
 # Frames that are plenty for a mean field.
-_PLENTY = 100
+_MAX_FRAMES = 100
 
 
 @dataclass(frozen=True, eq=False)
-class Material:
+class RunData:
     """A finished run, and what is measured of it in the window of its averages.
 
     Attributes
@@ -146,7 +146,7 @@ class Material:
             speed = self.config.derived.angular_velocity or 0.0
             return measures.recorded_fields(self.result.fields, clockwise=speed < 0.0)
         inside = within(self.frames, self.span)
-        few = inside.picked(slice(None, None, max(1, len(inside) // _PLENTY)))
+        few = inside.picked(slice(None, None, max(1, len(inside) // _MAX_FRAMES)))
         return measures.fields(few, self.span, self.masses)
 
     def require_speed(self) -> float:

@@ -1,4 +1,4 @@
-"""How much room there is at places in the drum: up to baffles and walls, and up to the next disc."""
+"""Clearance of points in the drum: the distance to baffles and walls, and to the nearest disc."""
 
 from typing import TYPE_CHECKING
 
@@ -10,11 +10,11 @@ from drumrs.measures.frame_window import turn_back
 if TYPE_CHECKING:
     from drumrs.frames import Frames
 
-# So many nearest centers are looked at for the nearest disc, where sizes differ.
+# Nearest centers among which the nearest disc is searched, where sizes differ.
 _NEAREST = 6
 
 
-def from_solids(frames: "Frames", points: Array) -> Array:
+def distance_to_solids(frames: "Frames", points: Array) -> Array:
     """Return the distances of points in the drum's own frame from baffles and walls [m]: 0 within, ∞ without any."""
     import shapely
 
@@ -25,8 +25,8 @@ def from_solids(frames: "Frames", points: Array) -> Array:
     return distances
 
 
-def around(frames: "Frames", index: int, points: Array) -> Array:
-    """Return the distances of points in the laboratory from what is nearest in a frame, discs, baffles or walls [m].
+def clearance(frames: "Frames", index: int, points: Array) -> Array:
+    """Return the distances of points in the laboratory from the nearest disc, baffle or wall of a frame [m].
 
     They are negative within a disc, 0 within a baffle. The rim does not count.
     """
@@ -35,17 +35,17 @@ def around(frames: "Frames", index: int, points: Array) -> Array:
     equal = np.ptp(frames.radii) == 0.0
     count = 1 if equal else min(_NEAREST, frames.count)
     distances, which = KDTree(frames.positions[index]).query(points, k=[*range(1, count + 1)])
-    room: Array = (distances - frames.radii[which]).min(axis=1)
+    clearances: Array = (distances - frames.radii[which]).min(axis=1)
     corners = [*frames.baffles, *frames.walls]
     if not corners:
-        return room
+        return clearances
     # Solids reach no nearer to the axis than the nearest of their edges, and need be asked only from there on.
     inner = min(_from_axis(line) for line in corners)
-    near = np.hypot(*points.T) + room > inner
-    room[near] = np.minimum(
-        room[near], from_solids(frames, points[near] @ turn_back(frames.drum_angles[index]))
+    near = np.hypot(*points.T) + clearances > inner
+    clearances[near] = np.minimum(
+        clearances[near], distance_to_solids(frames, points[near] @ turn_back(frames.drum_angles[index]))
     )
-    return room
+    return clearances
 
 
 def _from_axis(line: Array) -> float:

@@ -1,4 +1,4 @@
-//! Numbers and lanes: the law gives the same bits, whichever it is worked out with.
+//! Plain numbers and SIMD: the law gives the same bits, whichever it is worked out with.
 
 use crate::common::*;
 use drumrs::engine::simd::{F64x4, LANES, Vec2x4, lanes, vectors};
