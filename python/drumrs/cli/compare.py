@@ -38,7 +38,8 @@ def compare(
         Case files, two at least; their names without the ending are the names of the designs.
     by
         What they are compared by: a quantity that `drumrs quantities` lists, as it is over run.window or in a phase,
-        `falls_per_turn[tumble]`, or an expression of several, `mean_drop / drum_specific_power`.
+        `falls_per_turn[tumble]`, with an argument where it asks for one, `lacey_index(by='side')`, or an expression of
+        several, `mean_drop / drum_specific_power`.
     greatest
         The greatest value is best; the least unless given.
     difference
@@ -62,7 +63,7 @@ def compare(
         designs, by, out=out, greatest=greatest, difference=difference, most=most, jobs=jobs
     )
     _print(found)
-    print_paths([path for name in ("table.parquet", "differences.png") if (path := out / name).exists()])
+    print_paths([out / name for name in ("table.parquet", "differences.png")])
     return 0
 
 

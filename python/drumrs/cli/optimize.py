@@ -48,13 +48,7 @@ def optimize(
     note(f"{goals}; keys: {', '.join(problem.space.keys)}; {problem.runs} runs at most")
     found = drumrs.optimize(problem, out, jobs=jobs)
     _print(found)
-    print_paths(
-        [
-            path
-            for name in ("history.parquet", "optimization.png", "best.toml")
-            if (path := out / name).exists()
-        ]
-    )
+    print_paths([out / name for name in ("history.parquet", "optimization.png", "best.toml")])
     return 0
 
 

@@ -72,6 +72,6 @@ def print_species(species: "pl.DataFrame") -> None:
 
 
 def print_paths(paths: Sequence[Path]) -> None:
-    """Say which files were written."""
-    for path in paths:
+    """Say which files were written: those of the list that are there, for a picture may have failed."""
+    for path in filter(Path.exists, paths):
         sys.stdout.write(f"wrote {path}\n")

@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping
 from concurrent.futures import Executor
-from io import BytesIO
 from pathlib import Path
 from typing import Any
 
@@ -13,10 +12,10 @@ from drumrs.decide.emulator import Array, require_packages
 from drumrs.decide.evaluate import Evaluator
 from drumrs.decide.measurement import Experiment
 from drumrs.decide.posterior import fit
-from drumrs.files import write_whole
 from drumrs.folders import claim, require_own
 from drumrs.pictures import attempt
 from drumrs.progress import Task
+from drumrs.tables import write_table
 
 # What a calibration writes into its folder.
 FILES = ("posterior.parquet", "calibration.png", "runs")
@@ -107,9 +106,7 @@ def calibrate(
         values, errors = wanted.numbers
         posterior = fit(wanted.space, evaluate, values, errors, wanted.runs)
     found = Calibration(wanted, posterior)
-    buffer = BytesIO()
-    found.samples.write_parquet(buffer)
-    write_whole(folder / "posterior.parquet", buffer.getvalue())
+    write_table(folder / "posterior.parquet", found.samples, {})
     with attempt(folder / "calibration.png"):
         from drumrs.figures import write
 

@@ -2,7 +2,6 @@
 
 from dataclasses import dataclass
 from functools import cached_property
-from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,7 +12,7 @@ from drumrs.decide.confirmed import Confirmed, number_of
 from drumrs.decide.problem import Problem
 from drumrs.decide.search import ENOUGH, Model, Search
 from drumrs.errors import ConfigError
-from drumrs.files import write_whole
+from drumrs.tables import write_table
 
 if TYPE_CHECKING:
     import polars as pl
@@ -112,9 +111,7 @@ class Optimization:
         OSError
             Where it cannot be written.
         """
-        buffer = BytesIO()
-        self.table.write_parquet(buffer)
-        write_whole(path, buffer.getvalue())
+        write_table(path, self.table, {})
 
     def nothing_feasible(self) -> ConfigError:
         """Return the error that no point meets the constraints, with the nearest."""

@@ -76,12 +76,14 @@ class Target:
             Name of a quantity that `drumrs quantities` lists, or an expression with ``+ - * / **``, parentheses,
             numbers, ``abs``, ``sqrt``, ``log`` and ``exp``. A quantity is that over the window of the averages;
             ``falls_per_turn[tumble]`` is that of the phase of this name, ``falls_per_turn[2]`` of the second phase,
-            and ``falls_per_turn["main wash"]`` puts a name with spaces in quotes. A target is returned as it is.
+            and ``falls_per_turn["main wash"]`` puts a name with spaces in quotes. What asks for arguments has them in
+            parentheses, ``lacey_index(by='side', turns=2)``. A target is returned as it is.
 
         Raises
         ------
         ConfigError
-            Where it is no such expression, a name is not that of a quantity, or units are added that differ.
+            Where it is no such expression, a name is not that of a quantity, an argument is missing or not accepted, or
+            units are added that differ.
 
         Examples
         --------
