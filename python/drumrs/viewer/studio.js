@@ -127,6 +127,7 @@ export class Studio {
       this.sliders.restore();
       return;
     }
+    this.reserve = null;
     this.live.ask({ do: "forces", value: this.stage?.forces ?? false });
     this.live.ask({ do: "frame" });
   }
@@ -207,14 +208,26 @@ export class Studio {
     this.curves.take(panels.map(unpackPanel), window);
   }
 
-  // Keep a picture, and draw it with the screen's next one. The one after it is asked for before that, so that it is made and
-  // comes meanwhile.
+  // Keep a picture, and draw it with the screen's next one; a second one waits in reserve, so that a picture of the screen does not
+  // go without where the next one comes late. Each is asked for as soon as there is room for it, before anything is drawn, so that
+  // it is made meanwhile.
   receive(buffer) {
+    if (this.next) {
+      this.reserve = buffer;
+      return;
+    }
+    this.live.ask({ do: "frame" });
+    this.present(buffer);
+  }
+
+  present(buffer) {
     this.keep(buffer);
-    this.next ??= requestAnimationFrame(() => {
-      this.next = null;
-      this.live.ask({ do: "frame" });
+    this.next = requestAnimationFrame(() => {
+      const { reserve } = this;
+      this.next = this.reserve = null;
+      if (reserve) this.live.ask({ do: "frame" });
       this.goOn();
+      if (reserve) this.present(reserve);
     });
   }
 
