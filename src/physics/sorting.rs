@@ -8,7 +8,7 @@ use std::cmp::Ordering;
 /// ```
 /// use drumrs::physics::sorting::sort;
 ///
-/// let mut list = [(2.0, 'a'), (1.0, 'b'), (2.0, 'c')];
+/// let mut list = [(2.0_f64, 'a'), (1.0, 'b'), (2.0, 'c')];
 /// sort(&mut list, &|one, other| one.0.total_cmp(&other.0));
 /// assert_eq!(list.map(|(_, name)| name), ['b', 'a', 'c']);
 /// ```
