@@ -13,13 +13,13 @@ use std::cmp::Ordering;
 /// assert_eq!(list.map(|(_, name)| name), ['b', 'a', 'c']);
 /// ```
 pub fn sort<T: Copy>(list: &mut [T], compare: &dyn Fn(&T, &T) -> Ordering) {
-    let mut places: Vec<usize> = (0..list.len()).collect();
-    sort_places(&mut places, &|one, other| compare(&list[one], &list[other]));
-    let sorted: Vec<T> = places.into_iter().map(|place| list[place]).collect();
+    let mut indices: Vec<usize> = (0..list.len()).collect();
+    sort_indices(&mut indices, &|one, other| compare(&list[one], &list[other]));
+    let sorted: Vec<T> = indices.into_iter().map(|index| list[index]).collect();
     list.copy_from_slice(&sorted);
 }
 
-/// Sorts places in a list by what is there; what is equal keeps its order.
-pub fn sort_places(places: &mut [usize], compare: &dyn Fn(usize, usize) -> Ordering) {
-    places.sort_by(|&one, &other| compare(one, other));
+/// Sorts indices of a list by what is there; what is equal keeps its order.
+pub fn sort_indices(indices: &mut [usize], compare: &dyn Fn(usize, usize) -> Ordering) {
+    indices.sort_by(|&one, &other| compare(one, other));
 }

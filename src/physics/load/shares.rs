@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, require};
-use crate::physics::sorting::sort_places;
+use crate::physics::sorting::sort_indices;
 
 /// What shares are counted by.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -51,7 +51,7 @@ pub fn largest_remainder(count: usize, shares: &[f64]) -> Vec<usize> {
     let exact: Vec<f64> = shares.iter().map(|share| share * count as f64).collect();
     let mut counts: Vec<usize> = exact.iter().map(|&number| number as usize).collect();
     let mut order: Vec<usize> = (0..shares.len()).collect();
-    sort_places(&mut order, &|a, b| exact[b].fract().total_cmp(&exact[a].fract()));
+    sort_indices(&mut order, &|a, b| exact[b].fract().total_cmp(&exact[a].fract()));
     let left = count.saturating_sub(counts.iter().sum());
     order.iter().cycle().take(left).for_each(|&place| counts[place] += 1);
     counts
