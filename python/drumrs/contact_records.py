@@ -329,11 +329,16 @@ _CORE_TYPES: dict[str, type] = {
 }
 
 
+# Digits of contacts are mostly chance: to compress them harder takes long and gains next to nothing.
+CONTACTS_LEVEL = 1
+
+
 def write_contact_tables(folder: Path, tables: Mapping[str, Any]) -> list[Path]:
     """Write what `Records.contact_tables` returns; return the paths written."""
     paths = {kind: folder / f"{kind}.parquet" for kind in COLUMNS if kind in tables}
     for kind, path in paths.items():
-        write_table(path, tables[kind], file_words(kind, tables["dissipated"]))
+        level = CONTACTS_LEVEL if kind == "contacts" else None
+        write_table(path, tables[kind], file_words(kind, tables["dissipated"]), level=level)
     return list(paths.values())
 
 

@@ -9,7 +9,7 @@ import contextlib
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from drumrs.contact_records import file_words
+from drumrs.contact_records import CONTACTS_LEVEL, file_words
 from drumrs.errors import CheckpointError
 from drumrs.files import remove_temporaries, replacing
 from drumrs.frames import FramesFile, sink_frames
@@ -97,7 +97,8 @@ class Parts:
         tables = [taken, last.lazy()] if records.taken_contacts else [last.lazy()]
         words = file_words("contacts", records.contact_tables(with_contacts=False)["dissipated"])
         with replacing(path) as temporary:
-            sink_table(temporary, pl.concat(tables), words, row_group_size=ROW_GROUP_SIZE, level=1)
+            table = pl.concat(tables)
+            sink_table(temporary, table, words, row_group_size=ROW_GROUP_SIZE, level=CONTACTS_LEVEL)
 
     def remove(self) -> None:
         """Remove all parts, and what a kill left of one."""

@@ -19,11 +19,16 @@ ROW_GROUP_SIZE = 2**18
 
 
 def write_table(
-    path: str | Path, table: "pl.DataFrame", metadata: Mapping[str, str], compression: Compression = "zstd"
+    path: str | Path,
+    table: "pl.DataFrame",
+    metadata: Mapping[str, str],
+    compression: Compression = "zstd",
+    level: int | None = None,
 ) -> None:
-    """Write a table as parquet, whole or not at all, with `metadata` on the file."""
+    """Write a table as parquet, whole or not at all, with `metadata` on the file; `level` as in `sink_table`."""
+    words = with_schema(metadata, table.schema)
     with replacing(path) as temporary, _system_errors(temporary):
-        table.write_parquet(temporary, metadata=with_schema(metadata, table.schema), compression=compression)
+        table.write_parquet(temporary, metadata=words, compression=compression, compression_level=level)
 
 
 def sink_table(

@@ -290,6 +290,7 @@ def test_the_command_says_what_was_inferred(drum, tmp_path, monkeypatch):
 
     def infer(*arguments):
         asked.append(arguments)
+        (tmp_path / "baffle.md").touch()
         return SimpleNamespace(best=PADDLE, failures=())
 
     monkeypatch.setattr("drumrs.paper.infer_baffle", infer)

@@ -113,7 +113,7 @@ WRONG = [
     ),
     ("washing", "laundry", "to_tangent, to_end", "to_end, to_tangent"),
     ("washing", "laundry", "np.maximum(left, reached)", "left"),
-    ("washing", "laundry", ".std(axis=1) / ways", ".std(axis=1) * ways"),
+    ("washing", "laundry", "std(axis=1) / speeds.mean", "std(axis=1) * speeds.mean"),
     ("washing", "laundry", "~of_the_load", "of_the_load"),
     ("washing", "laundry", '"dissipated_tangential") if name', '"dissipated_normal") if name'),
     ("frequency-spectrum", "signals", "1.0 / rows.interval", "0.9 / rows.interval"),
