@@ -30,8 +30,8 @@ class _Range:
         where = f"below {self.least:g}" if value < self.least else f"above {self.most:g}"
         units = [(unit, value * factor) for unit, factor in self.meant]
         meant = [(unit, number) for unit, number in units if self.least <= number <= self.most]
-        ways = " or ".join(f"{number:.6g} where {unit} were meant" for unit, number in meant)
-        way_out = f"write {ways}" if meant else f"is it in {self.unit}?"
+        readings = " or ".join(f"{number:.6g} where {unit} were meant" for unit, number in meant)
+        way_out = f"write {readings}" if meant else f"is it in {self.unit}?"
         yield f"{self.key} is {value:g} {self.unit}, {where}: {way_out}"
 
 

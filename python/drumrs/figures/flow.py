@@ -52,12 +52,12 @@ def flow(fields: "Fields", drum_radius: float | None = None) -> "Figure":
         mesh = axes.pcolormesh(fields.x, fields.y, shown, cmap="Blues", vmin=0.0, vmax=1.2, rasterized=True)
         every = max(1, round(2.0 * reach / _ARROWS / float(fields.x[1] - fields.x[0])))
         chosen = _spaced(fields, every)
-        places = np.stack(np.meshgrid(fields.x, fields.y, indexing="ij"), axis=-1)[chosen]
+        points = np.stack(np.meshgrid(fields.x, fields.y, indexing="ij"), axis=-1)[chosen]
         velocities = fields.velocity[chosen]
         swiftest = float(np.hypot(*velocities.T).max(initial=0.0)) or 1.0
         scale = swiftest * _ARROWS / (2.0 * reach * _LONGEST)
         axes.quiver(
-            *places.T, *velocities.T, color=INK, angles="xy", scale_units="xy", scale=scale, width=0.0035
+            *points.T, *velocities.T, color=INK, angles="xy", scale_units="xy", scale=scale, width=0.0035
         )
         _draw_drum(axes, reach, drum_radius)
         bar = figure.colorbar(mesh, ax=axes, label="solid fraction", shrink=0.8, pad=0.02)
@@ -80,7 +80,7 @@ def stress(fields: "Fields", drum_radius: float | None = None) -> "Figure":
     -------
     Figure
         The color is the pressure, half the trace of the stress of contacts and fluctuations. Each cross has its arms
-        along the principal stresses, as long as these over the pressure; the longer one is the way forces go.
+        along the principal stresses, as long as these over the pressure; the longer one is the direction of the forces.
 
     Raises
     ------
@@ -120,10 +120,10 @@ def _arms(fields: "Fields", chosen: "NDArray[np.bool_]", unit: float) -> Array:
     """Return the arms of crosses as lines through the chosen nodes, two each, shape (2 n, 2, 2)."""
     total = fields.stress[chosen]
     # Its antisymmetric part, which torques on discs make, has no directions.
-    values, ways = np.linalg.eigh(0.5 * (total + np.swapaxes(total, -1, -2)))
-    half = 0.5 * unit * (values / fields.pressure[chosen][:, np.newaxis])[:, np.newaxis, :] * ways
-    places = np.stack(np.meshgrid(fields.x, fields.y, indexing="ij"), axis=-1)[chosen][:, :, np.newaxis]
-    lines: Array = np.stack([places - half, places + half], axis=-1).transpose(0, 2, 3, 1).reshape(-1, 2, 2)
+    values, directions = np.linalg.eigh(0.5 * (total + np.swapaxes(total, -1, -2)))
+    half = 0.5 * unit * (values / fields.pressure[chosen][:, np.newaxis])[:, np.newaxis, :] * directions
+    points = np.stack(np.meshgrid(fields.x, fields.y, indexing="ij"), axis=-1)[chosen][:, :, np.newaxis]
+    lines: Array = np.stack([points - half, points + half], axis=-1).transpose(0, 2, 3, 1).reshape(-1, 2, 2)
     return lines
 
 

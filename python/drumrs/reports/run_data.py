@@ -63,7 +63,7 @@ class RunData:
         """Start and end of the time in which motion is measured [s].
 
         The window; where the drum's speed changes, the longest time at one speed instead, if there is any, the last
-        of several: a mean over ways to and fro would be of neither.
+        of several: a mean over both directions would be of neither.
         """
         if self.config.derived.angular_velocity is not None:
             return self.window
@@ -73,10 +73,10 @@ class RunData:
 
     @property
     def other_way(self) -> tuple[float, float] | None:
-        """Start and end [s] of the longest time in which the drum turns the other way; `None` where it does not."""
+        """Start and end [s] of the longest time in which the drum turns in reverse; `None` where it does not."""
         turned = self._turned(self.span)
-        ways = [each for each in self._spans_of_one_speed if self._turned(each) * turned < 0.0]
-        return max(reversed(ways), key=lambda each: each[1] - each[0], default=None)
+        reverse = [each for each in self._spans_of_one_speed if self._turned(each) * turned < 0.0]
+        return max(reversed(reverse), key=lambda each: each[1] - each[0], default=None)
 
     def _turned(self, span: tuple[float, float]) -> float:
         times, angles = (self.result.series[name].to_numpy() for name in ("time", "drum_angle"))

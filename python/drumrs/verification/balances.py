@@ -111,8 +111,8 @@ def three_powers() -> Evidence:
             "moments": np.array([mean.moment_balance_power for mean in means]),
         }
         for kind, power in others.items():
-            places = [f"power by {kind}, {name}, fifth {k}" for k in range(1, 6)]
-            found += checks_at(places, torque, power, allowed, "W/m")
+            names = [f"power by {kind}, {name}, fifth {k}" for k in range(1, 6)]
+            found += checks_at(names, torque, power, allowed, "W/m")
         traces.append(Trace(name, np.tile(torque, 2), np.concatenate(list(others.values()))))
         most = max(most, float(np.abs(torque).max()))
     line = shared_curve([-most, most], [-most, most])
@@ -135,10 +135,10 @@ def bounds() -> Evidence:
     # The highest fill does not fit beside baffles.
     fills = {False: (0.1, 0.25, 0.4, 0.5, 0.6, 0.75), True: (0.1, 0.25, 0.4, 0.5, 0.6)}
     found, traces = [], []
-    for baffles, places in fills.items():
+    for baffles, levels in fills.items():
         powers = []
         label = "3 baffles" if baffles else "no baffles"
-        for fill in places:
+        for fill in levels:
             run = scenes.after(scenes.drum(_LARGE, fill=fill, baffles=baffles), None, 1.5, samples=300)
             means = run.summary((0.5, run.time))
             power = means.drum_specific_power / (GRAVITY * DRUM_RADIUS * run.drum_angular_velocity)
@@ -147,7 +147,7 @@ def bounds() -> Evidence:
             found.append(Check(f"P/(M g R Ω), {case_name}", "1", 0.5, power, 0.5))
             found.append(Check(f"overlap/r, {case_name}", "1", 0.0, overlap, 0.01))
             powers.append(power)
-        traces.append(Trace(label, places, powers))
+        traces.append(Trace(label, levels, powers))
     frame = Trace("bounds", (), (), ([0.1, 0.75, 0.75, 0.1, 0.1], [0.0, 0.0, 1.0, 1.0, 0.0]))
     return Evidence(tuple(found), Panel("fill", "P / (M g R Ω)", (frame, *traces)))
 

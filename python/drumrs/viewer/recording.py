@@ -46,8 +46,8 @@ def pack(  # noqa: PLR0913, PLR0917 - what a page shows of a run
 ) -> dict[str, Any]:
     """Return what a page holds of one run, ready for JSON.
 
-    Positions are whole numbers of 16 bits: 8 µm in a drum of half a meter. Angles, seen as a line in each bundle, and
-    speeds, seen as colors, have 8. Compressing them would save an eighth, which the wait for it in the browser is not
+    Positions are whole numbers of 16 bits: 8 µm in a drum of half a meter. Angles, drawn as a line in each bundle, and
+    speeds, drawn as colors, have 8. Compressing them would save an eighth, which the wait for it in the browser is not
     worth.
 
     Parameters
@@ -116,8 +116,8 @@ def _species(frames: Frames) -> dict[str, Any] | None:
     """Return the names of the species, and which of them each bundle is of."""
     if not frames.species:
         return None
-    names, places = np.unique(frames.species, return_inverse=True)
-    return {"names": names.tolist(), "of": _base64(places, "<u2")}
+    names, indices = np.unique(frames.species, return_inverse=True)
+    return {"names": names.tolist(), "of": _base64(indices, "<u2")}
 
 
 def _base64(values: NDArray[Any], kind: str | None = None) -> str:
@@ -229,8 +229,8 @@ def of_forces(force: NDArray[Any], end: float) -> NDArray[Any]:
 
 def _one_list(found: ContactForces, first: int, count: int) -> tuple[NDArray[Any], ...]:
     """Return frame, two numbers and force of contacts, those at the drum among them, frame by frame."""
-    ways = count + np.rint(found.directions / math.tau * _DIRECTIONS).astype(int) % _DIRECTIONS
+    directions = count + np.rint(found.directions / math.tau * _DIRECTIONS).astype(int) % _DIRECTIONS
     frame = np.concatenate([found.frame, found.drum_frame])
     order = np.argsort(frame, kind="stable")
-    one, other = np.concatenate([found.discs, np.column_stack([found.at_drum, ways])])[order].T
+    one, other = np.concatenate([found.discs, np.column_stack([found.at_drum, directions])])[order].T
     return first + frame[order], one, other, np.concatenate([found.forces, found.drum_forces])[order]
